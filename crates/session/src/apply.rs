@@ -534,7 +534,10 @@ pub(crate) fn step_to(open: &mut Open, label: String, state: State, planner: Pla
 ///
 /// # Errors
 /// Why the text cannot say it, and the command that would do it for a whole class.
-fn restructuring(state: &State, command: &Command) -> Result<lang::Restructuring, Refusal> {
+pub(crate) fn restructuring(
+    state: &State,
+    command: &Command,
+) -> Result<lang::Restructuring, Refusal> {
     lang::edits_for(&state.lowered, &state.structure, command).map_err(|d| {
         let every = lang::for_every(&state.lowered, command).filter(|_| d.code == "of-a-class");
         let repairs = every.iter().map(words::command_label).collect();

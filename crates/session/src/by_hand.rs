@@ -5,6 +5,7 @@ use crate::apply;
 use crate::classing;
 use crate::document::Open;
 use crate::host::Beside;
+use crate::kinds;
 use crate::session::thing_at;
 use crate::state::State;
 use crate::view::{ClassItem, ClassPlan, DocumentId, Question, Refusal, ValueRow, ValueWithin};
@@ -63,7 +64,12 @@ impl Session {
     /// tried. Nothing where it would hold, or where the document does not hold anyway.
     pub fn over_constrained(&self, id: DocumentId, command: &Command) -> Option<Question> {
         let beside = Beside::of(&*self.host, &self.documents, id);
-        ways_out::question(self.document(id), &beside, command)
+        let open = self.document(id);
+        match open.pane {
+            // here all is said of the class
+            Some(_) => ways_out::of_prototype(open, &beside, command),
+            None => ways_out::question(open, &beside, command),
+        }
     }
 
     /// Returns what a command would move, by path, without doing it.
@@ -135,7 +141,38 @@ impl Session {
         plan: &ClassPlan,
     ) -> Result<(Command, String), Refusal> {
         let beside = Beside::of(&*self.host, &self.documents, id);
-        classing::class_of(self.document(id), &beside, paths, plan)
+        classing::class_of(self.in_document(id)?, &beside, paths, plan)
+    }
+
+    /// Returns the command by which a thing is of a class of its own, which inherits from its class and says what was
+    /// said of that thing alone.
+    ///
+    /// # Errors
+    /// It is no whole thing of the document, or the name is none for a new class.
+    pub fn kind_of(&self, id: DocumentId, path: &Path, class: &str) -> Result<Command, Refusal> {
+        let open = self.in_document(id)?;
+        kinds::kind_of(open, &Beside::of(&*self.host, &self.documents, id), path, class)
+    }
+
+    /// Returns the command by which a rule or a part that one thing has of its own is of every thing of its class.
+    ///
+    /// # Errors
+    /// Its class is not one that the document declares, or it speaks of other things too.
+    pub fn of_every(&self, id: DocumentId, path: &Path) -> Result<Command, Refusal> {
+        let open = self.in_document(id)?;
+        kinds::of_every(open, &Beside::of(&*self.host, &self.documents, id), path)
+    }
+
+    /// The document, for what cannot be done in a pane that shows a class's prototype.
+    fn in_document(&self, id: DocumentId) -> Result<&Open, Refusal> {
+        let open = self.document(id);
+        match open.pane {
+            Some(_) => {
+                let message = "classes are made of things of the document: go back to it first";
+                Err(crate::words::refuse(message.into()))
+            }
+            None => Ok(open),
+        }
     }
 
     /// Returns the command by which a document uses a library; an empty one takes over which way the library's

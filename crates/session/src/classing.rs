@@ -54,26 +54,44 @@ pub(crate) fn class_of(
 ) -> Result<(Command, String), Refusal> {
     let state = &open.state;
     let class = plan.name.as_str();
+    is_class_name(state, class)?;
+    let chosen = chosen(paths)?;
+    let thing = recognise::free_name(state, &Name::new(class));
+    let text = rewritten(state, &chosen, plan, &thing)?;
+    let trial = State::of(text.clone(), Some(state), host, Plans::default()).0;
+    refuse_new_errors(state, &trial, "these cannot be the parts of a class")?;
+    Ok((Command::Text(text), thing))
+}
+
+/// Says whether a class can be called so.
+///
+/// # Errors
+/// It is no name for a class, or another is called so.
+pub(crate) fn is_class_name(state: &State, class: &str) -> Result<(), Refusal> {
     let named = class.starts_with(char::is_uppercase) && class.chars().all(char::is_alphanumeric);
     if !named {
         let message = format!("{class}: a class's name is one word that begins with a capital");
         return Err(words::refuse(message));
     }
-    if state.lowered.document.class_named(class).is_some() {
-        return Err(words::refuse(format!("there is a class {class} already")));
+    match state.lowered.document.class_named(class) {
+        Some(_) => Err(words::refuse(format!("there is a class {class} already"))),
+        None => Ok(()),
     }
-    let chosen = chosen(paths)?;
-    let thing = recognise::free_name(state, &Name::new(class));
-    let text = rewritten(state, &chosen, plan, &thing)?;
-    let trial = State::of(text.clone(), Some(state), host, Plans::default()).0;
+}
+
+/// Refuses a text that has an error which the present one has not, after some words.
+///
+/// # Errors
+/// The first of those.
+pub(crate) fn refuse_new_errors(state: &State, trial: &State, what: &str) -> Result<(), Refusal> {
     let errors = |s: &State| -> BTreeSet<String> {
         let wrong = s.diagnostics.iter().filter(|d| d.severity == Severity::Error);
         wrong.map(|d| d.message.clone()).collect()
     };
-    if let Some(new) = errors(&trial).difference(&errors(state)).next() {
-        return Err(words::refuse(format!("these cannot be the parts of a class: {new}")));
+    match errors(trial).difference(&errors(state)).next() {
+        Some(new) => Err(words::refuse(format!("{what}: {new}"))),
+        None => Ok(()),
     }
-    Ok((Command::Text(text), thing))
 }
 
 /// The names of the chosen things.
@@ -92,7 +110,7 @@ fn chosen(paths: &[Path]) -> Result<BTreeSet<String>, Refusal> {
 }
 
 /// The names of all things of the document.
-fn known(state: &State) -> BTreeSet<String> {
+pub(crate) fn known(state: &State) -> BTreeSet<String> {
     let document = &state.lowered.document;
     let parts = state.structure.parts(DOCUMENT);
     let name = |part| state.structure.field_name(document, part).map(ToString::to_string);
@@ -100,7 +118,7 @@ fn known(state: &State) -> BTreeSet<String> {
 }
 
 /// Whether a member is, or speaks of, the chosen things alone.
-fn goes(
+pub(crate) fn goes(
     member: &Member,
     chosen: &BTreeSet<String>,
     known: &BTreeSet<String>,
@@ -347,7 +365,7 @@ pub(crate) fn things_spoken_of(state: &State, members: &str) -> Vec<(u32, String
 }
 
 /// Returns where a member speaks of things by their own names, and these.
-fn spoken<'n>(syntax: &SyntaxNode, names: &'n BTreeSet<String>) -> Vec<(u32, &'n str)> {
+pub(crate) fn spoken<'n>(syntax: &SyntaxNode, names: &'n BTreeSet<String>) -> Vec<(u32, &'n str)> {
     let mut found = Vec::new();
     let mut after_dot = false;
     let tokens = syntax.descendants_with_tokens().filter_map(SyntaxElement::into_token);

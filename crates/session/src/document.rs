@@ -50,6 +50,8 @@ pub(crate) struct Open {
     pub(crate) sums: Option<crate::calculator::Sums>,
     /// The lesson that someone is in.
     pub(crate) study: Option<crate::lessons::Study>,
+    /// Whose prototype it shows, where it is a pane.
+    pub(crate) pane: Option<crate::prototype::pane::Pane>,
     /// What of drags is plotted.
     pub(crate) trace: Option<crate::plotting::Trace>,
     /// The picture as it was asked for last.
@@ -84,6 +86,7 @@ impl Open {
             drag: None,
             sums: None,
             study: None,
+            pane: None,
             trace: None,
             shown: RefCell::new(None),
         }
@@ -164,9 +167,13 @@ impl Open {
     }
     /// Makes the state of the same text anew, from what it uses as that is now.
     pub(crate) fn read_again(&mut self, host: &dyn Host) {
+        self.read(self.state.text.clone(), host);
+    }
+    /// Makes the state of another text, which is no step.
+    pub(crate) fn read(&mut self, text: String, host: &dyn Host) {
         self.drag = None;
         let plans = self.planner.take_plans();
-        let (state, planner) = State::of(self.state.text.clone(), Some(&self.state), host, plans);
+        let (state, planner) = State::of(text, Some(&self.state), host, plans);
         self.state = Rc::new(state);
         self.planner = planner;
         self.status = self.state.status(&mut self.planner);

@@ -14,6 +14,7 @@ mod catalogue;
 mod choice;
 mod demonstrating;
 mod dialogue;
+mod erase;
 mod hands;
 mod measure;
 mod older;

@@ -32,6 +32,7 @@ mod general;
 mod ghosts;
 mod given_twice;
 mod joining;
+mod kinds;
 mod lessons;
 mod limits;
 mod mentioning;

@@ -13,6 +13,7 @@ impl Session {
     /// Returns what a word names at an offset of a text that is being written in a document; nothing where it names
     /// nothing. Cost: that of reading the text once.
     pub fn word_at(&self, id: DocumentId, text: &str, offset: u32) -> Option<WordView> {
+        let id = self.home(id);
         let beside = Beside::of(&*self.host, &self.documents, id);
         let tree = syntax::parse(FileId(0), text).syntax();
         let at = tree.token_at_offset(offset.min(text.len() as u32).into());

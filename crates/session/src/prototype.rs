@@ -4,6 +4,8 @@
 //! of the prototype's values is made on such a thing, in a copy of the document that has one more; what
 //! the edit gives that thing, the class gives all its things from then on.
 
+pub(crate) mod pane;
+
 use crate::apply;
 use crate::document::Open;
 use crate::host::Host;
@@ -92,7 +94,15 @@ pub(crate) fn edit(
             _ => Command::Set(targets),
         },
     )?;
-    let state = &trial.state;
+    let writes = given_since(&trial.state, start, class);
+    let edits = lang::write_values(&before.lowered, &writes);
+    let text = syntax::edit::apply(&before.text, &edits);
+    let change = apply::take_state(open, host, text, words::command_label(command));
+    Ok(Change { class: Some(class.to_string()), ..change })
+}
+
+/// Returns what the text of a document gives a prototype from some place on, as its class gives it.
+fn given_since(state: &State, start: usize, class: &base::Name) -> Vec<(Path, Literal)> {
     let mut given: Vec<ThingId> = Vec::new();
     for slot in state.structure.slots.ids() {
         let origin = state.structure.given(slot).map(|g| g.origin);
@@ -105,16 +115,13 @@ pub(crate) fn edit(
             given.push(thing);
         }
     }
+    let first = Step::Part(class.clone());
     let write = |&thing: &ThingId| {
         let path = state.structure.path(&state.lowered.document, thing);
         let steps = std::iter::once(first.clone()).chain(path.0[1..].iter().cloned());
         (Path(steps.collect()), literal(state, thing, &state.values))
     };
-    let writes: Vec<(Path, Literal)> = given.iter().map(write).collect();
-    let edits = lang::write_values(&before.lowered, &writes);
-    let text = syntax::edit::apply(&before.text, &edits);
-    let change = apply::take_state(open, host, text, words::command_label(command));
-    Ok(Change { class: Some(class.to_string()), ..change })
+    given.iter().map(write).collect()
 }
 
 /// Returns a name that nothing in a document has.

@@ -78,13 +78,24 @@ fn members(state: &State, class: &Name, parts: &[(String, String)]) -> String {
 
 /// Returns a name for a new thing of a class that nothing in the document has.
 pub(crate) fn free_name(state: &State, class: &Name) -> String {
-    let word: String = class.chars().enumerate().map(small_first).collect();
+    free_name_in(state, &Path::default(), class)
+}
+
+/// The same, of a new part of a thing that no part of it has either.
+pub(crate) fn free_name_in(state: &State, within: &Path, class: &Name) -> String {
+    let word = name_like(class);
     let names = std::iter::once(word.clone()).chain((2..).map(|i| format!("{word}{i}")));
     let is_free = |name: &String| {
         let path = Path(vec![Step::Part(Name::new(name))]);
-        Name::new(name) != *class && words::find(state, &path).is_err()
+        let is_part = words::find(state, &within.join(&path)).is_ok();
+        Name::new(name) != *class && words::find(state, &path).is_err() && !is_part
     };
     { names }.find(is_free).unwrap_or_default()
+}
+
+/// A class's name as things are called: with a small first letter.
+pub(crate) fn name_like(class: &Name) -> String {
+    class.chars().enumerate().map(small_first).collect()
 }
 
 fn small_first((at, letter): (usize, char)) -> char {

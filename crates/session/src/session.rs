@@ -19,9 +19,9 @@ use crate::texts::Texts;
 use crate::tools::copies::{Clip, Relations};
 use crate::tools::{self, Tool};
 use crate::view::{
-    Advice, Affected, Analysis, BinEntry, Change, CheckReport, CompletionView, DiagnosticView,
-    DocumentId, DragState, Explanation, FamilyRow, FamilyView, FixView, Ghost, HeldView,
-    LessonEntry, LessonView, MovedView, Offer, PictureView, PlotEntry, Pointer, Question,
+    Advice, Affected, Along, Analysis, BinEntry, Change, CheckReport, CompletionView,
+    DiagnosticView, DocumentId, DragState, Explanation, FamilyRow, FamilyView, FixView, Ghost,
+    HeldView, LessonEntry, LessonView, MovedView, Offer, PictureView, PlotEntry, Pointer, Question,
     Recognised, Refusal, RowFormats, RowOutcome, Status, StructureRow, TableView, TextView,
     ToolView, ValueRow,
 };
@@ -70,7 +70,8 @@ impl Session {
     }
     /// Gives a document another name, under which it was saved.
     pub fn rename(&mut self, id: DocumentId, name: &str) {
-        self.document_mut(id).name = name.into();
+        let home = self.home(id);
+        self.document_mut(home).name = name.into();
     }
     pub(crate) fn document(&self, id: DocumentId) -> &Open {
         self.documents.get(id.0 as usize).expect("a document id comes from this session's open")
@@ -91,6 +92,9 @@ impl Session {
     pub fn apply(&mut self, id: DocumentId, command: &Command) -> Result<Change, Refusal> {
         let (open, beside) = self.beside_others(id);
         open.drag = None;
+        if open.pane.is_some() {
+            return self.apply_in_pane(id, command);
+        }
         let mut change = apply::apply(open, &beside, command)?;
         if !change.edits.is_empty() {
             change.documents = self.reach(id);
@@ -119,7 +123,8 @@ impl Session {
     /// # Errors
     /// Why the command would be refused. Either way nothing changes.
     pub fn preview(&self, id: DocumentId, command: &Command) -> Result<Option<Question>, Refusal> {
-        apply::preview(&self.document(id).state, command)
+        let command = self.at_home(id, command)?;
+        apply::preview(&self.document(self.home(id)).state, &command)
     }
     /// Returns which classes some parts, at most six, could be the parts of, one to one by class and
     /// with every constraint true; those with most constraints first.
@@ -134,7 +139,7 @@ impl Session {
     /// # Errors
     /// The text is no longer the one that the fix was made for.
     pub fn fix(&mut self, id: DocumentId, fix: &FixView) -> Result<Change, Refusal> {
-        let text = &self.document(id).state.text;
+        let text = &self.document(self.home(id)).state.text;
         let fits =
             |e: &crate::view::TextChange| text.get(e.start as usize..e.end as usize).is_some();
         if !fix.edits.iter().all(fits) {
@@ -214,6 +219,9 @@ impl Session {
         let (open, beside) = self.beside_others(id);
         let Some(drag) = open.drag.take() else { return Ok(Change::default()) };
         let mut change = drag.release(open, &beside)?;
+        if open.pane.is_some() && !change.edits.is_empty() {
+            return Ok(self.carry_drag(id, change));
+        }
         if !change.edits.is_empty() {
             change.documents = self.reach(id);
         }
@@ -246,14 +254,16 @@ impl Session {
                 return Err(refusal);
             }
         };
-        let steps = self.document(id).done.len();
+        let home = self.home(id);
+        let steps = self.document(home).done.len();
         self.release(id)?;
-        let moved = self.document(id).done.len() > steps;
+        let moved = self.document(home).done.len() > steps;
         let joined = self.apply(id, &command);
-        let (open, beside) = self.beside_others(id);
+        let (open, beside) = self.beside_others(home);
         if moved && joined.is_err() {
             apply::apply(open, &beside, &Command::Undo)?;
             open.undone.clear();
+            self.renew_pane(id);
         } else if moved {
             open.one_step(steps);
         }
@@ -298,6 +308,11 @@ impl Session {
             None => Ok(ToolView::default()),
         }
     }
+    /// Returns where a key brings the tool: the next place that it would join, or a middle; none past the last.
+    pub fn tool_stop(&self, id: DocumentId, pointer: &Pointer, along: Along) -> Option<(f64, f64)> {
+        let open = self.document(id);
+        open.tool.as_ref()?.stop(&open.state, pointer, along)
+    }
     /// Lays the tool down.
     pub fn drop_tool(&mut self, id: DocumentId) {
         self.document_mut(id).tool = None;
@@ -311,11 +326,16 @@ impl Session {
     }
     /// Returns the steps that can be taken back, the latest first, and those that can be done again, the next first.
     pub fn history(&self, id: DocumentId) -> (Vec<String>, Vec<String>) {
-        let open = self.document(id);
+        let open = self.document(self.home(id));
         let labels = |steps: &[crate::document::Step]| -> Vec<String> {
             steps.iter().rev().map(|step| step.label.clone()).collect()
         };
         (labels(&open.done), labels(&open.undone))
+    }
+    /// Calls the latest step of a document otherwise: what replaced its text was meant as something.
+    pub fn label_last(&mut self, id: DocumentId, label: &str) {
+        let home = self.home(id);
+        self.document_mut(home).label_last(label.into());
     }
     /// Takes copies of some things of the document, with their values and what is said of them.
     ///
@@ -328,6 +348,10 @@ impl Session {
         relations: Relations,
     ) -> Result<Clip, Refusal> {
         tools::copies::copied(&self.document(id).state, paths, relations)
+    }
+    /// Returns copies of what a text says, as a clipboard may hold it; nothing where that is no text of things.
+    pub fn copies_in(&self, text: &str) -> Option<Clip> {
+        tools::copies::read(text, &*self.host)
     }
     /// Returns the command that puts copies into a document, so many steps aside from where they were taken, and
     /// what they are called.
@@ -353,12 +377,21 @@ impl Session {
         id: DocumentId,
         paths: &[Path],
     ) -> Result<(Command, Vec<String>), Refusal> {
-        let beside = Beside::of(&*self.host, &self.documents, id);
-        tools::copies::deletion(self.document(id), &beside, paths)
+        let home = self.home(id);
+        let beside = Beside::of(&*self.host, &self.documents, home);
+        let at_home = |path: &Path| match self.at_home(id, &Command::Delete(path.clone()))? {
+            Command::Delete(path) => Ok(path),
+            _ => Ok(path.clone()),
+        };
+        let paths = paths.iter().map(at_home).collect::<Result<Vec<Path>, Refusal>>()?;
+        tools::copies::deletion(self.document(home), &beside, &paths)
     }
     /// Returns what goes when something is deleted, besides itself, as it is written.
     pub fn along_with(&self, id: DocumentId, path: &Path) -> Vec<String> {
-        apply::along(&self.document(id).state, path)
+        let Ok(Command::Delete(path)) = self.at_home(id, &Command::Delete(path.clone())) else {
+            return Vec::new();
+        };
+        apply::along(&self.document(self.home(id)).state, &path)
     }
     /// Returns what can be said of some things: the constraints that fit them, and merging them.
     pub fn offers(&self, id: DocumentId, paths: &[Path]) -> Vec<Offer> {
@@ -590,11 +623,13 @@ impl Session {
     }
     /// Returns the source with its colours and what is wrong with it.
     pub fn text(&self, id: DocumentId) -> TextView {
-        views::text::view(&self.document(id).state)
+        views::text::view(&self.document(self.home(id)).state)
     }
     /// Returns what the status line says.
     pub fn status(&self, id: DocumentId) -> Status {
-        views::status::view(self.document(id))
+        let (undo, redo) = self.history(id);
+        let [undo, redo] = [undo, redo].map(|steps| steps.into_iter().next());
+        Status { undo, redo, ..views::status::view(self.document(id)) }
     }
     /// Explains the latest plan, or why one value is what it is.
     pub fn explain(&self, id: DocumentId, about: Option<&Path>) -> Explanation {
@@ -628,11 +663,16 @@ impl Session {
     /// Returns the words that may stand at an offset of a text that is being written in a document.
     pub fn completions(&self, id: DocumentId, text: &str, offset: u32) -> Vec<CompletionView> {
         let libraries = self.host.libraries();
-        crate::completing::completions(&self.document(id).state, text, offset, &libraries)
+        crate::completing::completions(
+            &self.document(self.home(id)).state,
+            text,
+            offset,
+            &libraries,
+        )
     }
     /// Returns what the document calls itself: the first words of its first `///`, else its name.
     pub fn title(&self, id: DocumentId) -> String {
-        words::title(self.document(id))
+        words::title(self.document(self.home(id)))
     }
     /// Returns what the independent checker finds wrong, in words; nothing is praise.
     ///

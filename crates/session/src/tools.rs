@@ -10,6 +10,7 @@ mod catch;
 pub(crate) mod copies;
 pub(crate) mod room;
 mod stages;
+mod stops;
 
 use crate::apply;
 use crate::document::Open;
@@ -33,6 +34,8 @@ pub(crate) struct Tool {
     class: Name,
     /// What the thing will be called, here and in the trial.
     name: String,
+    /// The thing whose part it becomes: of a pane the prototype, else the document.
+    within: Path,
     /// A document that holds the thing alone.
     trial: Box<Open>,
     stages: Vec<Stage>,
@@ -61,7 +64,8 @@ impl Tool {
         else {
             return Err(words::refuse(format!("there is no class {class} to make things of")));
         };
-        let name = recognise::free_name(state, &class);
+        let within = open.pane.as_ref().map(|pane| pane.part(&Path::default())).unwrap_or_default();
+        let name = recognise::free_name_in(state, &within, &class);
         let text = trial_text(&state.text, &name, &class);
         let trial = Box::new(Open::of(&open.name, text, host));
         let stages = stages(&trial.state, &name);
@@ -69,7 +73,7 @@ impl Tool {
         let picture = views::picture::picture(state, open.values(), &open.status);
         let set = Vec::new();
         let offset = (0.0, 0.0);
-        let mut tool = Self { class, name, trial, stages, set, offset, picture, goes_on };
+        let mut tool = Self { class, name, within, trial, stages, set, offset, picture, goes_on };
         stages::spread(&mut tool.trial, &tool.stages, host);
         tool.begin()?;
         Ok(tool)
@@ -82,6 +86,7 @@ impl Tool {
         // a chain ends where it meets something
         if let Some(last) = last.filter(|last| last.joins.is_none()) {
             let end = self.stages.last().map(|stage| self.own(stage))?;
+            let end = self.within.join(&end);
             let start = Catch { joins: Some(end), ..Catch::at(last.at) };
             tool.set_to(start, host).ok()?;
         }
@@ -337,7 +342,7 @@ impl Tool {
             caught: None,
             command: None,
             begun: !self.set.is_empty(),
-            makes: self.name.clone(),
+            makes: self.within.then(Step::Part(Name::new(&self.name))).to_string(),
         }
     }
 }

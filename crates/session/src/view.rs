@@ -17,7 +17,7 @@ pub use reasons::{
 };
 use serde::{Deserialize, Serialize};
 pub use tools::{
-    Caught, ClassItem, ClassPlan, ItemKind, Offer, Pointer, Scope, ToolView, ValueWithin,
+    Along, Caught, ClassItem, ClassPlan, ItemKind, Offer, Pointer, Scope, ToolView, ValueWithin,
 };
 
 /// Which open document.

@@ -28,6 +28,19 @@ pub(crate) fn question(open: &Open, host: &dyn Host, command: &Command) -> Optio
     if let Some(question) = for_every(&open.state, target, members) {
         return Some(question);
     }
+    contradiction(open, host, command)
+}
+
+/// The same of what is said in a pane, where it is meant of every one. What writes the pane's own text is no way out.
+pub(crate) fn of_prototype(open: &Open, host: &dyn Host, command: &Command) -> Option<Question> {
+    let mut question = contradiction(open, host, command)?;
+    question.choices.retain(|choice| !matches!(choice.command, Command::Text(_)));
+    Some(question)
+}
+
+/// Asks what is meant by what contradicts what holds.
+fn contradiction(open: &Open, host: &dyn Host, command: &Command) -> Option<Question> {
+    let Command::Edit { target, members } = command else { return None };
     let things = open.state.structure.things.len();
     if !target.is_empty() || !open.status.satisfied || things > MOST_THINGS {
         return None;

@@ -67,6 +67,37 @@ export async function copy(text) {
   }
 }
 
+// The text that the clipboard holds; undefined where the browser does not let it be read.
+export async function pasted() {
+  try {
+    return await navigator.clipboard.readText()
+  } catch {
+    return undefined
+  }
+}
+
+// Copy, cut and paste by the system's keys and menus, where they are not of a field or of marked words: `take` is told
+// which and gives a text, or undefined; `put` is given one.
+export function onClipboard(take, put) {
+  // what a field or the editor has done itself is prevented already
+  const isWritten = ({ target, defaultPrevented }) =>
+    defaultPrevented || target.closest?.("input, textarea, select, [contenteditable='true']")
+  for (const kind of ["copy", "cut"]) {
+    addEventListener(kind, (event) => {
+      const text = isWritten(event) || marked() ? undefined : take(kind)
+      if (text === undefined) return
+      event.clipboardData.setData("text/plain", text)
+      event.preventDefault()
+    })
+  }
+  addEventListener("paste", (event) => {
+    const text = isWritten(event) ? "" : event.clipboardData.getData("text/plain")
+    if (text === "") return
+    put(text)
+    event.preventDefault()
+  })
+}
+
 // Compresses a text into letters that an address may have, and brings it back.
 export async function pack(text) {
   const stream = new Blob([text]).stream().pipeThrough(new CompressionStream("deflate-raw"))
@@ -132,7 +163,7 @@ export const calm = () => matchMedia("(prefers-reduced-motion: reduce)").matches
 export const coarse = () => matchMedia("(pointer: coarse)").matches
 
 // Whether words of the page are marked.
-export const marked = () => getSelection()?.isCollapsed === false
+const marked = () => getSelection()?.isCollapsed === false
 
 // Follows a pointer outside the element; a pointer that no device has cannot be followed.
 export function capture(element, pointer) {

@@ -5,6 +5,7 @@ use crate::lab::{Lab, Notice};
 use leptos::ev::KeyboardEvent;
 use leptos::prelude::*;
 use wasm_bindgen::JsCast;
+use wasm_bindgen::closure::Closure;
 
 mod table;
 pub use table::ACTIONS;
@@ -79,17 +80,35 @@ pub fn key(lab: Lab, e: &KeyboardEvent) -> bool {
     let Some(action) = ACTIONS.iter().find(|action| action.keys.contains(&pressed.as_str())) else {
         return false;
     };
-    let plain = !(e.ctrl_key() || e.meta_key() || e.alt_key());
-    let is_of_text = ["copy", "cut", "paste", "select-all"].contains(&action.id);
-    if (plain || is_of_text) && is_written_in(e) {
+    // the browser says these itself, with the clipboard
+    if ["copy", "cut", "paste"].contains(&action.id) {
         return false;
     }
-    // words that are marked in the page are what Ctrl+C means
-    if action.id == "copy" && js::marked() {
+    let plain = !(e.ctrl_key() || e.meta_key() || e.alt_key());
+    if (plain || action.id == "select-all") && is_written_in(e) {
         return false;
     }
     run(action, lab);
     true
+}
+
+/// Copies, cuts and pastes by the clipboard, where the browser says so.
+pub fn follow_clipboard(lab: Lab) {
+    let take = move |kind: String| {
+        let action = named(if kind == "cut" { "cut" } else { "copy" });
+        if untrack(|| (action.enabled)(lab)).is_err() {
+            return None;
+        }
+        if kind == "cut" { lab.cut_selection() } else { lab.copy_selection() }
+    };
+    let put = move |text: String| {
+        if untrack(|| (named("paste").enabled)(lab)).is_ok() {
+            lab.paste_text(&text);
+        }
+    };
+    let take = Closure::<dyn FnMut(String) -> Option<String>>::new(take);
+    let put = Closure::<dyn FnMut(String)>::new(put);
+    js::on_clipboard(take.into_js_value().unchecked_ref(), put.into_js_value().unchecked_ref());
 }
 
 /// What is pressed, written as in the table; the command key of a Mac counts as Ctrl.

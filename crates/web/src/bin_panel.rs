@@ -5,7 +5,7 @@ use crate::lab::Lab;
 use crate::paint::{Part, display_list};
 use crate::picture::{new_painter, paint};
 use crate::sheet::fit;
-use crate::words;
+use crate::{icons, words};
 use leptos::html::Canvas;
 use leptos::prelude::*;
 use session::view::{BinEntry, PictureView};
@@ -154,8 +154,16 @@ fn Tile(lab: Lab, entry: BinEntry, number: usize) -> impl IntoView {
     });
     let (class, name) = (StoredValue::new(entry.class.clone()), entry.class.clone());
     let held = Memo::new(move |_| lab.tool.get() == Some(class.get_value()));
+    let is_own = entry.library.is_empty();
     view! {
         <li>
+            {is_own.then(|| {
+                let label = words::edit_class(&entry.class);
+                view! {
+                    <button class="bare edit" title=label.clone() aria-label=label
+                        on:click=move |_| lab.edit_class(&class.get_value())>{icons::edit()}</button>
+                }
+            })}
             <button class="tile" title=entry.doc data-tile=number.to_string() data-class=entry.class.clone()
                 aria-pressed=move || held.get().to_string()
                 on:pointerdown=move |e| {

@@ -180,7 +180,7 @@ impl Lab {
         let Some(id) = self.id() else { return Ok(()) };
         let made = self.ask(|session| session.class_of(id, paths, plan));
         let (command, name) = made.map_err(|refusal| crate::field::reason(&refusal))?;
-        if self.apply_as_meant(&command) {
+        if self.apply_called(&command, &words::make_class(&plan.name)) {
             self.select(Some(name));
             self.notice.set(Some(Notice::Said(words::class_made(&plan.name))));
             actions::run(actions::named("go-picture"), self);

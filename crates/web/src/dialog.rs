@@ -1,15 +1,13 @@
 //! The dialog that asks for one line: a document's name, a thing's new name.
 
 use crate::lab::{Lab, Notice};
-use crate::words;
+use crate::{keyboard, words};
 use leptos::ev::{KeyboardEvent, SubmitEvent};
 use leptos::html::Input;
 use leptos::prelude::*;
 use session::Command;
 use session::view::Offer;
 use std::time::Duration;
-use wasm_bindgen::JsCast;
-use web_sys::HtmlElement;
 
 /// What a person is asked to type.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -22,6 +20,8 @@ pub enum Wish {
     Equation(String),
     /// Another name for what a path leads to.
     Rename(String),
+    /// The name of a class that inherits from that of the thing at a path.
+    Kind(String),
 }
 
 /// The dialog, while something is asked.
@@ -51,6 +51,7 @@ fn Open(lab: Lab, wish: Wish) -> impl IntoView {
             (words::value_of(&offer.label), offer.value.clone().unwrap_or_default())
         }
         Wish::Equation(begun) => (String::from(words::ASK_EQUATION), begun.clone()),
+        Wish::Kind(path) => (words::name_of_kind(path), String::new()),
     };
     let is_whole = !matches!(wish, Wish::Equation(_));
     Effect::new(move |_| {
@@ -65,13 +66,9 @@ fn Open(lab: Lab, wish: Wish) -> impl IntoView {
         }
     });
     // whoever had the keyboard has it again
-    let before = document().active_element().and_then(|e| e.dyn_into::<HtmlElement>().ok());
-    let before = StoredValue::new_local(before);
+    let before = StoredValue::new_local(keyboard::holder());
     on_cleanup(move || {
-        if let Some(before) = before.try_get_value().flatten() {
-            // It may be gone from the page meanwhile.
-            request_animation_frame(move || drop(before.focus()));
-        }
+        keyboard::give_back(before.try_get_value().flatten());
     });
     let wish = StoredValue::new(wish);
     let foreseen = RwSignal::new(None::<String>);
@@ -81,7 +78,7 @@ fn Open(lab: Lab, wish: Wish) -> impl IntoView {
         let command = match wish.get_value() {
             Wish::Dimension(offer) => offer.command(Some(typed.trim())),
             Wish::Equation(_) => equation(&typed),
-            Wish::SaveAs | Wish::Rename(_) => return,
+            Wish::SaveAs | Wish::Rename(_) | Wish::Kind(_) => return,
         };
         foreseen.set(lab.said_before(&command));
     };
@@ -115,6 +112,10 @@ fn Open(lab: Lab, wish: Wish) -> impl IntoView {
                 Err(sentence) => error.set(Some(sentence)),
             },
             Wish::Equation(_) => match lab.say_equation(&typed) {
+                Ok(()) => lab.wish.set(None),
+                Err(sentence) => error.set(Some(sentence)),
+            },
+            Wish::Kind(path) => match lab.make_kind(&path, typed.trim()) {
                 Ok(()) => lab.wish.set(None),
                 Err(sentence) => error.set(Some(sentence)),
             },

@@ -42,6 +42,10 @@ pub fn chevron() -> AnyView {
 pub fn play() -> AnyView {
     icon("M5 3l8 5-8 5z")
 }
+/// A pencil.
+pub fn edit() -> AnyView {
+    icon("M3 13l.700-3L10.500 3.200l2.300 2.300L6 12.300zM9 4.700L11.300 7")
+}
 /// A square.
 pub fn stop() -> AnyView {
     icon("M4.500 4.500h7v7h-7z")

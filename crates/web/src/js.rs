@@ -116,6 +116,13 @@ extern "C" {
     /// Copies a text; gives whether the browser let it.
     pub async fn copy(text: &str) -> JsValue;
 
+    /// The text that the clipboard holds; undefined where the browser does not let it be read.
+    pub async fn pasted() -> JsValue;
+
+    /// Hears of copy, cut and paste by the system's keys: `take` is told which and gives a text, `put` is given one.
+    #[wasm_bindgen(js_name = onClipboard)]
+    pub fn on_clipboard(take: &Function, put: &Function);
+
     /// Compresses a text into letters that an address may have.
     pub async fn pack(text: &str) -> JsValue;
 
@@ -139,9 +146,6 @@ extern "C" {
 
     /// Whether the system asks for little motion.
     pub fn calm() -> bool;
-
-    /// Whether words of the page are marked.
-    pub fn marked() -> bool;
 
     /// Whether a finger is the pointer.
     pub fn coarse() -> bool;

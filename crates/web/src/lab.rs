@@ -31,8 +31,10 @@ mod documents;
 mod drafts;
 mod edits;
 mod export;
+mod prototype;
 
 pub use drafts::Draft;
+pub use prototype::Shown;
 
 /// An open document.
 #[derive(Clone, PartialEq, Debug)]
@@ -178,6 +180,8 @@ pub struct Lab {
     pub menu: RwSignal<Option<Menu>>,
     /// While a class is made of the selection, the points by which its things are placed.
     pub attachers: RwSignal<Option<Vec<String>>>,
+    /// The class whose prototype is shown instead of the document.
+    pub prototype: RwSignal<Option<Shown>>,
     /// What a person is asked to type.
     pub wish: RwSignal<Option<Wish>>,
     /// Whether the picture has a grid.
@@ -316,6 +320,7 @@ impl Lab {
             editing: RwSignal::new(None),
             menu: RwSignal::new(None),
             attachers: RwSignal::new(None),
+            prototype: RwSignal::new(None),
             wish: RwSignal::new(None),
             grid: RwSignal::new(theme::keep(GRID_KEY).is_none_or(|kept| kept != "off")),
             zoom: RwSignal::new(None),

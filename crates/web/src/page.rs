@@ -3,6 +3,7 @@
 use crate::actions::{self, Action};
 use crate::bin_panel::Bin;
 use crate::by_example::ByExample;
+use crate::class_pane::ClassPane;
 use crate::dialog::Dialog;
 use crate::dock::{Dock, Handles};
 use crate::drafting::Drawing;
@@ -31,6 +32,7 @@ pub fn Page() -> impl IntoView {
     let lab = Lab::new();
     let ready = RwSignal::new(false);
     probe::publish(lab);
+    actions::follow_clipboard(lab);
     route::settle();
     leptos::task::spawn_local(async move {
         lab.fetch_library().await;
@@ -199,6 +201,7 @@ fn Document(lab: Lab) -> impl IntoView {
                     <Strip lab=lab />
                     <PromptLine lab=lab />
                     <ByExample lab=lab />
+                    <ClassPane lab=lab />
                     <Coach lab=lab />
                 </div>
                 <Show when=move || lab.why.get()>

@@ -65,8 +65,13 @@ pub fn Picture(
         let title = lab.document.with(|d| d.as_ref().map_or_else(String::new, |d| d.title.clone()));
         words::picture_of(&title, lab.picture.with(|picture| picture.grips.len()))
     });
-    let live =
-        Memo::new(move |_| described(lab, marked.with(|marked| marked.selected.last().cloned())));
+    let caught = Memo::new(move |_| {
+        lab.tool_view.with(|tool| tool.caught.as_ref().map(|caught| caught.word.clone()))
+    });
+    let live = Memo::new(move |_| {
+        let of_selection = || described(lab, marked.with(|m| m.selected.last().cloned()));
+        caught.get().unwrap_or_else(of_selection)
+    });
     view! {
         <section class="panel picture" aria-label=words::PICTURE>
             <canvas
@@ -383,6 +388,8 @@ fn key(lab: Lab, hand: hand::Hand, size: (f64, f64), e: &KeyboardEvent) {
         "ArrowRight" => nudge(lab, far, 0.0),
         "ArrowUp" => nudge(lab, 0.0, -far),
         "ArrowDown" => nudge(lab, 0.0, far),
+        // past what a tool finds the keyboard goes on to the next panel
+        "Tab" if lab.tool.with_untracked(Option::is_some) => false,
         "Tab" => next_grip(lab, if e.shift_key() { -1 } else { 1 }),
         "Enter" => match lab.selected.get_untracked() {
             Some(path) => {

@@ -4,7 +4,7 @@ use crate::actions::{self, ACTIONS, Action, Group};
 use crate::lab::{Lab, Notice};
 use crate::{icons, words};
 use leptos::prelude::*;
-use session::view::{Pointer, ToolView};
+use session::view::{Along, Pointer, ToolView};
 
 /// The tools, one below the other; those that the document has no classes for say why not.
 #[component]
@@ -159,9 +159,24 @@ impl Lab {
             "ArrowUp" => (0.0, -step),
             "ArrowDown" => (0.0, step),
             "Enter" => {
-                let (length, angle) = self.typed.with_untracked(|typed| length_and_angle(typed));
-                let pointer = Pointer { length, angle, ..self.keyboard_pointer(size) };
+                let pointer = self.typed.with_untracked(|typed| match place(typed) {
+                    Some(at) => Pointer { at, alone: true, ..self.keyboard_pointer(size) },
+                    None => {
+                        let (length, angle) = length_and_angle(typed);
+                        Pointer { length, angle, ..self.keyboard_pointer(size) }
+                    }
+                });
+                self.set_cursor(pointer.at);
                 self.tool_set(&pointer);
+                return true;
+            }
+            "Tab" => {
+                let along = if far { Along::Back } else { Along::Next };
+                let pointer = self.keyboard_pointer(size);
+                let stop = self.ask_of_shown(|session, id| session.tool_stop(id, &pointer, along));
+                let Some(at) = stop.flatten() else { return false };
+                self.set_cursor(at);
+                self.tool_moved(&self.keyboard_pointer(size));
                 return true;
             }
             "Backspace" => {
@@ -172,7 +187,7 @@ impl Lab {
             }
             digit
                 if digit.len() == 1
-                    && digit.chars().all(|c| c.is_ascii_digit() || ".<-".contains(c)) =>
+                    && digit.chars().all(|c| c.is_ascii_digit() || ".,<-".contains(c)) =>
             {
                 self.typed.update(|typed| typed.push_str(digit));
                 return true;
@@ -183,6 +198,12 @@ impl Lab {
         self.cursor.set(Some((at.0 + by.0, at.1 + by.1)));
         self.tool_moved(&self.keyboard_pointer(size));
         true
+    }
+
+    /// Brings the pointer of the keyboard to a place of the sheet.
+    fn set_cursor(self, (x, y): (f64, f64)) {
+        let at = self.view.with_untracked(|v| v.screen_from_sheet(drawing::Point { x, y }));
+        self.cursor.set(Some(at));
     }
 
     /// The pointer of the keyboard: where the arrow keys, or the mouse, have brought it.
@@ -236,6 +257,12 @@ impl Lab {
             shelves.inspect(|shelves| shelves.set_scroll_top(0));
         }
     }
+}
+
+/// Reads what was typed of a place: its coordinates on the sheet, `120,40`.
+fn place(typed: &str) -> Option<(f64, f64)> {
+    let (x, y) = typed.split_once(',')?;
+    Some((x.parse().ok()?, y.parse().ok()?))
 }
 
 /// Reads what was typed of a length and, after `<`, of an angle in degrees.

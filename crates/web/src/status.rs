@@ -3,7 +3,7 @@
 use crate::lab::{Lab, Notice};
 use crate::player::NowPlaying;
 use crate::why::listed;
-use crate::{icons, js, words};
+use crate::{icons, js, keyboard, words};
 use leptos::prelude::*;
 use session::view::{Choice, Question, Recognised, Refusal};
 use session::{Command, Path};
@@ -37,7 +37,11 @@ pub fn StatusLine(
     let hint = Memo::new(move |_| {
         let hint = lab.tool_view.with(|view| view.hint.clone());
         let typed = lab.typed.get();
-        let typed = (!typed.is_empty()).then(|| words::typed_length(&typed));
+        let typed = (!typed.is_empty()).then(|| words::typed_for_tool(&typed));
+        let hint = match lab.cursor.with(Option::is_none) {
+            true => format!("{hint}; {}", words::TOOL_KEYS),
+            false => hint,
+        };
         lab.tool.with(Option::is_some).then(|| typed.unwrap_or(hint))
     });
     let swept = move || {
@@ -127,11 +131,12 @@ pub fn Asked(
                 let _ = button.focus();
             }
         });
-        let command = StoredValue::new(choice.command);
+        let (command, label) =
+            (StoredValue::new(choice.command), StoredValue::new(choice.label.clone()));
         let go = move |_| {
             lab.foresee_command(None);
             lab.notice.set(None);
-            lab.apply_as_meant(&command.get_value());
+            lab.apply_called(&command.get_value(), &label.get_value());
         };
         let look = move || lab.foresee_command(Some(&command.get_value()));
         view! {
@@ -143,6 +148,8 @@ pub fn Asked(
         }
     };
     let shown = move |question: Question| {
+        let before = StoredValue::new_local(keyboard::holder());
+        on_cleanup(move || keyboard::give_back(before.try_get_value().flatten()));
         let choices = question.choices.into_iter().enumerate();
         let label = question.message.clone();
         view! {

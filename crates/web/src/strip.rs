@@ -3,7 +3,7 @@
 use crate::actions;
 use crate::dialog::Wish;
 use crate::lab::{Lab, Notice};
-use crate::words;
+use crate::{keyboard, words};
 use leptos::prelude::*;
 use session::Command;
 use session::view::{Offer, RowKind};
@@ -95,6 +95,8 @@ impl Lab {
             return;
         }
         self.apply(&offer.command(None));
+        // the strip offers something else now; whoever was in it is where its things are
+        keyboard::give_back(None);
     }
 
     /// Asks for the value of the first dimension that the selection can have.

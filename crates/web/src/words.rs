@@ -81,6 +81,8 @@ pub const TOOLS: &str = "Tools";
 pub const STATUS: &str = "Status";
 pub const RESIZE: &str = "Resize";
 pub const PICTURE_HELP: &str = "Tab chooses a point, the arrow keys move it, F fits the picture.";
+/// What keys do with a tool that a key has moved.
+pub const TOOL_KEYS: &str = "Enter: there; Tab: next point or middle; 120,40: a place";
 
 pub const OPEN_GALLERY: &str = "Gallery";
 pub const SAVE: &str = "Save";
@@ -121,11 +123,34 @@ pub const CUT: &str = "Cut";
 pub const PASTE: &str = "Paste";
 pub const SELECT_ALL: &str = "Select everything";
 pub const NOTHING_COPIED: &str = "nothing was copied";
+pub const NO_THINGS_COPIED: &str = "the clipboard holds no text that says something of things";
 pub const NOTHING_THERE: &str = "the document has no things";
 /// What the mouse does with nothing in the hand.
 pub const BAND_HINT: &str =
     "drag over things to select them; Space and drag: move the sheet; wheel: zoom";
 pub const CLASS_OF: &str = "Make a class of the selection";
+pub const EDIT_CLASS: &str = "Edit the class of the selection";
+pub const LEAVE_CLASS: &str = "Back to the document";
+pub const BACK_TO_DOCUMENT: &str = "Done";
+pub const EVERY_ONE_FOLLOWS: &str = "every one is like this, and follows";
+pub const NO_OWN_CLASS: &str = "its class is a library's; make a class or a kind of your own first";
+pub const NO_CLASS_SHOWN: &str = "no class is edited";
+pub const KIND_OF: &str = "Make a kind of the selection";
+pub const NOT_A_WHOLE: &str = "select a whole thing of the document";
+pub const OF_EVERY: &str = "Say it of every one of its class";
+pub const NOT_OF_ONE: &str = "select a constraint or a part of one thing";
+/// What is asked of a class that inherits.
+pub fn name_of_kind(path: &str) -> String {
+    format!("Name of the kind that {path} is, such as LevelRhombus")
+}
+/// What is shown while a class is edited.
+pub fn class_shown(class: &str) -> String {
+    format!("The class {class}")
+}
+/// What the button on a tile does.
+pub fn edit_class(class: &str) -> String {
+    format!("Edit the class {class}")
+}
 pub const NAME_OF_CLASS: &str = "Name of the class that the selection becomes the parts of";
 /// What a class's name looks like.
 pub const CLASS_NAME_LIKE: &str = "Rhombus";
@@ -395,8 +420,9 @@ pub fn joins(path: &session::Path) -> String {
 }
 
 /// What was typed of a length while a tool is held.
-pub fn typed_length(typed: &str) -> String {
-    format!("length {typed}: Enter sets it, Backspace takes a digit back")
+pub fn typed_for_tool(typed: &str) -> String {
+    let what = if typed.contains(',') { "place" } else { "length" };
+    format!("{what} {typed}: Enter sets it, Backspace takes a digit back")
 }
 
 /// What is asked of a dimension.
@@ -629,6 +655,7 @@ pub fn would_move(moved: &[String]) -> String {
 /// The button of the strip that makes a class of the selection.
 pub const CLASS: &str = "class…";
 /// The action that gives the keyboard to the inspector.
+pub const GO_WHY: &str = "Go to the reasons and repairs";
 pub const GO_INSPECTOR: &str = "Go to the inspector";
 
 /// What the inspector is about where several things are selected.
@@ -642,6 +669,10 @@ pub fn nothing_called(typed: &str) -> String {
 }
 
 /// That a class was made.
+/// What the undo list calls it.
+pub fn make_class(name: &str) -> String {
+    format!("make the class {name}")
+}
 pub fn class_made(name: &str) -> String {
     format!("{name} is a class now; the bin has it")
 }

@@ -226,7 +226,7 @@ pub async fn type_over(visit: &Visit, (x, y): (f64, f64), value: &str) {
 /// Where nothing changes.
 pub async fn insert_by_keys(visit: &Visit, class: &str) {
     let before = text_of(&state(visit).await);
-    visit.script("document.getElementById('picture').focus()").await;
+    chord(visit, &[key::ALT], '1').await;
     chord(visit, &[], 'i').await;
     visit.until("document.activeElement.matches('.bin input')").await;
     chord(visit, &[key::CONTROL], 'a').await;
@@ -235,6 +235,68 @@ pub async fn insert_by_keys(visit: &Visit, class: &str) {
     chord(visit, &[], key::ENTER).await;
     let before = serde_json::to_string(&before).expect("a text");
     visit.until(&format!("window.__thinglab.state().text !== {before}")).await;
+}
+
+/// Sets a place of the tool in the hand by typing it, and Enter.
+///
+/// # Panics
+/// Where the browser refuses.
+pub async fn set_place_by_keys(visit: &Visit, place: &str) {
+    keys(visit, place).await;
+    chord(visit, &[], key::ENTER).await;
+}
+
+/// Draws a ring of four lines by the keyboard alone: three corners typed after the first, and back to that by Tab.
+///
+/// # Panics
+/// Where it is not drawn.
+pub async fn draw_ring_by_keys(visit: &Visit, corners: [&str; 4]) {
+    chord(visit, &[], 'l').await;
+    visit.until("document.querySelector('[data-action=tool-line][aria-pressed=true]')").await;
+    for corner in corners {
+        set_place_by_keys(visit, corner).await;
+    }
+    stop_by_keys(visit, "joins line.p1").await;
+    visit.until("window.__thinglab.state().text.includes('line4')").await;
+}
+
+/// Brings the tool in the hand by Tab to where it finds what a word says, and sets it there: forward, then back.
+///
+/// # Panics
+/// Where Tab does not lead there.
+pub async fn stop_by_keys(visit: &Visit, word: &str) {
+    let heard = "document.getElementById('picture-live').textContent";
+    let held = "document.activeElement.id === 'picture'";
+    for back in [&[][..], &[key::SHIFT]] {
+        for _ in 0..24 {
+            let now = visit.script(&format!("return [{heard}, {held}]")).await;
+            if now[0] == word {
+                return chord(visit, &[], key::ENTER).await;
+            }
+            if now[1] == false {
+                // past the last one the keyboard is elsewhere
+                chord(visit, &[key::ALT], '1').await;
+                break;
+            }
+            chord(visit, back, key::TAB).await;
+        }
+    }
+    panic!("Tab does not lead to where it {word}");
+}
+
+/// Brings the keyboard by Tab to an element, as an expression of `at` tells it, and presses a key there.
+///
+/// # Panics
+/// Where Tab does not lead there.
+pub async fn press_by_keys(visit: &Visit, element: &str, pressed: char) {
+    for _ in 0..80 {
+        let here = format!("return Boolean((at => {element})(document.activeElement))");
+        if visit.script(&here).await == true {
+            return chord(visit, &[], pressed).await;
+        }
+        chord(visit, &[], key::TAB).await;
+    }
+    panic!("Tab does not lead to {element}");
 }
 
 /// Goes through the rows of the structure by the arrow keys to some paths, opens what is shut on the way, and selects

@@ -112,6 +112,14 @@ async fn several_things_are_chosen_by_a_band_dragged_copied_and_deleted() {
     assert_eq!(state(&visit).await["also"], json!(["line2"]));
     chord(&visit, &[key::CONTROL], 'z').await;
     visit.until("!window.__thinglab.state().text.includes('line2')").await;
+    // the clipboard of the system has it as a text, which another document takes with what it uses
+    chord(&visit, &[key::ALT], 'n').await;
+    visit.until("window.__thinglab.state().path === 'untitled-2.thing'").await;
+    chord(&visit, &[key::CONTROL], 'v').await;
+    visit.until("window.__thinglab.state().text.includes('merge a.p2 = b.p1')").await;
+    visit.script("history.back()").await;
+    visit.until("window.__thinglab.state().text.includes('k: Circle')").await;
+    visit.script("document.getElementById('picture').focus()").await;
     // what goes along is told before
     chord(&visit, &[key::CONTROL], 'a').await;
     visit.until("window.__thinglab.state().also.length === 2").await;

@@ -3,8 +3,8 @@
 
 use browser::Visit;
 use browser::hands::{
-    begin, choose_by_keys, chord, drag, grip, insert_by_keys, key, keys, place, point, state,
-    text_of, type_over, use_library, word,
+    begin, choose_by_keys, chord, drag, draw_ring_by_keys, grip, insert_by_keys, key, keys, place,
+    point, press_by_keys, state, stop_by_keys, text_of, type_over, use_library, word,
 };
 use fantoccini::actions::MOUSE_BUTTON_LEFT;
 use serde_json::Value;
@@ -38,7 +38,7 @@ async fn set_by_keys(visit: &Visit, label: &str, value: &str) {
 /// Says something of the selection by the strip, by the keyboard alone.
 async fn say_by_keys(visit: &Visit, label: &str) {
     visit.until(&format!("document.querySelector('[data-offer=\"{label}\"]')")).await;
-    visit.script("document.getElementById('picture').focus()").await;
+    chord(visit, &[key::ALT], '1').await;
     chord(visit, &[], 'k').await;
     visit.until("document.activeElement.dataset.offer").await;
     for _ in 0..20 {
@@ -63,6 +63,13 @@ async fn choose(visit: &Visit, label: &str) {
     let button = format!("{buttons}.find(b => b.innerText.includes('{label}'))");
     visit.until(&button).await;
     visit.script(&format!("{button}.click()")).await;
+}
+
+/// Answers what is asked, by the keyboard alone.
+async fn choose_answer_by_keys(visit: &Visit, label: &str) {
+    visit.until("document.activeElement.closest('.asked')").await;
+    let button = format!("at.closest('.asked') && at.innerText.includes('{label}')");
+    press_by_keys(visit, &button, key::ENTER).await;
 }
 
 /// Merges things that are chosen in the structure.
@@ -367,12 +374,103 @@ async fn a_rhombus_becomes_a_class_and_all_of_it_follow() {
     choose(&visit, "every Rhombus").await;
     visit.until("window.__thinglab.state().status.freedom === 15").await;
     visit.picture("rhombus").await;
+
+    // its prototype, in a pane of its own: a diagonal drawn there is one of every one
+    chord(&visit, &[key::SHIFT], 'E').await;
+    visit
+        .until(
+            "document.querySelector('.class-pane') && window.__thinglab.state().grips.length === 4",
+        )
+        .await;
+    visit.until("document.activeElement.id === 'picture'").await;
+    chord(&visit, &[], 'l').await;
+    stop_by_keys(&visit, "joins rhombus.line.p1").await;
+    stop_by_keys(&visit, "joins rhombus.line2.p2").await;
+    visit.until("window.__thinglab.state().text.includes('    line5: Line')").await;
+    chord(&visit, &[], key::ESCAPE).await;
+    visit.picture("prototype").await;
+    visit.script("document.querySelector('.class-pane button').click()").await;
+    visit.until("window.__thinglab.state().grips.length === 16").await;
+    let all = state(&visit).await;
+    assert_eq!(all["status"]["freedom"], 15, "{}", text_of(&all));
+    assert_eq!(all["status"]["satisfied"], true);
+}
+
+/// Corners of a ring on an empty sheet.
+const CORNERS: [&str; 4] = ["100,180", "250,90", "420,170", "260,300"];
+
+#[tokio::test]
+async fn a_quadrilateral_of_midpoints_is_drawn_by_the_keyboard_alone() {
+    let visit = begin().await;
+    draw_ring_by_keys(&visit, CORNERS).await;
+    for side in ["line", "line2", "line3", "line4"] {
+        stop_by_keys(&visit, &format!("midpoint of {side}")).await;
+    }
+    stop_by_keys(&visit, "joins line5.p1").await;
+    visit.until("window.__thinglab.state().text.includes('line8')").await;
+    let drawn = state(&visit).await;
+    assert_eq!(drawn["status"]["satisfied"], true);
+    assert_eq!(drawn["status"]["freedom"], 8, "the inner one has none: {}", text_of(&drawn));
+    // a corner is moved: the inner figure stays a parallelogram
+    chord(&visit, &[], key::ESCAPE).await;
+    choose_by_keys(&visit, &["line2.p2"]).await;
+    chord(&visit, &[key::ALT], '1').await;
+    for _ in 0..3 {
+        chord(&visit, &[key::SHIFT], key::RIGHT).await;
+    }
+    visit
+        .until("window.__thinglab.state().grips.some(g => g.path === 'line2.p2' && g.x === 450)")
+        .await;
+    let moved = state(&visit).await;
+    let at = |path: &str| {
+        let grips = moved["grips"].as_array().expect("a list");
+        let grip = grips.iter().find(|g| g["path"] == path).expect("a grip");
+        (grip["x"].as_f64().expect("a number"), grip["y"].as_f64().expect("a number"))
+    };
+    let way = |from: &str, to: &str| (at(to).0 - at(from).0, at(to).1 - at(from).1);
+    let (one, other) = (way("line5.p1", "line5.p2"), way("line6.p2", "line7.p2"));
+    assert!(near(one.0, -other.0) && near(one.1, -other.1), "{one:?} {other:?}");
 }
 
 #[tokio::test]
-async fn a_conflict_is_made_explained_and_repaired_by_hand() {
+async fn a_rhombus_becomes_a_class_by_the_keyboard_alone() {
     let visit = begin().await;
-    ring(&visit).await;
+    draw_ring_by_keys(&visit, CORNERS).await;
+    chord(&visit, &[], key::ESCAPE).await;
+    choose_by_keys(&visit, &["line", "line2", "line3", "line4"]).await;
+    say_by_keys(&visit, "equal length").await;
+    visit.until("window.__thinglab.state().status.freedom === 5").await;
+    chord(&visit, &[key::SHIFT], 'C').await;
+    visit.until("document.activeElement.id === 'asked'").await;
+    keys(&visit, "Rhombus").await;
+    for path in ["line.p1", "line2.p2"] {
+        let row =
+            format!("at.type === 'checkbox' && at.closest('label').innerText.startsWith('{path}')");
+        press_by_keys(&visit, &row, key::SPACE).await;
+    }
+    chord(&visit, &[], key::ENTER).await;
+    visit.until("window.__thinglab.state().text.includes('attachers line.p1, line2.p2')").await;
+    for _ in 0..3 {
+        insert_by_keys(&visit, "Rhombus").await;
+    }
+    visit.until("window.__thinglab.state().status.freedom === 20").await;
+    choose_by_keys(&visit, &["rhombus2.line"]).await;
+    say_by_keys(&visit, "horizontal").await;
+    choose_answer_by_keys(&visit, "only rhombus2").await;
+    visit.until("window.__thinglab.state().status.freedom === 19").await;
+    choose_by_keys(&visit, &["rhombus3.line", "rhombus3.line2"]).await;
+    say_by_keys(&visit, "perpendicular").await;
+    choose_answer_by_keys(&visit, "every Rhombus").await;
+    visit.until("window.__thinglab.state().status.freedom === 15").await;
+    let all = state(&visit).await;
+    assert_eq!(all["status"]["satisfied"], true, "{}", text_of(&all));
+}
+
+#[tokio::test]
+async fn a_conflict_is_made_explained_and_repaired_by_the_keyboard_alone() {
+    let visit = begin().await;
+    draw_ring_by_keys(&visit, CORNERS).await;
+    chord(&visit, &[], key::ESCAPE).await;
     choose_by_keys(&visit, &["line", "line3"]).await;
     say_by_keys(&visit, "parallel").await;
     choose_by_keys(&visit, &["line"]).await;
@@ -394,11 +492,13 @@ async fn a_conflict_is_made_explained_and_repaired_by_hand() {
         .await;
     }
     visit.picture("asked").await;
-    choose(&visit, "conflict").await;
+    choose_answer_by_keys(&visit, "conflict").await;
     visit.until("!window.__thinglab.state().status.satisfied").await;
-    visit.script("document.querySelector('.verdict').click()").await;
+    // the keys lead to the reasons, and on to the repairs
+    chord(&visit, &[key::ALT], '6').await;
     visit.until("document.querySelectorAll('.why .repair').length >= 2").await;
+    visit.until("document.activeElement.closest('#why')").await;
     visit.picture("conflict").await;
-    visit.script("document.querySelector('.why .repair').click()").await;
+    press_by_keys(&visit, "at.matches('.repair')", key::ENTER).await;
     visit.until("window.__thinglab.state().status.satisfied").await;
 }

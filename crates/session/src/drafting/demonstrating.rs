@@ -1,6 +1,6 @@
 //! Recording at the boundary: a program begun and ended, its parameters, loops and branches demonstrated.
 
-use super::hands::{home, prompt, turn_of};
+use super::hands::{home, not_in_a_pane, prompt, turn_of};
 use super::view::{Ends, NewParameter, Prompt, Turn};
 use super::{blocks, choice, recording, repeat, scene};
 
@@ -15,6 +15,7 @@ impl Session {
     /// The name is none for a program, or something else is called so.
     pub fn record(&mut self, id: DocumentId, name: &str) -> Result<Change, Refusal> {
         let (open, beside) = self.beside_others(id);
+        not_in_a_pane(open)?;
         let change = recording::begin(open, &beside, name)?;
         Ok(*self.with_reach(id, change))
     }

@@ -190,6 +190,7 @@ impl Session {
     /// There is none of that name in scope.
     pub fn begin(&mut self, id: DocumentId, tool: &str) -> Result<Prompt, Refusal> {
         let open = self.document_mut(id);
+        not_in_a_pane(open)?;
         blocks::settle(open);
         let home = home(open);
         let found = catalogue::tool(&open.state, &home, tool);
@@ -530,5 +531,21 @@ fn entered(open: &mut Open, host: &dyn Host, typed: &str) -> Result<Turn, Refusa
             Wants::Otherwise | Wants::Operand | Wants::Older { .. } | Wants::Substitute { .. },
         )
         | None => Err(words::refuse("nothing that is typed is waited for".into())),
+    }
+}
+
+/// Says that constructions and programs are drawn in a document, where a class's prototype is shown.
+///
+/// # Errors
+/// It is shown.
+pub(super) fn not_in_a_pane(open: &Open) -> Result<(), Refusal> {
+    match &open.pane {
+        Some(pane) => {
+            let class = &pane.class;
+            let message =
+                format!("constructions are drawn in the document, not in the class {class}");
+            Err(words::refuse(message))
+        }
+        None => Ok(()),
     }
 }

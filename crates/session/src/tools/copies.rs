@@ -39,6 +39,29 @@ pub struct Clip {
     things: Vec<(Name, Name)>,
     relations: Relations,
     members: Vec<Copied>,
+    /// What the text that they come from uses and declares: it goes with them where they mean nothing without.
+    header: Vec<String>,
+}
+
+impl Clip {
+    /// The copies as a document of their own, for a clipboard.
+    pub fn written(&self) -> String {
+        let members = self.members.iter().map(|copied| copied.text.trim());
+        let header = self.header.iter().map(String::as_str);
+        header.chain(members).map(|member| format!("{member}\n")).collect()
+    }
+}
+
+/// Returns copies of all things of a text; nothing where it is none that says something of things without an error.
+pub(crate) fn read(text: &str, host: &dyn Host) -> Option<Clip> {
+    let open = Open::of("", text.into(), host);
+    let state = &open.state;
+    let parts = state.structure.parts(kernel::DOCUMENT);
+    let name = |part| state.structure.field_name(&state.lowered.document, part).cloned();
+    let paths: Vec<Path> =
+        parts.filter_map(name).map(|name| Path(vec![Step::Part(name)])).collect();
+    let clip = copied(state, &paths, Relations::Own).ok()?;
+    (!state.has_errors()).then_some(clip)
 }
 
 /// A member of a text that says something of what is copied.
@@ -107,7 +130,16 @@ pub(crate) fn copied(state: &State, paths: &[Path], relations: Relations) -> Res
             members.push(Copied { text, names: names.collect(), is_thing });
         }
     }
-    Ok(Clip { things, relations, members })
+    let header = header(&state.text);
+    Ok(Clip { things, relations, members, header })
+}
+
+/// What a text uses, and the classes and units that it declares.
+fn header(text: &str) -> Vec<String> {
+    let file = syntax::parse(base::FileId(0), text).file();
+    let is_of_it = |m: &Member| matches!(m, Member::Use(_) | Member::Class(_) | Member::Unit(_));
+    let said = |m: Member| m.syntax().text().to_string().trim().to_string();
+    file.members().filter(is_of_it).map(said).collect()
 }
 
 /// Returns where a text names things of the document itself.
@@ -142,17 +174,26 @@ pub(crate) fn pasting(
         syntax::edit::apply(&copied.text, &edits).trim().to_string()
     };
     let members: Vec<String> = clip.members.iter().map(written).collect();
-    let base = match clip.relations {
+    let own = match clip.relations {
         Relations::Own => of_classes(&open.state.text),
         Relations::All => open.state.text.clone(),
     };
-    let mut trial = Open::of(&open.name, format!("{base}\n{}\n", members.join("\n")), host);
-    let before = Open::of(&open.name, format!("{base}\n"), host);
+    let with = |base: &str| Open::of(&open.name, format!("{base}\n{}\n", members.join("\n")), host);
+    let before = Open::of(&open.name, format!("{own}\n"), host);
+    let (mut base, mut trial) = (own.clone(), with(&own));
+    let mut brought: Vec<String> = Vec::new();
     let errors = |open: &Open| {
         let errors =
             { open.state.diagnostics.iter() }.filter(|d| d.severity == base::Severity::Error);
         errors.map(|d| d.message.clone()).collect::<Vec<String>>()
     };
+    if errors(&trial).len() > errors(&before).len() {
+        // what the copies mean comes along, where it is not there
+        let known = header(&own);
+        brought = clip.header.iter().filter(|said| !known.contains(said)).cloned().collect();
+        base = format!("{}\n{own}", brought.join("\n"));
+        trial = with(&base);
+    }
     if errors(&trial).len() > errors(&before).len() {
         let first = errors(&trial).pop().unwrap_or_default();
         let message = match clip.relations {
@@ -175,7 +216,8 @@ pub(crate) fn pasting(
         }
         false => member.clone(),
     };
-    let members: Vec<String> = clip.members.iter().zip(&members).map(said).collect();
+    let members = clip.members.iter().zip(&members).map(said);
+    let members: Vec<String> = brought.into_iter().chain(members).collect();
     Ok((Command::Edit { target: Path::default(), members: members.join("\n") }, copies))
 }
 
@@ -232,7 +274,8 @@ pub(crate) fn deletion(
     let mut along: Vec<String> = Vec::new();
     for path in paths {
         // what goes with another is gone already
-        if words::find(&trial.state, path).is_err() {
+        let is_of_class = crate::prototype::class_of(&trial.state, path).is_some();
+        if words::find(&trial.state, path).is_err() && !is_of_class {
             continue;
         }
         along.extend(apply::along(&trial.state, path));

@@ -17,6 +17,15 @@ pub struct Pointer {
     pub grid: f64,
 }
 
+/// Which way along what a key goes through.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Along {
+    /// To the next one.
+    Next,
+    /// To the one before.
+    Back,
+}
+
 /// What a tool shows.
 #[derive(Clone, Debug, Default)]
 pub struct ToolView {

@@ -1,6 +1,6 @@
 //! Constructions chosen and given their operands; programs recorded so.
 
-use crate::desk::Desk;
+use crate::desk::{Desk, at};
 use session::drafting::view::{Ends, Go, NewParameter, RecurrenceQuestion, Turn, Wants};
 use session::view::Pointer;
 
@@ -671,5 +671,51 @@ fn random_insertions_replacements_and_deletions_change_no_other_step() {
             }
             assert_eq!(formulas(&desk), after);
         }
+    }
+}
+
+#[test]
+fn what_a_program_drew_is_deleted_by_erasing_it_or_its_step() {
+    let text = "use geometry
+program Plate(width: Length = 40 mm) {
+    hole = Circle(center: (0, 0), radius: width / 4)
+    rim = Circle(center: hole.center, radius: width / 2)
+    rows = repeat 3 times with x = 0 mm {
+        dot = Point(x, width)
+        next x = x + 10 mm
+    }
+}
+plate: Plate
+other: Plate { width = 60 mm }
+";
+    let mut desk = Desk::of(text);
+    let asked = |desk: &Desk, path: &str| {
+        let question = desk.session.drawn_deletion(desk.id, &at(path)).expect("it can go");
+        question.expect("a program drew it")
+    };
+    let question = asked(&desk, "plate.hole");
+    assert_eq!(question.message, "hole is drawn by the program Plate: all 2 here change with it.");
+    let labels: Vec<&str> = question.choices.iter().map(|c| c.label.as_str()).collect();
+    assert_eq!(
+        labels,
+        ["erase hole; one step still speaks of it", "delete the step hole, and with it rim"]
+    );
+    desk.apply(&question.choices[0].command).expect("it can be erased");
+    let rows = "    }\n}\nplate";
+    assert_eq!(desk.text(), text.replace(rows, "    }\n    erase hole\n}\nplate"));
+    assert_eq!(desk.wrong(), []);
+    desk.undo();
+    assert_eq!(desk.text(), text);
+    desk.apply(&question.choices[1].command).expect("the step can go");
+    assert!(!desk.text().contains("rim") && desk.text().contains("dot"), "{}", desk.text());
+    desk.undo();
+    // in a loop, all its turns; a place of a circle means the circle
+    let question = asked(&desk, "other.rows[1].dot");
+    desk.apply(&question.choices[0].command).expect("it can be erased");
+    assert!(desk.text().contains("        erase dot\n    }"), "{}", desk.text());
+    assert!(asked(&desk, "plate.rim.center").message.starts_with("rim is drawn"));
+    // a parameter is no drawing, nor is anything that no program made
+    for path in ["plate.width", "plate"] {
+        assert_eq!(desk.session.drawn_deletion(desk.id, &at(path)), Ok(None));
     }
 }

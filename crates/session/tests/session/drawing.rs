@@ -2,7 +2,7 @@
 
 use crate::desk::{Desk, at, gallery};
 use session::Command;
-use session::view::{ClassPlan, Pointer, ToolView};
+use session::view::{Along, ClassPlan, Pointer, ToolView};
 
 /// A pointer of a mouse on a sheet at 100 %.
 fn pointer(x: f64, y: f64) -> Pointer {
@@ -53,6 +53,32 @@ fn four_clicks_and_the_first_corner_again_make_a_ring_of_four_lines() {
     // the ring is closed: the tool begins anew
     let begun = desk.session.take_tool(desk.id, "Line").expect("a tool").begun;
     assert!(!begun);
+}
+
+#[test]
+fn a_tool_goes_by_keys_from_corner_to_corner_and_from_middle_to_middle() {
+    let mut desk = Desk::of(
+        "use geometry\na: Line { p1 = (0, 0)  p2 = (100, 0) }\nb: Line { p1 = (0, 60)  p2 = (100, 90) }\n",
+    );
+    desk.session.take_tool(desk.id, "Line").expect("geometry has lines");
+    let stop = |desk: &Desk, at: (f64, f64), along| {
+        desk.session.tool_stop(desk.id, &pointer(at.0, at.1), along)
+    };
+    let mut way = vec![(500.0, 500.0)];
+    while let Some(next) = stop(&desk, way[way.len() - 1], Along::Next) {
+        way.push(next);
+    }
+    let stops = [(0.0, 0.0), (100.0, 0.0), (0.0, 60.0), (100.0, 90.0), (50.0, 0.0), (50.0, 75.0)];
+    assert_eq!(way[1..], stops);
+    assert_eq!(stop(&desk, stops[5], Along::Back), Some(stops[4]));
+    assert_eq!(stop(&desk, stops[0], Along::Back), None);
+    // what the line begins at is no place for its end
+    click(&mut desk, &pointer(50.0, 0.0));
+    assert_eq!(stop(&desk, stops[3], Along::Next), Some(stops[5]));
+    click(&mut desk, &pointer(50.0, 75.0));
+    holds(&desk);
+    // two free lines, and one between their middles
+    assert_eq!(desk.session.status(desk.id).freedom, 8);
 }
 
 #[test]

@@ -3,12 +3,12 @@
 use super::{Action, Context, Group};
 use crate::dialog::Wish;
 use crate::dock::Tab;
+use crate::keyboard::focus;
 use crate::lab::{Drawer, Lab, Zoom};
 use crate::{js, route, structure, words};
 use leptos::prelude::*;
 use session::view::{RowKind, StructureRow};
 use session::{Command, Path, Relations};
-use wasm_bindgen::JsCast;
 
 /// Everything that can be done, in the order of the menu.
 pub const ACTIONS: &[Action] = &[
@@ -147,6 +147,67 @@ pub const ACTIONS: &[Action] = &[
         run: Lab::begin_class,
     },
     Action {
+        id: "edit-class",
+        group: Group::Join,
+        contexts: &[Context::Thing],
+        label: words::EDIT_CLASS,
+        keys: &["Shift+E"],
+        enabled: |lab| {
+            document(lab)?;
+            match lab.class_around_selection() {
+                Some(_) => Ok(()),
+                None if lab.selected.with(Option::is_none) => Err(words::NOTHING_SELECTED),
+                None => Err(words::NO_OWN_CLASS),
+            }
+        },
+        run: |lab| {
+            if let Some(class) = untrack(|| lab.class_around_selection()) {
+                lab.edit_class(&class);
+            }
+        },
+    },
+    Action {
+        id: "leave-class",
+        group: Group::Join,
+        contexts: &[Context::Sheet],
+        label: words::LEAVE_CLASS,
+        keys: &["Alt+ArrowUp"],
+        enabled: |lab| match lab.prototype.with(Option::is_some) {
+            true => Ok(()),
+            false => Err(words::NO_CLASS_SHOWN),
+        },
+        run: Lab::leave_class,
+    },
+    Action {
+        id: "kind-of",
+        group: Group::Join,
+        contexts: &[Context::Thing],
+        label: words::KIND_OF,
+        keys: &["Shift+K"],
+        enabled: |lab| match selected(lab)? {
+            row if row.kind == RowKind::Part && row.depth == 1 => Ok(()),
+            _ => Err(words::NOT_A_WHOLE),
+        },
+        run: |lab| {
+            if let Some(path) = lab.selected.get_untracked() {
+                lab.wish.set(Some(Wish::Kind(path)));
+            }
+        },
+    },
+    Action {
+        id: "of-every",
+        group: Group::Join,
+        contexts: &[Context::Thing],
+        label: words::OF_EVERY,
+        keys: &[],
+        enabled: |lab| match selected(lab)? {
+            row if row.kind == RowKind::Constraint => Ok(()),
+            row if row.kind == RowKind::Part && row.depth > 1 => Ok(()),
+            _ => Err(words::NOT_OF_ONE),
+        },
+        run: Lab::say_of_every,
+    },
+    Action {
         id: "unmerge",
         group: Group::Join,
         contexts: &[Context::Thing],
@@ -217,9 +278,7 @@ pub const ACTIONS: &[Action] = &[
         label: words::COPY,
         keys: &["Ctrl+C"],
         enabled: |lab| several(lab).map(drop),
-        run: |lab| {
-            lab.copy_selection();
-        },
+        run: |lab| to_clipboard(lab.copy_selection()),
     },
     Action {
         id: "cut",
@@ -228,11 +287,7 @@ pub const ACTIONS: &[Action] = &[
         label: words::CUT,
         keys: &["Ctrl+X"],
         enabled: |lab| several(lab).map(drop),
-        run: |lab| {
-            if lab.copy_selection() {
-                lab.delete_selection();
-            }
-        },
+        run: |lab| to_clipboard(lab.cut_selection()),
     },
     Action {
         id: "paste",
@@ -240,12 +295,8 @@ pub const ACTIONS: &[Action] = &[
         contexts: &[Context::Sheet],
         label: words::PASTE,
         keys: &["Ctrl+V"],
-        enabled: |lab| {
-            document(lab)?;
-            let is_copied = lab.clip.with(Option::is_some);
-            if is_copied { Ok(()) } else { Err(words::NOTHING_COPIED) }
-        },
-        run: Lab::paste,
+        enabled: |lab| document(lab).map(drop),
+        run: Lab::paste_from_clipboard,
     },
     Action {
         id: "select-all",
@@ -437,6 +488,10 @@ pub const ACTIONS: &[Action] = &[
                 lab.draft_end();
             } else if lab.tool.with_untracked(Option::is_some) {
                 lab.escape_tool();
+            } else if lab.selected.with_untracked(Option::is_none)
+                && lab.notice.with_untracked(Option::is_none)
+            {
+                lab.leave_class();
             } else {
                 lab.select(None);
                 lab.notice.set(None);
@@ -539,6 +594,18 @@ pub const ACTIONS: &[Action] = &[
             let is_there =
                 leptos::prelude::document().query_selector(field).ok().flatten().is_some();
             focus(if is_there { field } else { ".inspector button" });
+        },
+    },
+    Action {
+        id: "go-why",
+        group: Group::Go,
+        contexts: &[],
+        label: words::GO_WHY,
+        keys: &["Alt+6"],
+        enabled: |lab| document(lab).map(drop),
+        run: |lab| {
+            lab.why.set(true);
+            request_animation_frame(|| focus("#why .scroll button, #why button"));
         },
     },
     Action {
@@ -689,6 +756,13 @@ fn constraint(lab: Lab, on: bool) -> Result<(), &'static str> {
     }
 }
 
+/// Gives the clipboard a text; where the browser does not let it, the lab has it.
+fn to_clipboard(text: Option<String>) {
+    if let Some(text) = text {
+        leptos::task::spawn_local(async move { drop(js::copy(&text).await) });
+    }
+}
+
 fn apply(lab: Lab, command: &Command) {
     lab.apply(command);
 }
@@ -697,12 +771,5 @@ fn on_selection(lab: Lab, command: impl FnOnce(Path) -> Command) {
     let path = lab.selected.get_untracked().and_then(|path| session::parse_path(&path));
     if let Some(path) = path {
         lab.apply(&command(path));
-    }
-}
-
-fn focus(selector: &str) {
-    if let Some(element) = leptos::prelude::document().query_selector(selector).ok().flatten() {
-        // What cannot be focused stays as it is.
-        let _ = element.unchecked_into::<web_sys::HtmlElement>().focus();
     }
 }

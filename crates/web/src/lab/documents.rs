@@ -99,6 +99,7 @@ impl Lab {
     /// Shows a document that is loaded.
     pub fn show(self, path: &str) {
         self.flush_text();
+        self.leave_class();
         let Some(opened) = self.opened.with_value(|all| all.get(path).cloned()) else { return };
         self.drop_tool();
         self.editing.set(None);
@@ -121,6 +122,7 @@ impl Lab {
     /// Shows the gallery.
     pub fn leave(self) {
         self.flush_text();
+        self.leave_class();
         self.drop_tool();
         self.current.set(None);
         self.document.set(None);

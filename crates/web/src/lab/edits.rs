@@ -1,7 +1,7 @@
 //! Edits: commands, drags, joins, typed text, and what came of them.
 
 use super::{InPlace, Lab, Notice, Zoom};
-use crate::words;
+use crate::{js, words};
 use leptos::prelude::*;
 use session::view::{Caught, Change, Choice, DragState, FixView, Question, Refusal};
 use session::{Clip, Command, Path, Relations, Session};
@@ -33,6 +33,17 @@ impl Lab {
         if present == Some(shown) {
             self.settle(self.tell(|session, id| session.fix(id, fix)));
         }
+    }
+
+    /// Applies a command that was chosen, without asking; the undo list calls one of the whole text by what it is for.
+    pub fn apply_called(self, command: &Command, label: &str) -> bool {
+        let done = self.apply_as_meant(command);
+        if done && matches!(command, Command::Text(_)) {
+            self.tell(|session, id| session.label_last(id, label));
+            let status = self.ask_of_shown(|session, id| session.status(id));
+            self.status.set(status.unwrap_or_default());
+        }
+        done
     }
 
     /// Applies a command without asking.
@@ -135,6 +146,11 @@ impl Lab {
         }
         let Some(path) = self.selected.get_untracked() else { return };
         let (Some(id), Some(parsed)) = (self.id(), session::parse_path(&path)) else { return };
+        match self.ask(|session| session.drawn_deletion(id, &parsed)) {
+            Ok(Some(question)) => return self.notice.set(Some(Notice::Asked(question))),
+            Err(refusal) => return self.notice.set(Some(Notice::Refused(refusal))),
+            Ok(None) => {}
+        }
         let command = Command::Delete(parsed.clone());
         let asked = self.ask(|session| session.preview(id, &command).ok().flatten());
         let along = self.ask(|session| session.along_with(id, &parsed));
@@ -171,23 +187,59 @@ impl Lab {
         self.selection_untracked().iter().filter_map(|p| session::parse_path(p)).collect()
     }
 
-    /// Takes copies of what is selected; returns whether that was possible.
-    pub fn copy_selection(self) -> bool {
+    /// Takes copies of what is selected; returns them as a text for the clipboard, where that was possible.
+    pub fn copy_selection(self) -> Option<String> {
         self.flush_text();
         let paths = self.selected_paths();
-        let copied = self.ask_of_shown(|session, id| session.copied(id, &paths, Relations::Own));
-        match copied {
-            Some(Ok(clip)) => {
+        match self.ask_of_shown(|session, id| session.copied(id, &paths, Relations::Own))? {
+            Ok(clip) => {
+                let written = clip.written();
                 self.clip.set(Some((clip, 0)));
                 self.notice.set(Some(Notice::Said(words::copied(paths.len()))));
-                true
+                Some(written)
             }
-            Some(Err(refusal)) => {
+            Err(refusal) => {
                 self.notice.set(Some(Notice::Refused(refusal)));
-                false
+                None
             }
-            None => false,
         }
+    }
+
+    /// The same, and deletes what is selected.
+    pub fn cut_selection(self) -> Option<String> {
+        let written = self.copy_selection()?;
+        self.delete_selection();
+        Some(written)
+    }
+
+    /// Puts down what a text says that comes from the clipboard.
+    pub fn paste_text(self, text: &str) {
+        let is_own = self.clip.with_untracked(|clip| {
+            clip.as_ref().is_some_and(|(clip, _)| clip.written().trim() == text.trim())
+        });
+        if !is_own {
+            match self.ask(|session| session.copies_in(text)) {
+                Some(clip) => self.clip.set(Some((clip, 0))),
+                None => {
+                    self.notice.set(Some(Notice::Said(String::from(words::NO_THINGS_COPIED))));
+                    return;
+                }
+            }
+        }
+        self.paste();
+    }
+
+    /// Puts down what the clipboard holds; where the browser does not tell, what was copied here last.
+    pub fn paste_from_clipboard(self) {
+        leptos::task::spawn_local(async move {
+            match js::pasted().await.as_string() {
+                Some(text) if !text.is_empty() => self.paste_text(&text),
+                _ if self.clip.with_untracked(Option::is_none) => {
+                    self.notice.set(Some(Notice::Said(String::from(words::NOTHING_COPIED))));
+                }
+                _ => self.paste(),
+            }
+        });
     }
 
     /// Puts down what was copied last, a little further aside each time, and selects it.
@@ -310,6 +362,7 @@ impl Lab {
     pub(crate) fn settle(self, outcome: Option<Result<Change, Refusal>>) -> bool {
         match outcome {
             Some(Ok(change)) => {
+                self.follow_prototype();
                 self.refresh();
                 self.renew_tool();
                 if change.structure && self.fits.get_value() {

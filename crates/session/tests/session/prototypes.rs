@@ -1,0 +1,105 @@
+//! The prototype of a class in a pane of its own: drawn, constrained and dragged there, every thing of the class
+//! follows.
+
+use crate::desk::{Desk, at};
+use session::view::Pointer;
+use session::{Command, DocumentId, Path};
+
+const STRUTS: &str = "use geometry
+class Strut {
+    line: Line { p1 = (0, 0)  p2 = (100, 0) }
+    attachers line.p1, line.p2
+}
+a: Strut
+b: Strut { line.p1 = (0, 200)  line.p2 = (100, 240) }
+";
+
+/// A document, and the pane of its class.
+fn pane() -> (Desk, DocumentId) {
+    let mut desk = Desk::of(STRUTS);
+    let shown = desk.session.open_prototype(desk.id, "Strut").expect("the class is declared");
+    (desk, shown)
+}
+
+fn place(desk: &Desk, id: DocumentId, path: &str) -> (f64, f64) {
+    let grips = desk.session.picture(id).grips;
+    let grip = grips.iter().find(|grip| grip.path == path);
+    grip.map(|grip| (grip.x, grip.y)).unwrap_or_else(|| panic!("no grip {path}"))
+}
+
+#[test]
+fn a_corner_of_the_prototype_is_dragged_and_things_that_have_no_place_of_their_own_follow() {
+    let (mut desk, shown) = pane();
+    desk.session.press(shown, &at("strut.line.p2")).expect("it can be dragged");
+    desk.session.drag(shown, (120.0, 30.0));
+    desk.session.release(shown).expect("it can be kept");
+    assert_eq!(desk.text(), STRUTS.replace("p2 = (100, 0)", "p2 = (120, 30)"));
+    assert_eq!(place(&desk, shown, "strut.line.p2"), (120.0, 30.0));
+    assert_eq!(place(&desk, desk.id, "a.line.p2"), (120.0, 30.0));
+    assert_eq!(place(&desk, desk.id, "b.line.p2"), (100.0, 240.0));
+    // it is a step of the document, which the pane can take back
+    assert_eq!(desk.session.status(shown).undo.as_deref(), Some("move Strut.line.p2"));
+    desk.session.apply(shown, &Command::Undo).expect("there is a step");
+    assert_eq!(desk.text(), STRUTS);
+    assert_eq!(place(&desk, shown, "strut.line.p2"), (100.0, 0.0));
+}
+
+#[test]
+fn lines_drawn_in_the_pane_are_parts_of_every_one() {
+    let (mut desk, shown) = pane();
+    desk.session.take_tool(shown, "Line").expect("geometry has lines");
+    for (x, y) in [(100.0, 0.0), (140.0, 80.0), (0.0, 0.0)] {
+        let pointer = Pointer { at: (x, y), reach: 4.0, ..Pointer::default() };
+        desk.session.tool_moved(shown, &pointer).expect("a tool is in the hand");
+        let view = desk.session.tool_set(shown, &pointer).expect("the place can be set");
+        if let Some(command) = &view.command {
+            desk.session.apply(shown, command).expect("what was drawn can be made");
+            assert!(desk.session.structure(shown).iter().any(|row| row.path == view.makes));
+            desk.session.take_tool_again(shown);
+        }
+    }
+    let text = desk.text();
+    assert!(text.contains("    line2: Line"), "{text}");
+    assert!(text.contains("    merge line.p2 = line2.p1"), "{text}");
+    assert!(text.contains("    merge line2.p2 = line3.p1"), "{text}");
+    assert!(text.contains("    merge line.p1 = line3.p2"), "{text}");
+    // every one is a triangle now
+    for thing in ["a", "b"] {
+        let last = format!("{thing}.line3");
+        assert!(desk.session.structure(desk.id).iter().any(|row| row.path == last), "{text}");
+    }
+    let status = desk.session.status(desk.id);
+    assert_eq!((status.satisfied, status.freedom), (true, 12), "{}", status.message);
+    assert_eq!(desk.session.complaints(desk.id), Vec::<String>::new());
+    assert_eq!(desk.wrong(), []);
+}
+
+#[test]
+fn what_is_said_typed_and_deleted_in_the_pane_is_of_the_class() {
+    let (mut desk, shown) = pane();
+    let level = Command::Edit {
+        target: Path::default(),
+        members: "constraint strut.line.p1.y = strut.line.p2.y".into(),
+    };
+    assert_eq!(desk.session.preview(shown, &level), Ok(None));
+    assert_eq!(desk.session.over_constrained(shown, &level), None);
+    desk.session.apply(shown, &level).expect("it can be said");
+    assert!(desk.text().contains("    constraint line.p1.y = line.p2.y\n"), "{}", desk.text());
+    assert_eq!(desk.session.status(desk.id).freedom, 6);
+    desk.session.set_typed(shown, "strut.line.p2.x", "150").expect("it can be typed");
+    assert_eq!(place(&desk, desk.id, "a.line.p2"), (150.0, 0.0));
+    let whole = desk.session.apply(shown, &Command::Delete(at("strut"))).map_err(|r| r.message);
+    assert_eq!(
+        whole.map(|change| change.label),
+        Err("this is what every Strut is like: delete parts of it".to_string())
+    );
+    let rule = desk.session.structure(shown).into_iter().find(|row| row.detail.contains(" = "));
+    let rule = rule.expect("the rule has a row").path;
+    desk.session.apply(shown, &Command::Delete(at(&rule))).expect("it can be deleted");
+    assert!(!desk.text().contains("constraint"), "{}", desk.text());
+    // without its class there is nothing to show
+    desk.type_text("use geometry\na: Line\n");
+    assert_eq!(desk.session.prototype_shown(shown), None);
+    let none = desk.session.open_prototype(desk.id, "Line").map_err(|refusal| refusal.message);
+    assert_eq!(none, Err("the document declares no class Line".to_string()));
+}

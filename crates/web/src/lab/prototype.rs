@@ -1,0 +1,101 @@
+//! The prototype of a class, shown instead of the document that declares it: what is done there is done to the class.
+
+use super::{Lab, Notice, Zoom};
+use crate::words;
+use leptos::prelude::*;
+use session::Path;
+use session::view::DocumentId;
+
+/// The class whose prototype is shown.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Shown {
+    /// What the class is called.
+    pub class: String,
+    /// The document that declares it.
+    pub home: DocumentId,
+}
+
+impl Lab {
+    /// The class that is meant by what is selected: the nearest that the document declares.
+    pub fn class_around_selection(self) -> Option<String> {
+        let path = self.selected.get().and_then(|path| session::parse_path(&path))?;
+        self.structure.track();
+        self.ask_of_shown(|session, id| session.class_around(id, &path)).flatten()
+    }
+
+    /// Shows the prototype of a class, to be edited.
+    pub fn edit_class(self, class: &str) {
+        self.flush_text();
+        match self.tell(|session, id| session.open_prototype(id, class)) {
+            Some(Ok(pane)) => {
+                let home = self.ask(|session| session.home(pane));
+                self.prototype.set(Some(Shown { class: String::from(class), home }));
+                self.show_of_document(pane);
+            }
+            Some(Err(refusal)) => self.notice.set(Some(Notice::Refused(refusal))),
+            None => {}
+        }
+    }
+
+    /// Goes back to the document, where a class's prototype is shown.
+    pub fn leave_class(self) {
+        if let Some(shown) = self.prototype.get_untracked() {
+            self.flush_text();
+            self.prototype.set(None);
+            self.show_of_document(shown.home);
+        }
+    }
+
+    /// Shows a document of the session as the present one, or what is in it of a class.
+    fn show_of_document(self, id: DocumentId) {
+        self.drop_tool();
+        self.select(None);
+        self.hovered.set(None);
+        self.attachers.set(None);
+        self.plotting.clear();
+        self.notice.set(None);
+        self.update_document(|document| document.id = id);
+        self.refresh();
+        crate::keyboard::focus("#picture");
+        self.zoom.set(Some(Zoom::Fit));
+    }
+
+    /// After a change: the class may have another name now, or be gone.
+    pub(super) fn follow_prototype(self) {
+        let Some(shown) = self.prototype.get_untracked() else { return };
+        match self.ask_of_shown(|session, id| session.prototype_shown(id)).flatten() {
+            Some(class) if class == shown.class => {}
+            Some(class) => self.prototype.set(Some(Shown { class, ..shown })),
+            None => self.leave_class(),
+        }
+    }
+
+    /// Makes a class that inherits from that of what is selected, by its example.
+    ///
+    /// # Errors
+    /// Why not, in one sentence.
+    pub fn make_kind(self, path: &str, class: &str) -> Result<(), String> {
+        let Some(path) = session::parse_path(path) else { return Ok(()) };
+        let made = self.ask_of_shown(|session, id| session.kind_of(id, &path, class));
+        match made {
+            Some(Ok(command)) => {
+                self.apply_called(&command, &words::make_class(class));
+                Ok(())
+            }
+            Some(Err(refusal)) => Err(crate::field::reason(&refusal)),
+            None => Ok(()),
+        }
+    }
+
+    /// Says what is selected, a rule or a part of one thing, of every thing of its class.
+    pub fn say_of_every(self) {
+        self.flush_text();
+        let path = self.selected.get_untracked().and_then(|path| session::parse_path(&path));
+        let path: Path = path.unwrap_or_default();
+        match self.ask_of_shown(|session, id| session.of_every(id, &path)) {
+            Some(Ok(command)) => drop(self.apply_called(&command, words::OF_EVERY)),
+            Some(Err(refusal)) => self.notice.set(Some(Notice::Refused(refusal))),
+            None => {}
+        }
+    }
+}
