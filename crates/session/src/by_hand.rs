@@ -6,7 +6,7 @@ use crate::classing;
 use crate::document::Open;
 use crate::host::Beside;
 use crate::kinds;
-use crate::session::thing_at;
+use crate::session::{parse_path, thing_at};
 use crate::state::State;
 use crate::view::{ClassItem, ClassPlan, DocumentId, Question, Refusal, ValueRow, ValueWithin};
 use crate::ways_out;
@@ -122,6 +122,48 @@ impl Session {
             [one] => format!("{one} = "),
             [first, others @ ..] => format!("{first} = {}", others.join(" + ")),
         }
+    }
+
+    /// Returns the command that gives a document a number of its own, as it is typed: `a = 30 deg`, or `30 deg` alone,
+    /// which is called by the first free letter; and what it is called.
+    ///
+    /// # Errors
+    /// The name is none, or taken; what is typed is no number.
+    pub fn number_typed(&self, id: DocumentId, typed: &str) -> Result<(Command, String), Refusal> {
+        let open = self.document(id);
+        let state = &open.state;
+        let is_free = |name: &str| {
+            let path = Path(vec![Step::Part(name.into())]);
+            thing_at(state, &path).is_none() && state.lowered.document.class_named(name).is_none()
+        };
+        let (name, value) = match typed.split_once('=') {
+            Some((name, value)) => (name.trim().to_string(), value.trim()),
+            None => {
+                let mut letters = ('a'..='z').map(String::from);
+                let free = letters.find(|name| is_free(name)).unwrap_or_default();
+                (free, typed.trim())
+            }
+        };
+        let is_name = parse_path(&name).is_some_and(|path| path.0.len() == 1)
+            && name.starts_with(char::is_lowercase);
+        if !is_name {
+            let message = format!("{name}: a number's name is one word with a small first letter");
+            return Err(crate::words::refuse(message));
+        }
+        if !is_free(&name) {
+            return Err(crate::words::refuse(format!("there is a {name} already")));
+        }
+        let beside = Beside::of(&*self.host, &self.documents, id);
+        let terms = crate::plotting::read(state, &beside, &[value])?;
+        let evaluator = state.evaluator(&state.values);
+        let answer = terms.first().map(|term| evaluator.evaluate(term, kernel::DOCUMENT));
+        let Some(Ok(eval::Answer::Number(_, dimension))) = answer else {
+            return Err(crate::words::refuse(format!("{value} is no number")));
+        };
+        let is_angle = ["deg", "rad", "°", "turn"].iter().any(|unit| value.ends_with(unit));
+        let class = if is_angle { "Angle" } else { dimension.named().unwrap_or("Real") };
+        let members = format!("{name}: {class} = {value}");
+        Ok((Command::Edit { target: Path::default(), members }, name))
     }
 
     /// Returns what has to be decided of some things that are to be the parts of a class.

@@ -236,8 +236,9 @@ impl Offerer<'_> {
             let value = format!("{} deg", base::number::rounded(degrees, 6));
             Some(Offer { label: "angle".into(), members, value: Some(value) })
         };
-        let singles = ["length", "radius"].into_iter().find_map(single);
-        [distance(), singles, angle()].into_iter().flatten().collect()
+        let singles =
+            ["length", "radius", "side", "width", "height"].into_iter().filter_map(single);
+        distance().into_iter().chain(singles).chain(angle()).collect()
     }
 
     /// A number that something is now, in base units, with what it measures.

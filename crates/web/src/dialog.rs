@@ -18,6 +18,8 @@ pub enum Wish {
     Dimension(Offer),
     /// An equation, as it is begun.
     Equation(String),
+    /// A number of the document, with its name.
+    Number,
     /// Another name for what a path leads to.
     Rename(String),
     /// The name of a class that inherits from that of the thing at a path.
@@ -52,6 +54,7 @@ fn Open(lab: Lab, wish: Wish) -> impl IntoView {
         }
         Wish::Equation(begun) => (String::from(words::ASK_EQUATION), begun.clone()),
         Wish::Kind(path) => (words::name_of_kind(path), String::new()),
+        Wish::Number => (String::from(words::ASK_NUMBER), String::new()),
     };
     let is_whole = !matches!(wish, Wish::Equation(_));
     Effect::new(move |_| {
@@ -78,7 +81,7 @@ fn Open(lab: Lab, wish: Wish) -> impl IntoView {
         let command = match wish.get_value() {
             Wish::Dimension(offer) => offer.command(Some(typed.trim())),
             Wish::Equation(_) => equation(&typed),
-            Wish::SaveAs | Wish::Rename(_) | Wish::Kind(_) => return,
+            Wish::SaveAs | Wish::Rename(_) | Wish::Kind(_) | Wish::Number => return,
         };
         foreseen.set(lab.said_before(&command));
     };
@@ -112,6 +115,10 @@ fn Open(lab: Lab, wish: Wish) -> impl IntoView {
                 Err(sentence) => error.set(Some(sentence)),
             },
             Wish::Equation(_) => match lab.say_equation(&typed) {
+                Ok(()) => lab.wish.set(None),
+                Err(sentence) => error.set(Some(sentence)),
+            },
+            Wish::Number => match lab.add_number(&typed) {
                 Ok(()) => lab.wish.set(None),
                 Err(sentence) => error.set(Some(sentence)),
             },
@@ -159,6 +166,24 @@ impl Lab {
             self.selection_untracked().iter().filter_map(|p| session::parse_path(p)).collect();
         let begun = self.ask_of_shown(|session, id| session.equation_begun(id, &paths));
         self.wish.set(Some(Wish::Equation(begun.unwrap_or_default())));
+    }
+
+    /// Gives the document a number as it was typed, and selects it.
+    ///
+    /// # Errors
+    /// Why not, in one sentence.
+    fn add_number(self, typed: &str) -> Result<(), String> {
+        match self.ask_of_shown(|session, id| session.number_typed(id, typed)) {
+            Some(Ok((command, name))) => {
+                if !self.apply(&command) {
+                    return refused(self);
+                }
+                self.select(Some(name));
+                Ok(())
+            }
+            Some(Err(refusal)) => Err(crate::field::reason(&refusal)),
+            None => Ok(()),
+        }
     }
 
     /// Says an equation as it was typed.

@@ -28,6 +28,7 @@ pub fn of_tool(action: &str) -> AnyView {
         "tool-regularpolygon" => "M5 3h6l3 5-3 5H5L2 8z",
         "tool-caption" => "M3.500 5V3h9v2M8 3v10M6 13h4",
         "equation" => "M3 6h5M3 10h5M10.500 4.500l3 7M13.500 4.500l-3 7",
+        "number" => "M2.500 8h4M9.500 8h4M8 6.500a1.500 1.500 0 100 3a1.500 1.500 0 000-3z",
         "insert" => "M3 6.500h10v6.500H3zM8 1.500v7M5.500 6L8 8.500 10.500 6",
         "dimension" => "M2.500 4v8M13.500 4v8M3 8h10M5 6L3 8l2 2M11 6l2 2-2 2",
         "constrain" => "M3 5.500h10M3 10.500h10",

@@ -9,7 +9,7 @@ use crate::lab::{Lab, Marked, Zoom, first_path};
 use crate::paint::{
     DisplayList, Mark, Part, arrows, caught, display_list, ghosts, grid, loci, preview,
 };
-use crate::sheet::{View, bounds, fit_box};
+use crate::sheet::{View, bounds, fit_box, with_words};
 use crate::words;
 use drawing::{Drawing, Point, Vertical};
 use js_sys::Array;
@@ -309,7 +309,9 @@ fn zoom_as_asked(lab: Lab, size: (f64, f64)) {
             });
             let vertical = lab.picture.with_untracked(|p| p.drawing.vertical);
             let all = all.unwrap_or_else(|| bounds(&Drawing::default()));
-            lab.view.set(fit_box(all, vertical, size, margin));
+            let fitting = fit_box(all, vertical, size, margin);
+            let view = lab.picture.with_untracked(|p| with_words(&p.drawing, fitting, size));
+            lab.view.set(view);
         }
         Zoom::By(factor) => {
             lab.look_at(|view| view.zoomed(factor, (size.0 / 2.0, size.1 / 2.0)));

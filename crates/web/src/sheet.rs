@@ -121,6 +121,29 @@ pub fn fit_box(
     view.panned(width / 2.0 - x, height / 2.0 - y)
 }
 
+/// Returns a view in which words of a constant size, which stand beside their places, are in sight as well: a little
+/// smaller, where little hangs over the sides of a canvas.
+pub fn with_words(drawing: &Drawing, view: View, (width, height): (f64, f64)) -> View {
+    let (mut left, mut right) = (0.0_f64, 0.0_f64);
+    for element in &drawing.elements {
+        let Shape::Text { at, text, anchoring, placement, .. } = &element.shape else { continue };
+        let drawing::Placement::OnScreen(size) = placement else { continue };
+        let start = view.screen_from_sheet(*at).0 + anchoring.start(text, *size).0;
+        let end = start + drawing::metrics::text_width(text, *size);
+        left = left.max(BESIDE - start);
+        right = right.max(end + BESIDE - width);
+    }
+    let over = left + right;
+    if over <= 0.0 || over > 0.3 * width {
+        return view;
+    }
+    let smaller = view.zoomed(width / (width + over), (width / 2.0, height / 2.0));
+    smaller.panned((left - right) / 2.0, 0.0)
+}
+
+/// How far words stand beside their places, and from the side of a canvas, in pixels.
+const BESIDE: f64 = 14.0;
+
 /// Returns the box around a drawing; around the origin if it is empty. Words count with their
 /// position and, where they lie on the sheet, an estimate of their size.
 pub fn bounds(drawing: &Drawing) -> Bounds {
@@ -188,6 +211,33 @@ mod tests {
             tag: Tag(0),
         };
         Drawing { elements: points.iter().map(element).collect(), vertical }
+    }
+
+    #[test]
+    fn words_beside_their_places_are_in_sight() {
+        let mut drawing = dots(&[(0.0, 0.0), (100.0, 50.0)], Vertical::Down);
+        drawing.elements.push(Element {
+            shape: Shape::Text {
+                at: Point { x: 100.0, y: 25.0 },
+                text: "0.75 V".into(),
+                anchoring: drawing::Anchoring::default(),
+                placement: drawing::Placement::OnScreen(13.0),
+                turn: 0.0,
+            },
+            style: Style::default(),
+            layer: Layer::Words,
+            tag: Tag(0),
+        });
+        let size = (390.0, 600.0);
+        let bare = fit(&drawing, size, 30.0);
+        let view = super::with_words(&drawing, bare, size);
+        let end = |view: &View| {
+            let (x, _) = view.screen_from_sheet(Point { x: 100.0, y: 25.0 });
+            x + 7.0 + drawing::metrics::text_width("0.75 V", 13.0)
+        };
+        assert!(end(&bare) > 390.0 && end(&view) <= 390.0, "{} {}", end(&bare), end(&view));
+        assert!(view.scale > 0.8 * bare.scale);
+        assert_eq!(super::with_words(&dots(&[(0.0, 0.0)], Vertical::Up), bare, size), bare);
     }
 
     #[test]

@@ -129,6 +129,8 @@ pub const NOTHING_THERE: &str = "the document has no things";
 pub const BAND_HINT: &str =
     "drag over things to select them; Space and drag: move the sheet; wheel: zoom";
 pub const CLASS_OF: &str = "Make a class of the selection";
+pub const NUMBER: &str = "Number with a slider";
+pub const ASK_NUMBER: &str = "A number with its name, such as turn = 30 deg";
 pub const EDIT_CLASS: &str = "Edit the class of the selection";
 pub const LEAVE_CLASS: &str = "Back to the document";
 pub const BACK_TO_DOCUMENT: &str = "Done";

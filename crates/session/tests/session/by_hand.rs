@@ -171,3 +171,26 @@ fn what_is_said_of_one_things_parts_may_be_meant_of_its_class() {
     assert_eq!(desk.session.status(desk.id).freedom, 14, "{}", desk.text());
     assert!(desk.text().contains("    constraint a.parallel(to: b)\n}"), "{}", desk.text());
 }
+
+#[test]
+fn a_number_of_the_document_is_typed_with_or_without_its_name() {
+    let mut desk = Desk::of("use geometry\na: Line\n");
+    for (typed, said) in [
+        ("turn = 30 deg", "turn: Angle = 30 deg"),
+        ("2 * 40 mm", "b: Length = 2 * 40 mm"),
+        ("k = 0.5", "k: Real = 0.5"),
+    ] {
+        let (command, name) = desk.session.number_typed(desk.id, typed).expect("it is a number");
+        assert!(said.starts_with(&format!("{name}:")), "{name}");
+        desk.apply(&command).expect("it can be said");
+        assert!(desk.text().contains(said), "{}", desk.text());
+    }
+    assert_eq!(desk.wrong(), []);
+    let why = |typed: &str| desk.session.number_typed(desk.id, typed).map_err(|r| r.message);
+    assert_eq!(why("a = 3").map(drop), Err("there is a a already".into()));
+    assert_eq!(
+        why("K = 3").map(drop),
+        Err("K: a number's name is one word with a small first letter".into())
+    );
+    assert!(why("c = nonsense").is_err() && why("c =").is_err());
+}

@@ -459,6 +459,15 @@ pub const ACTIONS: &[Action] = &[
         run: Lab::begin_equation,
     },
     Action {
+        id: "number",
+        group: Group::Tool,
+        contexts: &[Context::Sheet],
+        label: words::NUMBER,
+        keys: &["Shift+N"],
+        enabled: |lab| document(lab).map(drop),
+        run: |lab| lab.wish.set(Some(Wish::Number)),
+    },
+    Action {
         id: "insert",
         group: Group::Tool,
         contexts: &[Context::Sheet],
@@ -605,7 +614,7 @@ pub const ACTIONS: &[Action] = &[
         enabled: |lab| document(lab).map(drop),
         run: |lab| {
             lab.why.set(true);
-            request_animation_frame(|| focus("#why .scroll button, #why button"));
+            request_animation_frame(|| focus("#why .scroll button"));
         },
     },
     Action {
