@@ -14,7 +14,7 @@ use std::sync::atomic::{AtomicU32, Ordering};
 use std::time::Duration;
 use std::{env, fs};
 
-use fantoccini::{Client, ClientBuilder};
+use fantoccini::{Client, ClientBuilder, Locator};
 use hyper_util::client::legacy::connect::HttpConnector;
 use serde_json::{Value, json};
 
@@ -150,6 +150,24 @@ impl Visit {
         let Some(folder) = env::var_os("THINGLAB_PICTURES") else { return };
         let image = self.client.screenshot().await.expect("the browser takes a picture");
         fs::write(PathBuf::from(folder).join(format!("{name}.png")), image).expect("it is written");
+    }
+
+    /// Takes a picture for the book, small, of the picture with what stands around it: only where `THINGLAB_BOOK` names the folder of these,
+    /// `THINGLAB_BOOK=book/pictures cargo test --package browser`.
+    ///
+    /// # Panics
+    /// Where it cannot be taken or written.
+    pub async fn book_picture(&self, name: &str) {
+        let Some(folder) = env::var_os("THINGLAB_BOOK") else { return };
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").join(folder);
+        self.client.set_window_size(1000, 760).await.expect("a small window");
+        self.script("document.querySelector('.corner button:nth-child(2)').click()").await;
+        tokio::time::sleep(Duration::from_millis(600)).await;
+        let centre = self.client.find(Locator::Css(".centre")).await.expect("the picture's panel");
+        let image = centre.screenshot().await.expect("the browser takes a picture");
+        fs::write(folder.join(format!("{name}.png")), image).expect("it is written");
+        self.client.set_window_size(1400, 900).await.expect("the window as it was");
+        tokio::time::sleep(Duration::from_millis(300)).await;
     }
 
     /// Puts a document into the gallery's copy.

@@ -187,4 +187,5 @@ async fn the_circumcircle_of_a_triangle_is_drawn_by_the_pointer_alone_in_ten_act
         (&json!(true), &json!(6))
     );
     visit.picture("circumcircle").await;
+    visit.book_picture("circumcircle").await;
 }

@@ -103,6 +103,7 @@ async fn a_quadrilateral_and_its_midpoints_are_drawn_from_nothing_and_saved() {
     assert_eq!(visit.saved("../middles.thing"), text_of(&dragged));
     // the way back is still there
     assert!(state(&visit).await["status"]["undo"].is_string());
+    visit.book_picture("quadrilateral").await;
 }
 
 #[tokio::test]

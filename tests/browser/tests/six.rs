@@ -113,6 +113,7 @@ async fn a_temperature_converter_is_built_of_calculator_parts() {
     let cold = state(&visit).await;
     assert!(near(number(&cold, "times.operand1.number"), 0.0), "{}", text_of(&cold));
     assert!(near(number(&cold, "times.operand2.number"), 1.8));
+    visit.book_picture("converter").await;
 }
 
 #[tokio::test]
@@ -195,6 +196,7 @@ async fn a_voltage_divider_is_wired_read_dragged_and_typed() {
     let typed = state(&visit).await;
     assert!(near(number(&typed, "voltmeter.voltage"), 0.5), "{}", text_of(&typed));
     assert!(near(number(&typed, "resistor2.resistance"), 50.0), "{}", text_of(&typed));
+    visit.book_picture("divider").await;
 }
 
 #[tokio::test]
@@ -260,7 +262,9 @@ async fn a_bridge_is_built_loaded_and_dragged() {
     assert!(number(&loaded, "freeJoint.at.y") > number(&unloaded, "freeJoint.at.y") + 5.0);
     assert_eq!(loaded["diagnostics"].as_array().map(Vec::len), Some(0), "{}", text_of(&loaded));
     visit.picture("bridge").await;
+    visit.book_picture("bridge").await;
     // a joint is dragged: the load is what brings it there
+    let loaded = state(&visit).await;
     let joint = grip(&loaded, "freeJoint.at");
     drag(&visit, joint, (joint.0, joint.1 - 15.0)).await;
     let dragged = state(&visit).await;
@@ -394,6 +398,7 @@ async fn a_rhombus_becomes_a_class_and_all_of_it_follow() {
     let all = state(&visit).await;
     assert_eq!(all["status"]["freedom"], 15, "{}", text_of(&all));
     assert_eq!(all["status"]["satisfied"], true);
+    visit.book_picture("rhombus").await;
 }
 
 /// Corners of a ring on an empty sheet.
@@ -499,6 +504,7 @@ async fn a_conflict_is_made_explained_and_repaired_by_the_keyboard_alone() {
     visit.until("document.querySelectorAll('.why .repair').length >= 2").await;
     visit.until("document.activeElement.closest('#why')").await;
     visit.picture("conflict").await;
+    visit.book_picture("conflict").await;
     press_by_keys(&visit, "at.matches('.repair')", key::ENTER).await;
     visit.until("window.__thinglab.state().status.satisfied").await;
 }
