@@ -131,36 +131,42 @@ impl<'a> Evaluator<'a> {
             }
             routine.may_note()
         };
-        if !may_note {
-            return ask();
-        }
-        let failed = match self.noted(&ask) {
-            Ok(noted) => {
-                let answer = T::again(&noted.outcome.form, &noted.recorder.registers);
-                let mut known = routines.known.borrow_mut();
-                if let Some(routine) = known.get_mut(asked) {
-                    let is_new = |t: &(SlotId, Arc<str>)| !routine.texts.contains(t);
-                    let texts: Vec<_> = noted.texts.into_iter().filter(is_new).collect();
-                    routine.texts.extend(texts);
-                    let Recorder { registers, notes, .. } = noted.recorder;
-                    routine.add(notes, Rc::new(noted.outcome), registers.len());
+        let mut failed = None;
+        if may_note {
+            match self.noted(&ask) {
+                Ok(noted) => {
+                    let answer = T::again(&noted.outcome.form, &noted.recorder.registers);
+                    self.keep(asked, noted);
+                    return Ok(answer);
                 }
-                return Ok(answer);
+                Err(why) => failed = Some(why),
             }
-            Err(why) => why,
-        };
+        }
         let faults = self.faults.borrow().len();
         let answer = ask();
         let is_whole = self.faults.borrow().len() <= faults
             && answer.as_ref().is_ok_and(|answer| answer.why_ended().is_none());
         if let Some(routine) = routines.known.borrow_mut().get_mut(asked) {
-            routine.noted += 1;
+            routine.is_worth_a_note = is_whole;
+            routine.noted += u32::from(failed.is_some());
             // a run that the interpreter ends early, too, says nothing of others
-            if is_whole {
-                routine.given_up = Some(failed);
+            if is_whole && failed.is_some() {
+                routine.given_up = failed;
             }
         }
         answer
+    }
+
+    /// Keeps what was noted of a run.
+    fn keep(&self, asked: &Asked, noted: Noted) {
+        let Some(routines) = &self.tables.routines else { return };
+        if let Some(routine) = routines.known.borrow_mut().get_mut(asked) {
+            let is_new = |t: &(SlotId, Arc<str>)| !routine.texts.contains(t);
+            let texts: Vec<_> = noted.texts.into_iter().filter(is_new).collect();
+            routine.texts.extend(texts);
+            let Recorder { registers, notes, .. } = noted.recorder;
+            routine.add(notes, Rc::new(noted.outcome), registers.len());
+        }
     }
 
     /// Returns true where a run that comes to this ends well from here.

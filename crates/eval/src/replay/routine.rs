@@ -95,6 +95,8 @@ pub(crate) struct Routine {
     pub(crate) texts: Vec<(SlotId, Arc<str>)>,
     /// So many registers the longest run writes.
     registers: usize,
+    /// True where the interpreter came to an end the last time.
+    pub(crate) is_worth_a_note: bool,
     /// So many runs were asked for.
     pub(crate) asked: u32,
     /// So many of them went by what was noted.
@@ -111,10 +113,10 @@ const MOST_OPS: usize = 1_000_000;
 impl Routine {
     /// Returns true where there is room for another run, and noting those before was worth while.
     pub(crate) fn may_note(&self) -> bool {
-        /// The first run alone is not worth a note; of those that follow so many are noted in any case.
+        /// So many are noted in any case; the first run alone is not worth it, nor one after a run that ended early.
         const FIRST: u32 = 4;
         self.given_up.is_none()
-            && self.asked > 1
+            && self.is_worth_a_note
             && self.noted < FIRST + self.replayed
             && self.ops.len() < MOST_OPS
     }
