@@ -70,10 +70,13 @@ pub(crate) enum Direction {
 impl Open {
     /// Opens a text.
     pub(crate) fn of(name: &str, text: String, host: &dyn Host) -> Self {
-        let (state, mut planner) = State::of(text, None, host, Plans::default());
+        Self::new(name.into(), State::of(text, None, host, Plans::default()))
+    }
+    /// Makes a document of its state.
+    pub(crate) fn new(name: String, (state, mut planner): (State, Planner)) -> Self {
         let status = state.status(&mut planner);
         Self {
-            name: name.into(),
+            name,
             state: Rc::new(state),
             planner,
             status,
@@ -94,8 +97,9 @@ impl Open {
     /// Asks something of the picture, brought up to date.
     pub(crate) fn with_picture<T>(&self, ask: impl FnOnce(&Shown) -> T) -> T {
         let mut shown = self.shown.borrow_mut();
-        let shown = shown.get_or_insert_with(|| Shown::of(&self.state, self.values()));
-        shown.renew(&self.state, self.values());
+        let shown =
+            shown.get_or_insert_with(|| Shown::of(&self.state, self.values(), &self.status));
+        shown.renew(&self.state, self.values(), &self.status);
         ask(shown)
     }
     /// From now on, the picture tells what the drag moves that was just begun.

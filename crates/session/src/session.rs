@@ -12,6 +12,7 @@ use crate::host::{Beside, Host};
 use crate::joining;
 use crate::lessons;
 use crate::offers;
+use crate::opening::Opening;
 use crate::plotting::{self, Plot, Request, Sweeping};
 use crate::recognise;
 use crate::state::State;
@@ -23,9 +24,10 @@ use crate::view::{
     DiagnosticView, DocumentId, DragState, Explanation, FamilyRow, FamilyView, FixView, Ghost,
     HeldView, LessonEntry, LessonView, MovedView, Offer, PictureView, PlotEntry, Pointer, Question,
     Recognised, Refusal, RowFormats, RowOutcome, Status, StructureRow, TableView, TextView,
-    ToolView, ValueRow,
+    TokenView, ToolView, ValueRow,
 };
 use crate::views;
+use crate::views::listing::Listing;
 use crate::words;
 use kernel::{Command, Path, Step, ThingId};
 use std::collections::BTreeSet;
@@ -65,6 +67,22 @@ impl Session {
         let id = DocumentId(self.documents.len() as u32);
         let beside = Beside::of(&*self.host, &self.documents, id);
         let open = Open::of(name, text.into(), &beside);
+        self.documents.push(open);
+        id
+    }
+    /// Begins to open a document.
+    pub fn begin_opening(&self, name: &str, text: &str) -> Opening {
+        Opening::of(name, text)
+    }
+    /// Goes on with an opening by one stage.
+    pub fn go_on_opening(&self, opening: Opening) -> Opening {
+        let id = DocumentId(self.documents.len() as u32);
+        opening.go_on(&Beside::of(&*self.host, &self.documents, id))
+    }
+    /// Ends an opening, with all that is left of it.
+    pub fn end_opening(&mut self, opening: Opening) -> DocumentId {
+        let id = DocumentId(self.documents.len() as u32);
+        let open = opening.finished(&Beside::of(&*self.host, &self.documents, id));
         self.documents.push(open);
         id
     }
@@ -500,8 +518,8 @@ impl Session {
         let open = self.document(id);
         open.with_picture(|shown| shown.view(&open.status))
     }
-    /// Brings a picture up to date that was asked for since the last command, and says what moves.
-    /// Cost: that of drawing what moved.
+    /// Brings a picture of the document up to date, or makes it anew where more than values are others, and says what
+    /// moves. Cost: that of drawing what moved.
     pub fn follow_picture(&self, id: DocumentId, view: &mut PictureView) -> MovedView {
         let open = self.document(id);
         open.with_picture(|shown| shown.follow(view, &open.status))
@@ -594,6 +612,10 @@ impl Session {
         let open = self.document(id);
         views::values::rows(&open.state, open.values(), &open.status)
     }
+    /// Begins both views, the structure and the values, which are then made while there is time.
+    pub fn begin_listing(&self, id: DocumentId) -> Listing {
+        Listing::of(self.document(id))
+    }
     /// Returns what was found while solving, at the lines that it comes from: what contradicts what, what has no
     /// value, what nothing holds. Beside what is wrong with the text.
     pub fn problems(&mut self, id: DocumentId) -> Vec<DiagnosticView> {
@@ -621,9 +643,17 @@ impl Session {
         let open = self.document(id);
         words::show_thing(&open.state, thing_at(&open.state, path)?, open.values())
     }
-    /// Returns the source with its colours and what is wrong with it.
+    /// Returns the source and what is wrong with it.
     pub fn text(&self, id: DocumentId) -> TextView {
         views::text::view(&self.document(self.home(id)).state)
+    }
+    /// Returns what the document says of itself in the `///` lines with which it begins.
+    pub fn preamble(&self, id: DocumentId) -> String {
+        views::text::preamble(&self.document(id).state)
+    }
+    /// Returns the colours of the source.
+    pub fn tokens(&self, id: DocumentId) -> Vec<TokenView> {
+        views::text::tokens(&self.document(id).state)
     }
     /// Returns what the status line says.
     pub fn status(&self, id: DocumentId) -> Status {

@@ -12,6 +12,7 @@ use lang::Lowered;
 use plan::{Model, Planner, Plans, Source, Status, Unmet};
 use solve::Level;
 use std::collections::BTreeSet;
+use std::rc::Rc;
 
 /// The code for a reference that names nothing.
 const LOST: &str = "unknown-reference";
@@ -36,6 +37,9 @@ pub(crate) struct State {
     pub(crate) gave_way: Vec<(SlotId, Value)>,
     /// What evaluators looked up of its things.
     known: Known,
+    /// The same in states of the same things that differ by edits of values alone: what is said of a thing there,
+    /// and how it is drawn, follows from its values as it did before.
+    form: Rc<()>,
 }
 
 impl State {
@@ -60,7 +64,16 @@ impl State {
     ) -> (Self, Planner) {
         let load = |name: &str| host.read(name);
         let lowered = lang::lower_written(&text, &load, &before.lowered);
-        Self::meant(text, lowered, Some(before), host, plans)
+        let (mut state, planner) = Self::meant(text, lowered, Some(before), host, plans);
+        let (now, was) = (&state.structure, &before.structure);
+        if now.has_things_of(was) && now.constraints == was.constraints {
+            state.form = before.form.clone();
+        }
+        (state, planner)
+    }
+    /// Returns true if another state differs from it by edits of values alone.
+    pub(crate) fn has_form_of(&self, other: &Self) -> bool {
+        Rc::ptr_eq(&self.form, &other.form)
     }
 
     fn meant(
@@ -70,72 +83,7 @@ impl State {
         host: &dyn Host,
         plans: Plans,
     ) -> (Self, Planner) {
-        let known = before.map(|b| (&b.lowered.document, &b.structure));
-        let (structure, mut faults) = match known {
-            Some(before) => kernel::instantiate_again(&lowered.document, before),
-            None => kernel::instantiate(&lowered.document),
-        };
-        let idle = lowered.own_classes().filter(|&c| structure.layout(c).is_none());
-        for fault in kernel::faults_of(&lowered.document, idle) {
-            if !faults.contains(&fault) {
-                faults.push(fault);
-            }
-        }
-        debug_assert_eq!(kernel::check::structure(&lowered.document, &structure), Ok(()));
-        let model = Model { document: &lowered.document, structure: &structure };
-        let (mut planner, unplanned) = Planner::new(model, plans);
-        // what is not there because its text is wrong is said of that text, and not of what speaks of it; so is a ring
-        // of messages
-        let is_wrong = lowered.diagnostics.iter().any(|d| d.severity == base::Severity::Error);
-        let is_ring = |d: &Diagnostic| d.code == plan::FaultKind::Endless.code();
-        let has_ring = lowered.diagnostics.iter().any(is_ring);
-        let follows = |f: &plan::Fault| match f.kind {
-            plan::FaultKind::WrongKind => is_wrong,
-            plan::FaultKind::Endless => has_ring,
-            plan::FaultKind::NotYet | plan::FaultKind::UnknownName | plan::FaultKind::Reference => {
-                false
-            }
-        };
-        let unplanned: Vec<plan::Fault> = unplanned.into_iter().filter(|f| !follows(f)).collect();
-        let mut given = eval::Given::of(&lowered.document, &structure);
-        let mut values = Values::new(structure.slots.len());
-        let double_roots = opened(model, &mut planner, &mut given, &mut values);
-        crate::placing::place_layout(&structure, &planner, &mut values);
-        let gave_way = gave_way(&structure, &given.values, &values);
-        let mut diagnostics = lowered.diagnostics.clone();
-        diagnostics.extend(lowered.fault_diagnostics(&faults));
-        // that a reference names nothing is said at its place, and not at all that goes through it
-        let lost = diagnostics.iter().any(|d| d.code == LOST);
-        let through = unplanned
-            .iter()
-            .map(|f| Diagnostic::error(f.kind.code(), lowered.place(f.origin), f.message.clone()))
-            .chain(given_diagnostics(&lowered, given.faults()))
-            .filter(|d| !(lost && d.code == LOST));
-        diagnostics.extend(through);
-        diagnostics.extend(ended_diagnostics(&lowered, &structure, &values));
-        crate::fixes::add_uses(&text, &mut diagnostics, host);
-        let unplanned = unplanned.iter().map(|f| f.origin).collect();
-        diagnostics.sort_by_key(|d| (d.place.file, d.place.span.start));
-        debug_assert_eq!(kernel::check::values(&structure, &values), Ok(()));
-        let mut state = Self {
-            text,
-            lowered,
-            structure,
-            values,
-            diagnostics,
-            unplanned,
-            double_roots,
-            gave_way,
-            known: Known::default(),
-        };
-        let mut warnings = crate::yielding::warnings(&state, &planner);
-        warnings.extend(crate::unlike::warnings(&state));
-        warnings.extend(state.lowered.mixed_lengths());
-        if !warnings.is_empty() {
-            state.diagnostics.extend(warnings);
-            state.diagnostics.sort_by_key(|d| (d.place.file, d.place.span.start));
-        }
-        (state, planner)
+        Structured::of(text, lowered, before).planned(plans).solved().told(host)
     }
     /// Returns true if what the document uses is still as it was read.
     pub(crate) fn is_up_to_date(&self, host: &dyn Host) -> bool {
@@ -196,6 +144,125 @@ impl State {
     /// Returns the path of the first thing of a slot, as the language writes it.
     pub(crate) fn slot_path(&self, slot: SlotId) -> kernel::Path {
         self.structure.path(&self.lowered.document, self.structure.slots[slot].thing)
+    }
+}
+
+/// The first stage of a state: what the text means, and its things.
+pub(crate) struct Structured {
+    text: String,
+    lowered: Lowered,
+    structure: Structure,
+    faults: Vec<kernel::Fault>,
+}
+
+/// The second stage: rules, components and plans.
+pub(crate) struct Planned {
+    of: Structured,
+    planner: Planner,
+    unplanned: Vec<plan::Fault>,
+}
+
+/// The third stage: the values.
+pub(crate) struct Solved {
+    of: Planned,
+    given: eval::Given,
+    values: Values,
+    double_roots: Vec<SlotId>,
+}
+
+impl Structured {
+    /// Makes the things of a text.
+    pub(crate) fn of(text: String, lowered: Lowered, before: Option<&State>) -> Self {
+        let known = before.map(|b| (&b.lowered.document, &b.structure));
+        let (structure, mut faults) = match known {
+            Some(before) => kernel::instantiate_again(&lowered.document, before),
+            None => kernel::instantiate(&lowered.document),
+        };
+        let idle = lowered.own_classes().filter(|&c| structure.layout(c).is_none());
+        for fault in kernel::faults_of(&lowered.document, idle) {
+            if !faults.contains(&fault) {
+                faults.push(fault);
+            }
+        }
+        debug_assert_eq!(kernel::check::structure(&lowered.document, &structure), Ok(()));
+        Self { text, lowered, structure, faults }
+    }
+    /// Makes their planner.
+    pub(crate) fn planned(self, plans: Plans) -> Planned {
+        let Self { lowered, structure, .. } = &self;
+        let model = Model { document: &lowered.document, structure };
+        let (planner, unplanned) = Planner::new(model, plans);
+        // what is not there because its text is wrong is said of that text, and not of what speaks of it; so is a ring
+        // of messages
+        let is_wrong = lowered.diagnostics.iter().any(|d| d.severity == base::Severity::Error);
+        let is_ring = |d: &Diagnostic| d.code == plan::FaultKind::Endless.code();
+        let has_ring = lowered.diagnostics.iter().any(is_ring);
+        let follows = |f: &plan::Fault| match f.kind {
+            plan::FaultKind::WrongKind => is_wrong,
+            plan::FaultKind::Endless => has_ring,
+            plan::FaultKind::NotYet | plan::FaultKind::UnknownName | plan::FaultKind::Reference => {
+                false
+            }
+        };
+        let unplanned: Vec<plan::Fault> = unplanned.into_iter().filter(|f| !follows(f)).collect();
+        Planned { of: self, planner, unplanned }
+    }
+}
+
+impl Planned {
+    /// Computes the values.
+    pub(crate) fn solved(mut self) -> Solved {
+        let Structured { lowered, structure, .. } = &self.of;
+        let model = Model { document: &lowered.document, structure };
+        let mut given = eval::Given::of(&lowered.document, structure);
+        let mut values = Values::new(structure.slots.len());
+        let double_roots = opened(model, &mut self.planner, &mut given, &mut values);
+        crate::placing::place_layout(structure, &self.planner, &mut values);
+        Solved { of: self, given, values, double_roots }
+    }
+}
+
+impl Solved {
+    /// Says what is wrong with it.
+    pub(crate) fn told(self, host: &dyn Host) -> (State, Planner) {
+        let Self { of: Planned { of, planner, unplanned }, given, values, double_roots } = self;
+        let Structured { text, lowered, structure, faults } = of;
+        let gave_way = gave_way(&structure, &given.values, &values);
+        let mut diagnostics = lowered.diagnostics.clone();
+        diagnostics.extend(lowered.fault_diagnostics(&faults));
+        // that a reference names nothing is said at its place, and not at all that goes through it
+        let lost = diagnostics.iter().any(|d| d.code == LOST);
+        let through = unplanned
+            .iter()
+            .map(|f| Diagnostic::error(f.kind.code(), lowered.place(f.origin), f.message.clone()))
+            .chain(given_diagnostics(&lowered, given.faults()))
+            .filter(|d| !(lost && d.code == LOST));
+        diagnostics.extend(through);
+        diagnostics.extend(ended_diagnostics(&lowered, &structure, &values));
+        crate::fixes::add_uses(&text, &mut diagnostics, host);
+        let unplanned = unplanned.iter().map(|f| f.origin).collect();
+        diagnostics.sort_by_key(|d| (d.place.file, d.place.span.start));
+        debug_assert_eq!(kernel::check::values(&structure, &values), Ok(()));
+        let mut state = State {
+            text,
+            lowered,
+            structure,
+            values,
+            diagnostics,
+            unplanned,
+            double_roots,
+            gave_way,
+            known: Known::default(),
+            form: Rc::default(),
+        };
+        let mut warnings = crate::yielding::warnings(&state, &planner);
+        warnings.extend(crate::unlike::warnings(&state));
+        warnings.extend(state.lowered.mixed_lengths());
+        if !warnings.is_empty() {
+            state.diagnostics.extend(warnings);
+            state.diagnostics.sort_by_key(|d| (d.place.file, d.place.span.start));
+        }
+        (state, planner)
     }
 }
 

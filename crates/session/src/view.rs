@@ -214,8 +214,10 @@ pub struct PictureView {
     pub freedom: Vec<Option<Freedom>>,
     /// What a pointer can grip, in the order of picking: points first.
     pub grips: Vec<Grip>,
-    /// How often it was made anew since the press of the drag that is going on.
+    /// How often it was made since the document was opened.
     pub made: u32,
+    /// How often it was brought up to date since then.
+    pub times: u32,
 }
 
 /// What of a picture moves with a drag: all that has moved since the press, and what is counted with that.
@@ -269,6 +271,8 @@ pub struct Grip {
     pub anchored: bool,
     /// Whether a program draws it: then it shows only under the pointer.
     pub drawn: bool,
+    /// Its thing's freedom.
+    pub freedom: Option<Freedom>,
 }
 
 /// A class that things can be made of.
@@ -392,8 +396,6 @@ pub struct ValueRow {
 pub struct TextView {
     /// The text.
     pub source: String,
-    /// The stretches to colour, in order.
-    pub tokens: Vec<TokenView>,
     /// What is wrong with it.
     pub diagnostics: Vec<DiagnosticView>,
 }

@@ -3,6 +3,7 @@ pub(crate) mod analysis;
 pub(crate) mod drawn;
 pub(crate) mod explain;
 pub(crate) mod held;
+pub(crate) mod listing;
 pub(crate) mod picture;
 pub(crate) mod problems;
 pub(crate) mod status;

@@ -4,20 +4,24 @@
 // opened from another one (a card clicked with Ctrl) asks those that are open for it.
 
 const KEY = "thinglab-token"
-const given = new URLSearchParams(location.hash.slice(1)).get("token")
+// a worker has the module as well, and no server
+const isPage = typeof document !== "undefined"
+const given = isPage && new URLSearchParams(location.hash.slice(1)).get("token")
 if (given) {
   sessionStorage.setItem(KEY, given)
   history.replaceState(null, "", location.pathname + location.search)
 }
 
-const tabs = new BroadcastChannel(KEY)
-tabs.onmessage = ({ data }) => {
-  const own = sessionStorage.getItem(KEY)
-  if (data === "ask" && own) tabs.postMessage({ token: own })
-  // a server that was started again has another token: tabs of the one before go on with it
-  if (data?.renewed) sessionStorage.setItem(KEY, data.renewed)
+if (isPage) {
+  const tabs = new BroadcastChannel(KEY)
+  tabs.onmessage = ({ data }) => {
+    const own = sessionStorage.getItem(KEY)
+    if (data === "ask" && own) tabs.postMessage({ token: own })
+    // a server that was started again has another token: tabs of the one before go on with it
+    if (data?.renewed) sessionStorage.setItem(KEY, data.renewed)
+  }
+  if (given) tabs.postMessage({ renewed: given })
 }
-if (given) tabs.postMessage({ renewed: given })
 
 // The token: this tab's, or that of another tab that answers within a moment.
 function token() {

@@ -23,6 +23,9 @@ export function showCrash(title, advice, reload, details) {
   button.focus()
 }
 
+// Ends the task, so that the page has its turn, and goes on.
+export const pause = () => globalThis.scheduler?.yield?.() ?? new Promise((resolve) => setTimeout(resolve))
+
 // Hands the user a file.
 export function download(name, text) {
   const link = document.createElement("a")
@@ -172,4 +175,50 @@ export function capture(element, pointer) {
   } catch {
     // A synthetic event: its moves are sent to the element anyway.
   }
+}
+
+// Whether this is the worker.
+export const isWorker = () => typeof document === "undefined"
+
+// The name of this tab among those of the address. A lock says as long as the tab lives that it does: it is let go
+// whatever ends the tab.
+const TAB = "thinglab/tab/"
+const tab = isWorker() ? "" : crypto.randomUUID()
+if (tab) navigator.locks?.request(TAB + tab, () => new Promise(() => {}))
+
+export const tabName = () => tab
+
+// The names of the tabs that live, this one among them.
+export async function liveTabs() {
+  const { held = [] } = (await navigator.locks?.query()) ?? {}
+  return held.filter(({ name }) => name.startsWith(TAB)).map(({ name }) => name.slice(TAB.length))
+}
+
+// In the worker: every job is handed on, with what tells the page an answer; no bytes are the end.
+export function serve(answer) {
+  onmessage = ({ data }) => {
+    answer(data, (bytes) => postMessage(bytes ? ["part", bytes] : ["over"]))
+  }
+}
+
+// In the page: starts a worker, which calls back with a word and what belongs to it: `ready`; `part` and bytes; `over`;
+// `failed` and why. Undefined where the browser refuses.
+export function startWorker(said) {
+  let worker
+  try {
+    worker = new Worker(new URL("worker.js", import.meta.url), { type: "module" })
+  } catch {
+    return undefined
+  }
+  worker.onmessage = ({ data }) => said(data[0], data[1])
+  worker.onerror = (event) => {
+    event.preventDefault()
+    said("failed", event.message ?? "")
+  }
+  const begin = async () => {
+    const { compiled } = await import("./bundle.js")
+    worker.postMessage(await compiled)
+  }
+  begin().catch((error) => said("failed", String(error)))
+  return { ask: (job) => worker.postMessage(job), end: () => worker.terminate() }
 }

@@ -1,9 +1,10 @@
 // Loads the bundle. What goes wrong here is said on the page, where there is no Rust yet to say it.
 
+import { compiled } from "./bundle.js"
 import init from "./web.js"
 
 try {
-  await init({ module_or_path: new URL("web_bg.wasm", import.meta.url) })
+  await init({ module_or_path: await compiled })
 } catch (error) {
   const notice = document.createElement("p")
   notice.className = "notice"

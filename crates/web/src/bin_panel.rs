@@ -143,7 +143,7 @@ fn Tile(lab: Lab, entry: BinEntry, number: usize) -> impl IntoView {
         lab.colors.changes.track();
         painter.with_value(|p| p.as_ref().map(Painter::look));
         let size = size.get();
-        let list = display_list(&picture, Part::Whole, &[], &[]);
+        let list = display_list(&picture, Part::Whole, &[]);
         let view = fit(&picture.drawing, size, 8.0);
         painter
             .with_value(|painter| {

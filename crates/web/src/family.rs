@@ -3,10 +3,11 @@
 //! In: the document, and the file with a table where a family names one. Out: edits of the document's rows, values of
 //! an example. What comes of each row is asked of the session.
 
-use crate::lab::{Lab, Notice};
+use crate::lab::{Kind, Lab, Notice, Told};
 use crate::{field, js, server, words};
 use leptos::prelude::*;
 use session::Session;
+use session::jobs::{LongAnswer, LongQuestion};
 use session::view::{
     Change, DocumentId, FamilyGrid, FamilyRow, FamilyView, Refusal, RowFormats, RowOutcome, RowUse,
 };
@@ -37,7 +38,7 @@ pub struct Family {
     /// Its rows.
     grid: Memo<FamilyGrid>,
     /// What came of them.
-    outcomes: Memo<Vec<RowOutcome>>,
+    outcomes: RwSignal<Vec<RowOutcome>>,
     /// The thing that takes values.
     thing: Memo<Option<String>>,
     /// Why something was refused.
@@ -92,6 +93,52 @@ impl Family {
     }
 }
 
+/// Where it is told what comes of rows.
+#[derive(Clone, Copy)]
+struct Drawn {
+    lab: Lab,
+    outcomes: RwSignal<Vec<RowOutcome>>,
+    refused: RwSignal<Option<String>>,
+}
+
+/// Has rows drawn; those that have come are shown with the next frame, each in the place of what came of it before.
+fn draw(family: String, rows: Vec<FamilyRow>, formats: RowFormats, drawn: Drawn) {
+    let Drawn { lab, outcomes, refused } = drawn;
+    let all = rows.len();
+    let come = StoredValue::new((0, Vec::new()));
+    let show = move || {
+        let Some((from, new)) = come.try_update_value(|(from, new): &mut (usize, Vec<_>)| {
+            let first = *from;
+            *from += new.len();
+            (first, std::mem::take(new))
+        }) else {
+            return;
+        };
+        let _ = outcomes.try_update(|outcomes| {
+            outcomes.resize_with(all, RowOutcome::default);
+            outcomes.iter_mut().skip(from).zip(new).for_each(|(old, new)| *old = new);
+        });
+    };
+    lab.ask_long(
+        Kind::Rows,
+        LongQuestion::Rows { family, rows, formats },
+        move |told| match told {
+            Told::Part(LongAnswer::Row(outcome)) => {
+                let is_first = come.try_update_value(|(_, new)| {
+                    new.push(outcome);
+                    new.len() == 1
+                });
+                if is_first == Some(true) {
+                    request_animation_frame(show);
+                }
+            }
+            Told::Part(_) | Told::Over => {}
+            Told::Stopped => drop(refused.try_set(Some(String::from(words::ROWS_STOPPED)))),
+            Told::Failed(why) => drop(refused.try_set(Some(words::job_failed(&why)))),
+        },
+    );
+}
+
 /// The families of the open document.
 #[component]
 pub fn Families(
@@ -140,18 +187,20 @@ pub fn Families(
         grid.unwrap_or_else(|| Ok(FamilyGrid::default())).map_err(|r| field::reason(&r))
     });
     let grid = Memo::new(move |_| read.get().unwrap_or_default());
-    let outcomes = Memo::new(move |_| {
+    let outcomes = RwSignal::new(Vec::new());
+    Effect::new(move |_| {
         lab.text.track();
         let formats = RowFormats { svg: shown.get() == Shown::Pictures, dxf: false };
-        grid.with(|grid| {
-            let draw = |row: &FamilyRow| {
-                let name = &grid.name;
-                lab.ask_of_shown(|s, id| s.draw_row(id, name, row, formats).ok()).flatten()
-            };
-            let rows = grid.rows.iter().take(MOST_ROWS);
-            rows.map(|row| draw(row).unwrap_or_default()).collect::<Vec<_>>()
-        })
+        let (family, rows) = grid.with(|grid| {
+            (grid.name.clone(), grid.rows.iter().take(MOST_ROWS).cloned().collect::<Vec<_>>())
+        });
+        if rows.is_empty() || shown.get() == Shown::Map {
+            outcomes.set(Vec::new());
+            return lab.forget_long(Kind::Rows);
+        }
+        draw(family, rows, formats, Drawn { lab, outcomes, refused });
     });
+    on_cleanup(move || lab.forget_long(Kind::Rows));
     let things = Memo::new(move |_| {
         lab.text.track();
         let program = grid.with(|grid| grid.program.clone());

@@ -6,7 +6,7 @@ use crate::picture::thumbnail::Thumbnail;
 use crate::server::Listed;
 use crate::{lesson, route, words};
 use leptos::prelude::*;
-use session::view::{DocumentId, TextView};
+use session::view::DocumentId;
 
 /// A document that has been read for its card.
 #[derive(Clone, PartialEq, Debug)]
@@ -78,7 +78,7 @@ fn CardView(lab: Lab, listed: Listed) -> impl IntoView {
     let (path, title) = (listed.path.clone(), listed.title.clone());
     leptos::task::spawn_local(async move {
         if let Ok(opened) = lab.load(&path).await {
-            let doc = leading_doc(&lab.ask(|session| session.text(opened.id)));
+            let doc = lab.ask(|session| session.preamble(opened.id));
             card.try_set(Some(Card {
                 id: opened.id,
                 sentence: first_sentence(&doc, &opened.title),
@@ -107,13 +107,6 @@ fn CardView(lab: Lab, listed: Listed) -> impl IntoView {
             </a>
         </li>
     }
-}
-
-/// What stands in the `///` lines with which a document begins.
-fn leading_doc(text: &TextView) -> String {
-    let docs = text.tokens.iter().take_while(|token| token.kind == "doc");
-    let lines = docs.filter_map(|t| text.source.get(t.start as usize..t.end as usize));
-    lines.map(|line| line.trim_start_matches('/').trim()).collect::<Vec<_>>().join(" ")
 }
 
 /// The first sentence of what a document says of itself, after its title.

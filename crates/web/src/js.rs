@@ -1,10 +1,10 @@
 //! What the browser's scripts do for the page: `assets/host.js` (the server), `assets/painter.js`
-//! (the canvas), `assets/page.js` (small things) and `assets/codemirror.js` (the text editor, built
-//! from `assets/editor/editor.src.js`).
+//! (the canvas), `assets/page.js` (small things), `assets/worker.js` (long jobs) and `assets/codemirror.js` (the text
+//! editor, built from `assets/editor/editor.src.js`, fetched by `assets/editor.js`).
 //!
 //! All offsets are UTF-8 byte offsets into the editor's text.
 
-use js_sys::{Array, Function, Object, Uint32Array};
+use js_sys::{Array, Function, Object, Uint8Array, Uint32Array};
 use wasm_bindgen::JsValue;
 use wasm_bindgen::prelude::wasm_bindgen;
 
@@ -14,15 +14,19 @@ extern "C" {
     pub async fn request(method: &str, path: &str, body: Option<&str>) -> Array;
 }
 
-#[wasm_bindgen(raw_module = "./codemirror.js")]
+#[wasm_bindgen(raw_module = "./editor.js")]
 extern "C" {
     /// A text editor in the page.
     #[derive(Debug, Clone)]
     pub type Editor;
 
-    /// Makes an editor inside `parent`; the options are listed in `editor.src.js`.
-    #[wasm_bindgen(js_name = createEditor)]
-    pub fn create_editor(parent: &web_sys::Element, options: &Object) -> Editor;
+    /// Makes an [`Editor`] inside `parent`; the options are listed in `editor.src.js`. Fails where its code does not
+    /// come.
+    #[wasm_bindgen(js_name = createEditor, catch)]
+    pub async fn create_editor(
+        parent: &web_sys::Element,
+        options: &Object,
+    ) -> Result<JsValue, JsValue>;
 
     /// The text as it stands.
     #[wasm_bindgen(method)]
@@ -101,6 +105,42 @@ extern "C" {
     /// Covers the page with a message after a panic.
     #[wasm_bindgen(js_name = showCrash)]
     pub fn show_crash(title: &str, advice: &str, reload: &str, details: &str);
+
+    /// Whether this is the worker, which has no page.
+    #[wasm_bindgen(js_name = isWorker)]
+    pub fn is_worker() -> bool;
+
+    /// In the worker: calls back with each job, as bytes, and a function that tells the page an answer; called without
+    /// bytes that says that there are no more.
+    pub fn serve(answer: &Function);
+
+    /// Who answers long jobs.
+    #[derive(Debug, Clone)]
+    pub type Worker;
+
+    /// Starts a [`Worker`], which calls back with a word and what belongs to it: `ready`; `part` and bytes; `over`;
+    /// `failed` and why. Undefined where the browser refuses.
+    #[wasm_bindgen(js_name = startWorker)]
+    pub fn start_worker(said: &Function) -> JsValue;
+
+    /// Hands it a job, as bytes.
+    #[wasm_bindgen(method)]
+    pub fn ask(this: &Worker, job: &Uint8Array);
+
+    /// Ends it in the midst of whatever it does.
+    #[wasm_bindgen(method)]
+    pub fn end(this: &Worker);
+
+    /// Lets the page have its turn.
+    pub async fn pause();
+
+    /// The name of this tab among those of the address.
+    #[wasm_bindgen(js_name = tabName)]
+    pub fn tab_name() -> String;
+
+    /// The names of the tabs that live, as an array.
+    #[wasm_bindgen(js_name = liveTabs)]
+    pub async fn live_tabs() -> JsValue;
 
     /// Hands the user a file.
     pub fn download(name: &str, text: &str);

@@ -19,9 +19,9 @@ use crate::theme;
 use drawing::Point;
 use leptos::prelude::*;
 use session::view::{
-    Analysis, Caught, DocumentId, DragState, Explanation, Ghost, HeldView, LessonView, MovedView,
-    PictureView, Question, Recognised, Refusal, RowKind, Status, StructureRow, TextView, ToolView,
-    ValueRow, Velocity,
+    Caught, DocumentId, DragState, Explanation, Ghost, HeldView, LessonView, MovedView,
+    PictureView, Question, Recognised, Refusal, Status, StructureRow, TextView, ToolView, ValueRow,
+    Velocity,
 };
 use session::{Clip, Path, Session};
 use std::collections::BTreeMap;
@@ -31,9 +31,12 @@ mod documents;
 mod drafts;
 mod edits;
 mod export;
+mod jobs;
 mod prototype;
+mod views;
 
-pub use drafts::Draft;
+pub use drafts::{Draft, Offered};
+pub use jobs::{Jobs, Kind, Told};
 pub use prototype::Shown;
 
 /// An open document.
@@ -84,6 +87,7 @@ pub struct Lab {
     opened: StoredValue<BTreeMap<String, Opened>>,
     pending_text: StoredValue<Option<String>>,
     typing: StoredValue<u32>,
+    listing: StoredValue<views::Rows, LocalStorage>,
     /// The path of the document that is shown; none in the gallery.
     pub current: RwSignal<Option<String>>,
     /// The shown document, as of the last command.
@@ -147,7 +151,9 @@ pub struct Lab {
     /// What stands on disk instead, after a save was refused for it.
     pub conflict: RwSignal<Option<Option<Stored>>>,
     /// Unsaved text of an earlier visit.
-    pub draft: RwSignal<Option<Draft>>,
+    pub draft: RwSignal<Option<Offered>>,
+    /// Whether the browser has refused to keep the latest draft.
+    is_unkept: StoredValue<bool>,
     /// Whether the explanation panel is open.
     pub why: RwSignal<bool>,
     /// Whether the palette of actions is open.
@@ -170,6 +176,8 @@ pub struct Lab {
     pub sums: RwSignal<Vec<String>>,
     /// What is plotted.
     pub plotting: Plotting,
+    /// The questions that take long.
+    pub jobs: Jobs,
     /// What of drafting there is.
     pub drafting: Drafting,
     /// What the left drawer shows.
@@ -272,6 +280,7 @@ impl Lab {
             opened: StoredValue::new(BTreeMap::new()),
             pending_text: StoredValue::new(None),
             typing: StoredValue::new(0),
+            listing: StoredValue::new_local(views::Rows::default()),
             current: RwSignal::new(None),
             document: RwSignal::new(None),
             structure,
@@ -304,6 +313,7 @@ impl Lab {
             listed: RwSignal::new(Vec::new()),
             conflict: RwSignal::new(None),
             draft: RwSignal::new(None),
+            is_unkept: StoredValue::new(false),
             why: RwSignal::new(false),
             palette: RwSignal::new(false),
             tool: RwSignal::new(None),
@@ -315,6 +325,7 @@ impl Lab {
             player: Player::default(),
             sums: RwSignal::new(Vec::new()),
             plotting: Plotting::default(),
+            jobs: Jobs::default(),
             drafting: Drafting::default(),
             drawer: RwSignal::new(Drawer::Structure),
             editing: RwSignal::new(None),
@@ -363,11 +374,6 @@ impl Lab {
         Some(self.ask(|session| session.explain(id, about)))
     }
 
-    /// What is free, superfluous and contradictory in the shown document.
-    pub fn analysis(self) -> Analysis {
-        self.tell(Session::analysis).unwrap_or_default()
-    }
-
     /// Why a thing does not move; nothing where it can.
     pub fn held(self, about: &Path) -> Option<HeldView> {
         self.tell(|session, id| session.held(id, about)).flatten()
@@ -382,70 +388,6 @@ impl Lab {
     /// Shows a sentence as a refusal.
     pub fn say_refused(self, message: String) {
         self.notice.set(Some(Notice::Refused(Refusal { message, ..Refusal::default() })));
-    }
-
-    /// Makes the views that a drag changes, as far as they are in the page.
-    fn repaint(self) {
-        let Some(id) = self.id() else { return };
-        let followed = self
-            .picture
-            .try_update_untracked(|view| self.ask(|session| session.follow_picture(id, view)));
-        self.set_moved(followed.unwrap_or(MovedView::Everything));
-        self.picture.notify();
-        let dragged = self.structure.with_untracked(|rows| {
-            let shown = self.shown_things.get_value();
-            self.ask(|session| {
-                let part = |at: &usize| rows.get(*at).filter(|row| row.kind == RowKind::Part);
-                let value =
-                    |row: &StructureRow| session.shown_value(id, &session::parse_path(&row.path)?);
-                let of = |at: usize| Some((at, part(&at).and_then(value)?));
-                shown.into_iter().filter_map(of).collect()
-            })
-        });
-        self.dragged_values.set(dragged);
-        let mut shown = self.shown_values.get_value();
-        shown.extend(self.inspected_values.get_value());
-        shown.sort_unstable();
-        shown.dedup();
-        self.values.update(|rows| {
-            let mut shown = shown.iter().peekable();
-            let rows = rows.iter_mut().enumerate();
-            let rows = rows.filter(|(at, _)| shown.next_if(|next| *next == at).is_some());
-            self.ask(|session| session.renew_values(id, rows.map(|(_, row)| row)));
-        });
-    }
-
-    fn set_moved(self, moved: MovedView) {
-        if self.moved.with_untracked(|before| *before != moved) {
-            self.moved.set(moved);
-        }
-    }
-
-    /// Makes all views.
-    fn refresh(self) {
-        let Some(id) = self.id() else { return };
-        let (picture, values) = self.ask(|session| (session.picture(id), session.values(id)));
-        self.set_moved(MovedView::Everything);
-        // which way the sheet counts y may have been said just now
-        if picture.drawing.vertical != self.view.with_untracked(|view| view.vertical) {
-            self.zoom.set(Some(Zoom::Fit));
-        }
-        self.picture.set(picture);
-        self.values.set(values);
-        self.value_rows.update(|n| *n += 1);
-        let (structure, text, status, title) = self.ask(|session| {
-            (session.structure(id), session.text(id), session.status(id), session.title(id))
-        });
-        self.structure.set(structure);
-        self.dragged_values.update(BTreeMap::clear);
-        self.status.set(status);
-        self.update_document(|document| {
-            document.dirty = document.saved != text.source;
-            document.title = title;
-        });
-        self.keep_draft(&text.source);
-        self.text.set(text);
-        self.follow_lesson();
     }
 
     /// Shows or hides the grid, and remembers it.
@@ -540,5 +482,5 @@ pub fn first_path(rows: &[StructureRow], path: String) -> String {
 
 /// The text view of no document.
 fn no_text() -> TextView {
-    TextView { source: String::new(), tokens: Vec::new(), diagnostics: Vec::new() }
+    TextView { source: String::new(), diagnostics: Vec::new() }
 }

@@ -54,9 +54,15 @@ pub mod theme;
 pub mod values;
 pub mod why;
 pub mod words;
+pub mod worker;
 
-/// Puts the page into the document's body; called once, when the bundle has loaded.
+/// Puts the page into the document's body; called once, when the bundle has loaded. In the worker there is none.
 pub fn start() {
+    if js::is_worker() {
+        console_error_panic_hook::set_once();
+        worker::start();
+        return;
+    }
     std::panic::set_hook(Box::new(|info| {
         console_error_panic_hook::hook(info);
         js::show_crash(words::CRASH, words::CRASH_ADVICE, words::RELOAD, &info.to_string());

@@ -130,14 +130,9 @@ const ARROW: f64 = 44.0;
 /// The radius of a point, in pixels.
 const POINT: f64 = 4.75;
 
-/// Returns the list for a part of a picture. `freedom` is that of its grips, which are painted as points where
-/// the picture itself has none; `marks` are those of its tags and then of its grips.
-pub fn display_list(
-    picture: &PictureView,
-    part: Part<'_>,
-    freedom: &[Option<Freedom>],
-    marks: &[Mark],
-) -> DisplayList {
+/// Returns the list for a part of a picture. Grips are painted as points where the picture itself has none; `marks`
+/// are those of its tags and then of its grips.
+pub fn display_list(picture: &PictureView, part: Part<'_>, marks: &[Mark]) -> DisplayList {
     let mut list = DisplayList::default();
     let all = &picture.drawing.elements;
     let own: Vec<&Element> = part.elements(picture).into_iter().map(|at| &all[at]).collect();
@@ -165,8 +160,7 @@ pub fn display_list(
         if grip.drawn && marks.get(picture.paths.len() + at).is_none_or(|m| *m == Mark::None) {
             continue;
         }
-        let freedom = freedom.get(at).copied().flatten();
-        dot(&mut list, Point { x: grip.x, y: grip.y }, freedom, grip.anchored);
+        dot(&mut list, Point { x: grip.x, y: grip.y }, grip.freedom, grip.anchored);
     }
     paint_elements(&mut list, picture, &anchored, words);
     list
@@ -623,7 +617,7 @@ mod tests {
         let elements = [1.0, 2.0, 3.0].map(|x| element(segment(x), Layer::Lines, Style::default()));
         let picture = picture(elements.to_vec(), None);
         let moved = MovedView::These { elements: vec![1], grips: Vec::new() };
-        let numbers = |part| display_list(&picture, part, &[], &[]).numbers;
+        let numbers = |part| display_list(&picture, part, &[]).numbers;
         let style = [1.0, 0.0, -1.0, 0.0, 1.75, 0.0];
         let line = |x: f64| [2.0, x, 0.0, x, 1.0];
         assert_eq!(numbers(Part::Moving(&moved)), [&style[..], &line(2.0)].concat());
@@ -636,7 +630,7 @@ mod tests {
     #[test]
     fn an_empty_picture_is_an_empty_list() {
         assert_eq!(
-            display_list(&PictureView::default(), Part::Whole, &[], &[]),
+            display_list(&PictureView::default(), Part::Whole, &[]),
             super::DisplayList::default()
         );
     }
@@ -660,7 +654,7 @@ mod tests {
             element(segment(2.0), Layer::Lines, faint),
             element(segment(3.0), Layer::Lines, Style::default()),
         ];
-        let list = display_list(&picture(elements, None), Part::Whole, &[], &[]);
+        let list = display_list(&picture(elements, None), Part::Whole, &[]);
         assert_eq!(
             list.numbers,
             [
@@ -682,7 +676,7 @@ mod tests {
             element(segment(2.0), Layer::Lines, filled),
             element(segment(3.0), Layer::Lines, Style::default()),
         ];
-        let list = display_list(&picture(elements, None), Part::Whole, &[], &[]);
+        let list = display_list(&picture(elements, None), Part::Whole, &[]);
         let order: Vec<f64> = list
             .numbers
             .windows(5)
@@ -696,38 +690,33 @@ mod tests {
     #[test]
     fn a_point_in_conflict_is_a_red_cross_and_a_free_one_a_blue_disc() {
         let dots = || vec![element(Shape::Dot(Point::default()), Layer::Points, Style::default())];
-        let free =
-            display_list(&picture(dots(), Some(Freedom::Free)), Part::Whole, &[], &[]).numbers;
+        let free = display_list(&picture(dots(), Some(Freedom::Free)), Part::Whole, &[]).numbers;
         assert_eq!((free[2], free[6], free[7]), (4.0, 5.0, 0.0));
         let wrong =
-            display_list(&picture(dots(), Some(Freedom::Conflicting)), Part::Whole, &[], &[])
-                .numbers;
+            display_list(&picture(dots(), Some(Freedom::Conflicting)), Part::Whole, &[]).numbers;
         assert_eq!((wrong[12], wrong[18]), (6.0, 2.0));
     }
 
     #[test]
     fn a_grip_without_a_point_of_its_own_is_painted_as_one() {
-        let grip = Grip { path: String::from("p"), x: 3.0, y: 4.0, ..Grip::default() };
+        let freedom = Some(Freedom::Free);
+        let grip = Grip { path: String::from("p"), x: 3.0, y: 4.0, freedom, ..Grip::default() };
         let lines = vec![element(segment(1.0), Layer::Lines, Style::default())];
         let bare = PictureView { grips: vec![grip.clone()], ..picture(lines, None) };
-        let list = display_list(&bare, Part::Whole, &[Some(Freedom::Free)], &[]).numbers;
+        let list = display_list(&bare, Part::Whole, &[]).numbers;
         assert_eq!(list[list.len() - 5..], [5.0, 0.0, 3.0, 4.0, super::POINT]);
         let dots = vec![element(Shape::Dot(Point::default()), Layer::Points, Style::default())];
         let plain = picture(dots, Some(Freedom::Free));
         let dotted = PictureView { grips: vec![grip], ..plain.clone() };
-        assert_eq!(
-            display_list(&dotted, Part::Whole, &[], &[]),
-            display_list(&plain, Part::Whole, &[], &[])
-        );
+        assert_eq!(display_list(&dotted, Part::Whole, &[]), display_list(&plain, Part::Whole, &[]));
     }
 
     #[test]
     fn what_is_selected_has_a_halo_behind_it() {
         let elements = vec![element(segment(1.0), Layer::Lines, Style::default())];
         let plain =
-            display_list(&picture(elements.clone(), None), Part::Whole, &[], &[Mark::None]).numbers;
-        let marked =
-            display_list(&picture(elements, None), Part::Whole, &[], &[Mark::Selected]).numbers;
+            display_list(&picture(elements.clone(), None), Part::Whole, &[Mark::None]).numbers;
+        let marked = display_list(&picture(elements, None), Part::Whole, &[Mark::Selected]).numbers;
         assert_eq!(&marked[..2], &[1.0, 8.0]);
         assert_eq!(&marked[marked.len() - plain.len()..], plain);
     }

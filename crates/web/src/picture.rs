@@ -16,8 +16,7 @@ use js_sys::Array;
 use leptos::ev::{KeyboardEvent, MouseEvent, PointerEvent, WheelEvent};
 use leptos::html::Canvas;
 use leptos::prelude::*;
-use session::view::{Caught, Freedom, Grip, MovedView, PictureView, StructureRow};
-use std::collections::BTreeMap;
+use session::view::{Caught, Grip, MovedView, PictureView};
 use std::sync::Arc;
 use wasm_bindgen::closure::Closure;
 use wasm_bindgen::{JsCast, JsValue};
@@ -143,19 +142,15 @@ type Lists = (Memo<Option<Arc<DisplayList>>>, Memo<DisplayList>);
 
 fn lists(lab: Lab) -> Lists {
     let marked = lab.marked;
-    let states = Memo::new(move |_| lab.structure.with(|rows| states(rows)));
     // what a drag leaves as it is
     let form = Memo::new(move |_| lab.picture.with(|p| (p.made, p.paths.len(), p.grips.len())));
-    let freedom = Memo::new(move |_| {
-        form.track();
-        states.with(|states| lab.picture.with_untracked(|p| grip_freedom(p, states)))
-    });
     let marks = Memo::new(move |_| {
         form.track();
         marked.with(|marked| lab.picture.with_untracked(|picture| marks(picture, marked)))
     });
     let listed = move |picture: &PictureView, part: Part<'_>| {
-        freedom.with(|freedom| marks.with(|marks| display_list(picture, part, freedom, marks)))
+        form.track();
+        marks.with(|marks| display_list(picture, part, marks))
     };
     let still = Memo::new(move |_| {
         lab.moved.with(|moved| {
@@ -351,16 +346,6 @@ fn marks(picture: &PictureView, marked: &Marked) -> Vec<Mark> {
     picture.paths.iter().chain(picture.grips.iter().map(|grip| &grip.path)).map(mark).collect()
 }
 
-/// The freedom of every thing that has one, by its path.
-fn states(rows: &[StructureRow]) -> BTreeMap<String, Freedom> {
-    rows.iter().filter_map(|row| Some((row.path.clone(), row.freedom?))).collect()
-}
-
-/// The freedom of a picture's grips, in their order.
-fn grip_freedom(picture: &PictureView, states: &BTreeMap<String, Freedom>) -> Vec<Option<Freedom>> {
-    picture.grips.iter().map(|grip| states.get(&grip.path).copied()).collect()
-}
-
 /// Says of the selected point where it is and how free.
 fn described(lab: Lab, selected: Option<String>) -> String {
     let Some(selected) = selected else { return String::new() };
@@ -368,10 +353,7 @@ fn described(lab: Lab, selected: Option<String>) -> String {
         let Some(grip) = picture.grips.iter().find(|grip| grip.path == selected) else {
             return selected;
         };
-        let freedom = lab
-            .structure
-            .with(|rows| rows.iter().find(|row| row.path == grip.path).and_then(|row| row.freedom));
-        words::point_at(&grip.path, grip.x, grip.y, freedom.map(words::freedom))
+        words::point_at(&grip.path, grip.x, grip.y, grip.freedom.map(words::freedom))
     })
 }
 

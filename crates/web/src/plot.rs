@@ -217,6 +217,7 @@ impl Lab {
 
     /// Sweeps a value through a range around where it is now.
     fn sweep(self, path: &str) {
+        self.list();
         let range = self.values.with_untracked(|rows| {
             let row = rows.iter().find(|row| row.path == path || row.shortest == path)?;
             let number = row.exact.parse::<f64>().ok()?;

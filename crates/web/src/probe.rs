@@ -22,6 +22,7 @@ fn object(fields: &[(&str, JsValue)]) -> JsValue {
 }
 
 fn state(lab: Lab) -> String {
+    lab.list();
     let document = lab.document.get_untracked();
     let text = |t: &str| JsValue::from(t);
     let values: Array = lab.values.with_untracked(|rows| {

@@ -7,6 +7,7 @@ use crate::{icons, js, keyboard, words};
 use leptos::prelude::*;
 use session::view::{Choice, Question, Recognised, Refusal};
 use session::{Command, Path};
+use std::time::Duration;
 
 /// The line at the bottom: whether all holds, how free things are, and what was just said.
 #[component]
@@ -67,8 +68,50 @@ pub fn StatusLine(
                 <span role="status" aria-label=words::STATUS>{sentence}</span>
             </button>
             <NowPlaying lab=lab />
+            <Busy lab=lab />
             <span class="said" aria-live="polite" title=heard>{heard}</span>
         </footer>
+    }
+}
+
+/// What goes on, how far it is, and a button that stops it; shown only where it takes a while.
+#[component]
+fn Busy(
+    /// The lab.
+    lab: Lab,
+) -> impl IntoView {
+    /// So long nobody has to be told.
+    const UNSEEN: Duration = Duration::from_millis(300);
+    let begun = Memo::new(move |_| lab.jobs.going.get().map(|going| going.begun));
+    let seen = RwSignal::new(None::<f64>);
+    Effect::new(move |_| {
+        if let Some(now) = begun.get() {
+            set_timeout(
+                move || {
+                    seen.try_set(Some(now));
+                },
+                UNSEEN,
+            );
+        }
+    });
+    let shown = Memo::new(move |_| begun.get().is_some() && begun.get() == seen.get());
+    let all = Memo::new(move |_| lab.jobs.going.get().map_or(1, |going| going.all));
+    let done = move || lab.jobs.going.get().map_or(0, |going| going.done).to_string();
+    let said = move || lab.jobs.going.get().map(|going| words::job(going.kind));
+    view! {
+        <Show when=move || shown.get()>
+            <span class="busy">
+                // without a value it only says that something goes on
+                {move || match all.get() {
+                    1 => view! { <progress aria-label=said></progress> }.into_any(),
+                    all => view! { <progress aria-label=said max=all.to_string() value=done></progress> }.into_any(),
+                }}
+                <span>{said}</span>
+                <button class="bare" title="Esc" on:click=move |_| { lab.stop_job(); }>
+                    {icons::stop()} {words::STOP_JOB}
+                </button>
+            </span>
+        </Show>
     }
 }
 

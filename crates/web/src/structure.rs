@@ -33,8 +33,8 @@ pub fn speaks_of(rule: &str, path: &str) -> bool {
 #[derive(Clone, Copy, Debug)]
 struct Tree {
     lab: Lab,
-    /// Rows above this depth are open unless they are toggled.
-    open_depth: u32,
+    /// Rows above this depth are open unless they are toggled; 0 before there are any.
+    open_depth: Memo<u32>,
     toggled: RwSignal<BTreeSet<String>>,
     current: RwSignal<usize>,
     editing: RwSignal<Option<usize>>,
@@ -47,11 +47,14 @@ struct Tree {
 
 impl Tree {
     fn new(lab: Lab) -> Self {
-        let open_depth = lab.structure.with_untracked(|rows| first_depth(rows));
+        let open_depth = Memo::new(move |known: Option<&u32>| match known {
+            Some(&depth) if depth > 0 => depth,
+            _ => lab.structure.with(|rows| if rows.is_empty() { 0 } else { first_depth(rows) }),
+        });
         let toggled = RwSignal::new(BTreeSet::new());
         let visible = Memo::new(move |_| {
-            let is_open =
-                |row: &StructureRow| toggled.with(|toggled| is_open(row, open_depth, toggled));
+            let depth = open_depth.get();
+            let is_open = |row: &StructureRow| toggled.with(|toggled| is_open(row, depth, toggled));
             lab.structure.with(|rows| shown(rows, is_open))
         });
         Self {
@@ -67,7 +70,7 @@ impl Tree {
     }
 
     fn is_open(self, row: &StructureRow) -> bool {
-        self.toggled.with(|toggled| is_open(row, self.open_depth, toggled))
+        self.toggled.with(|toggled| is_open(row, self.open_depth.get(), toggled))
     }
 
     /// The height of a row, in pixels; nothing before there are any.

@@ -8,8 +8,8 @@ use js_sys::{Array, Object, Uint32Array};
 use leptos::ev::KeyboardEvent;
 use leptos::html::{Div, Pre};
 use leptos::prelude::*;
-use session::Command;
 use session::view::{DeclaredView, DiagnosticView, StructureRow, TextView, WordView};
+use session::{Command, Session};
 use wasm_bindgen::closure::Closure;
 use wasm_bindgen::{JsCast, JsValue};
 
@@ -26,12 +26,25 @@ pub fn Text(
     let place = NodeRef::<Div>::new();
     let editor = StoredValue::new_local(None::<Editor>);
     let peek = RwSignal::new(None::<DeclaredView>);
+    let made = Trigger::new();
+    let fetching = RwSignal::new(Ok::<bool, ()>(true));
     Effect::new(move |_| {
-        if let Some(parent) = place.get() {
-            let options = options(lab);
-            ask_by_keys(lab, editor, peek, &options);
-            editor.set_value(Some(js::create_editor(&parent, &options)));
-        }
+        let Some(parent) = place.get() else { return };
+        let options = options(lab);
+        ask_by_keys(lab, editor, peek, &options);
+        leptos::task::spawn_local(async move {
+            let new = js::create_editor(&parent, &options).await;
+            fetching.try_set(new.as_ref().map(|_| false).map_err(|_| ()));
+            let Ok(new) = new.map(JsCast::unchecked_into::<Editor>) else { return };
+            match editor.try_set_value(Some(new.clone())) {
+                None => made.notify(),
+                // the panel was shut meanwhile
+                Some(_) => return new.destroy(),
+            }
+            if document().active_element().as_ref() == Some(parent.unchecked_ref()) {
+                new.focus();
+            }
+        });
     });
     // Marks are offsets into the text that is shown, so they come after it.
     let shown = Trigger::new();
@@ -40,10 +53,11 @@ pub fn Text(
         editor.with_value(|editor| editor.as_ref().map(Editor::destroy)).unwrap_or_default();
     });
     Effect::new(move |_| {
+        made.track();
         lab.text.with(|text| {
             // What is being typed is newer than what the session knows.
             if !lab.is_typing() {
-                editor.with_value(|editor| editor.as_ref().map(|editor| show(editor, text)));
+                editor.with_value(|editor| editor.as_ref().map(|editor| show(lab, editor, text)));
             }
         });
         shown.notify();
@@ -51,7 +65,7 @@ pub fn Text(
     Effect::new(move |_| {
         shown.track();
         let (selected, hovered) = (lab.selected.get(), lab.hovered.get());
-        lab.structure.with_untracked(|rows| {
+        lab.structure.with(|rows| {
             let selected = selected.and_then(|path| span_of(rows, &path));
             let hovered = hovered.and_then(|path| span_of(rows, &path));
             editor.with_value(|editor| {
@@ -66,7 +80,12 @@ pub fn Text(
                 <h2>{words::TEXT}</h2>
                 <span class="quiet">{move || lab.current.get()}</span>
             </header>
-            <div class="editor" id="editor" node_ref=place></div>
+            {move || match fetching.get() {
+                Ok(true) => Some(words::EDITOR_COMES),
+                Ok(false) => None,
+                Err(()) => Some(words::EDITOR_FAILED),
+            }.map(|words| view! { <p class="quiet" role="status">{words}</p> })}
+            <div class="editor" id="editor" tabindex="-1" node_ref=place></div>
             {move || peek.get().map(|declared| view! { <Peek declared=declared peek=peek editor=editor /> })}
             <Show when=move || diagnostics.with(|list| !list.is_empty())>
                 <ul class="problems" aria-label=words::PROBLEMS>
@@ -242,6 +261,7 @@ fn options(lab: Lab) -> Object {
     let changed = Closure::<dyn FnMut(String)>::new(move |text| lab.typed_text(text));
     set("onChange", changed.into_js_value());
     let cursor = Closure::<dyn FnMut(u32)>::new(move |offset| {
+        lab.list();
         if let Some(path) = lab.structure.with_untracked(|rows| path_at(rows, offset)) {
             lab.select(Some(path));
         }
@@ -279,11 +299,11 @@ fn options(lab: Lab) -> Object {
 }
 
 /// Shows a text with its colours and what is wrong with it.
-fn show(editor: &Editor, text: &TextView) {
+fn show(lab: Lab, editor: &Editor, text: &TextView) {
     editor.set_text(&text.source);
+    let tokens = lab.ask_of_shown(Session::tokens).unwrap_or_default();
     let number = |kind: &str| KINDS.iter().position(|k| *k == kind).unwrap_or(2) as u32;
-    let spans: Vec<u32> =
-        text.tokens.iter().flat_map(|t| [t.start, t.end, number(&t.kind)]).collect();
+    let spans: Vec<u32> = tokens.iter().flat_map(|t| [t.start, t.end, number(&t.kind)]).collect();
     let classes: Array = KINDS.iter().map(|kind| JsValue::from(format!("tok-{kind}"))).collect();
     editor.set_tokens(&Uint32Array::from(&spans[..]), &classes);
     let own = (0_u32..).zip(&text.diagnostics).filter(|(_, d)| d.file.is_empty());

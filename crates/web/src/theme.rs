@@ -71,6 +71,13 @@ pub fn keep(name: &str) -> Option<String> {
     window().local_storage().ok()??.get_item(name).ok()?
 }
 
+/// The names under which something is kept.
+pub fn names() -> Vec<String> {
+    let Ok(Some(storage)) = window().local_storage() else { return Vec::new() };
+    let names = (0..storage.length().unwrap_or(0)).map(|at| storage.key(at));
+    names.filter_map(|name| name.ok().flatten()).collect()
+}
+
 /// Keeps a text under a name, or nothing any more; returns false where the browser keeps nothing.
 pub fn put(name: &str, text: Option<&str>) -> bool {
     let Ok(Some(storage)) = window().local_storage() else { return false };

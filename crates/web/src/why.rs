@@ -1,10 +1,11 @@
 //! The panel that says why: what does not hold, what is free, superfluous or contradictory, and how the
 //! values come about.
 
-use crate::lab::Lab;
+use crate::lab::{Kind, Lab, Told};
 use crate::picture::covers;
 use crate::{icons, words};
 use leptos::prelude::*;
+use session::jobs::{LongAnswer, LongQuestion};
 use session::view::{
     Advice, Analysis, Choice, ContradictionView, ExplainedStep, Ghost, HeldView, MotionView,
     RedundantView, Unmet, Velocity,
@@ -31,6 +32,15 @@ fn PathButton(lab: Lab, path: String) -> impl IntoView {
     }
 }
 
+/// How far the analysis is.
+#[derive(Clone, PartialEq, Debug)]
+enum Looking {
+    On,
+    Done,
+    /// Before its end, and why.
+    Ended(String),
+}
+
 /// The panel that says what does not hold, what is free or superfluous and how the values come about.
 #[component]
 pub fn Why(
@@ -50,9 +60,27 @@ pub fn Why(
         lab.status.track();
         about.with(|about| about.as_ref().map(|path| lab.elsewhere(path))).unwrap_or_default()
     });
-    let analysis = Memo::new(move |_| {
+    let (analysis, state) = (RwSignal::new(Analysis::default()), RwSignal::new(Looking::On));
+    let analyse = move || {
+        // what was found before stands until it is looked up anew
+        if state.with_untracked(|state| *state != Looking::Done) {
+            state.set(Looking::On);
+        }
+        lab.ask_long(Kind::Analysis, LongQuestion::Analysis, move |told| match told {
+            Told::Part(LongAnswer::Analysis(found)) => {
+                analysis.try_set(found);
+                state.try_set(Looking::Done);
+            }
+            Told::Part(_) | Told::Over => {}
+            Told::Stopped => {
+                drop(state.try_set(Looking::Ended(String::from(words::ANALYSIS_STOPPED))))
+            }
+            Told::Failed(why) => drop(state.try_set(Looking::Ended(words::job_failed(&why)))),
+        });
+    };
+    Effect::new(move |_| {
         lab.status.track();
-        lab.analysis()
+        analyse();
     });
     let unmet = Memo::new(move |_| lab.status.with(|status| status.unmet.clone()));
     let steps = Memo::new(move |_| explanation.with(|e| e.steps.clone()));
@@ -61,6 +89,7 @@ pub fn Why(
     };
     Effect::new(move |_| show_all());
     on_cleanup(move || {
+        lab.forget_long(Kind::Analysis);
         lab.motion.set(Vec::new());
         lab.ghosts.set(Vec::new());
     });
@@ -89,6 +118,13 @@ pub fn Why(
                         {elsewhere.get().into_iter().map(|g| view! { <Elsewhere lab=lab ghost=g /> }).collect_view()}
                     </ul>
                 })}
+                {move || match state.get() {
+                    Looking::On => view! { <p class="quiet">{words::ANALYSING}</p> }.into_any(),
+                    Looking::Done => ().into_any(),
+                    Looking::Ended(why) => view! {
+                        <p>{why}" "<button on:click=move |_| analyse()>{words::ANALYSE_AGAIN}</button></p>
+                    }.into_any(),
+                }}
                 {move || view! { <Analysed lab=lab analysis=analysis.get() about=lab.selected.get() /> }}
                 {move || (!steps.with(Vec::is_empty)).then(|| view! {
                     <h3>{words::STEPS}</h3>

@@ -5,8 +5,10 @@
 
 mod drafting;
 mod family;
+mod jobs;
 pub use drafting::*;
 pub use family::*;
+pub use jobs::*;
 
 pub const LAB: &str = "ThingLab";
 pub const GALLERY: &str = "Gallery";
@@ -15,6 +17,9 @@ pub const YOUR_DOCUMENTS: &str = "In this folder";
 pub const DOCUMENTS_BELOW: &str = "In folders below it";
 pub const NO_DOCUMENTS: &str = "There are no documents here yet.";
 pub const LOADING: &str = "Loading";
+pub const EDITOR_COMES: &str = "The editor is being fetched";
+pub const EDITOR_FAILED: &str =
+    "The editor could not be fetched: start the server again, then open the text once more";
 pub const SKIP: &str = "Skip to the picture";
 pub const NO_SERVER: &str = "the server does not answer; what you change is kept in this browser";
 pub const NOT_SAVED: &str = "not saved yet";
@@ -230,6 +235,7 @@ pub const CLOSE: &str = "Close";
 pub const SWEEP_STOPPED: &str = "the sweep was stopped; the plot shows how far it had come";
 pub const RESTORE: &str = "Restore";
 pub const DISCARD: &str = "Discard";
+pub const DRAFT_NOT_KEPT: &str = "The browser has no room for what is unsaved: save it soon";
 pub const DRAFT_FOUND: &str = "There are unsaved changes of yours from an earlier visit.";
 pub const CONFLICT: &str = "The file has changed on disk since it was opened.";
 pub const CONFLICT_GONE: &str = "The file has been removed from disk since it was opened.";

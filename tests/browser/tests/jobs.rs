@@ -2,7 +2,7 @@
 //! first minute.
 
 use browser::Visit;
-use browser::hands::{show, state};
+use browser::hands::{drag, grip, show, state};
 
 #[tokio::test]
 async fn a_conflict_is_explained_and_repaired_by_a_button() {
@@ -16,6 +16,40 @@ async fn a_conflict_is_explained_and_repaired_by_a_button() {
     visit.until("window.__thinglab.state().status.satisfied").await;
     visit.script("document.querySelector('[data-action=undo]').click()").await;
     visit.until("!window.__thinglab.state().status.satisfied").await;
+
+    // what takes long goes on beside the page: a point is dragged meanwhile, and Escape ends it
+    visit.put("lattice.thing", &lattice(30));
+    let before = show(&visit, "lattice.thing").await;
+    visit.until("document.querySelector('.status .busy')").await;
+    let from = grip(&before, "apart");
+    drag(&visit, from, (from.0 + 30.0, from.1 + 10.0)).await;
+    visit.until("window.__thinglab.state().status.undo === 'move apart'").await;
+    visit.until("document.querySelector('.status .busy')").await;
+    visit.script("document.dispatchEvent(new KeyboardEvent('keydown', { key: 'Escape', bubbles: true }))").await;
+    visit.until("!document.querySelector('.status .busy')").await;
+    visit
+        .until("document.querySelector('#why').innerText.includes('not looked up to the end')")
+        .await;
+}
+
+/// A lattice of so many points a side, of which one diagonal is wanted longer than it can be, and a point apart.
+fn lattice(side: usize) -> String {
+    let mut text = String::from("use geometry\napart: Point = (-30, -30)\n");
+    for (i, j) in (0..side * side).map(|at| (at / side, at % side)) {
+        text += &format!("p{i}_{j}: Point = ({}, {})\n", 10 * i, 10 * j);
+        if i > 0 {
+            text += &format!("constraint p{i}_{j}.x - p{}_{j}.x = 10\n", i - 1);
+        }
+        if j > 0 {
+            text += &format!("constraint p{i}_{j}.y - p{i}_{}.y = 10\n", j - 1);
+        }
+        if i > 0 && j > 0 {
+            let (a, b) = (format!("p{i}_{j}"), format!("p{}_{}", i - 1, j - 1));
+            let square = if (i, j) == (2, 2) { 207 } else { 200 };
+            text += &format!("constraint ({a}.x - {b}.x)^2 + ({a}.y - {b}.y)^2 = {square}\n");
+        }
+    }
+    text
 }
 
 #[tokio::test]

@@ -114,7 +114,13 @@ async fn what_was_seen_outlives_a_killed_server_and_a_closed_page() {
     let new = visit.client.new_window(true).await.expect("another tab");
     visit.client.switch_to_window(new.handle).await.expect("it is there");
     visit.client.goto(&visit.address).await.expect("the page's address answers");
-    visit.until("document.querySelector('main')").await;
+    // what the tab that lives has not saved is its own: it is not offered here, and an edit here does not touch it
+    let other = show(&visit, "quadrilateral.thing").await;
+    let from = grip(&other, "q.outer.side1.p1");
+    drag(&visit, from, (from.0 + 9.0, from.1 + 5.0)).await;
+    visit.until("window.__thinglab.state().dirty").await;
+    let offered = "return document.querySelector('.notice .primary') !== null";
+    assert_eq!(visit.script(offered).await, false);
     visit.client.close_window().await.expect("the tab closes");
     visit.client.switch_to_window(old).await.expect("it is still there");
     chord(&visit, &[CONTROL], 's').await;

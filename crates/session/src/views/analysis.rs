@@ -10,7 +10,7 @@ use plan::{
     Certainty, Combination, Contradiction, Motion, MotionKind, Redundant, RedundantKind, Repair,
     Said,
 };
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Analyses the document as it is; a drag is not looked at.
 pub(crate) fn view(open: &mut Open) -> Analysis {
@@ -19,13 +19,13 @@ pub(crate) fn view(open: &mut Open) -> Analysis {
     let found = open.planner.analyse(state.model(), &state.values, &mut texts);
     let unmet = &open.status.unmet;
     let against = open.planner.contradictions(state.model(), &state.values, unmet, &mut texts);
+    let mut things = BTreeSet::new();
     let mut free: Vec<String> = Vec::new();
     for &slot in &found.free {
         let s = &state.structure.slots[slot];
         let thing = s.place.unwrap_or(s.thing);
-        let path = state.structure.path(&state.lowered.document, thing).to_string();
-        if !free.contains(&path) {
-            free.push(path);
+        if things.insert(thing) {
+            free.push(state.structure.path(&state.lowered.document, thing).to_string());
         }
     }
     let motions = found.motions.iter().map(|m| motion(open, m)).collect();

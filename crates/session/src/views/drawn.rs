@@ -107,7 +107,8 @@ pub(crate) fn grips(state: &State, evaluator: &Evaluator<'_>) -> Vec<Grip> {
             let is_seen = standing == Standing::Result && grips.len() < most;
             match place(document, answer).filter(|_| is_seen) {
                 Some((x, y)) => {
-                    grips.push(Grip { path: path.into(), x, y, anchored: false, drawn: true });
+                    let path = path.into();
+                    grips.push(Grip { path, x, y, drawn: true, ..Grip::default() });
                     false
                 }
                 None => is_seen,

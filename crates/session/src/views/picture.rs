@@ -4,26 +4,35 @@ use crate::state::State;
 use crate::view::{Grip, MovedView, PictureView};
 use crate::views::drawn;
 use crate::words;
+use base::IdVec;
 use kernel::{ClassKind, DOCUMENT, SlotId, ThingId, Values};
 use std::rc::Rc;
 
-/// The picture of a state, kept while values change.
+/// The picture of a state, kept while values change: by a drag, by an edit of values, by undoing that.
 pub(crate) struct Shown {
     state: Rc<State>,
     values: Values,
+    /// What could move when it was made.
+    slots: IdVec<SlotId, plan::SlotState>,
     scene: eval::Scene,
     /// For each grip that is shown, its place among those of the scene.
     grips: Vec<u32>,
     /// The grips of what programs draw; they stand after those.
     drawn: Vec<Grip>,
-    moved: Moved,
+    /// How often it was made, the first time included.
+    made: u32,
+    /// How often it was brought up to date, and for each element and grip of the scene at which of these times last.
+    times: u32,
+    renewed: [Vec<u32>; 2],
+    /// What has moved since a drag was pressed, and what is counted with it because it may move as well.
+    apart: eval::Moved,
     /// The slots that the drag may change that goes on.
     reach: Vec<SlotId>,
 }
 
 impl Shown {
     /// Draws a state.
-    pub(crate) fn of(state: &Rc<State>, values: &Values) -> Self {
+    pub(crate) fn of(state: &Rc<State>, values: &Values, status: &plan::Status) -> Self {
         let evaluator = state.evaluator(values);
         let scene = evaluator.scene(DOCUMENT);
         let structure = &state.structure;
@@ -40,16 +49,30 @@ impl Shown {
         let grips = (0..).zip(&scene.picture.grips).filter(|(_, grip)| is_seen(grip));
         let grips = grips.map(|(at, _)| at).collect();
         let drawn = drawn::grips(state, &evaluator);
-        let (state, values) = (state.clone(), values.clone());
-        let (moved, reach) = (Moved::default(), Vec::new());
-        Self { state, values, scene, grips, drawn, moved, reach }
+        let renewed = [scene.picture.drawing.elements.len(), scene.picture.grips.len()];
+        Self {
+            state: state.clone(),
+            values: values.clone(),
+            slots: status.slots.clone(),
+            scene,
+            grips,
+            drawn,
+            made: 1,
+            times: 0,
+            renewed: renewed.map(|n| vec![0; n]),
+            apart: eval::Moved::default(),
+            reach: Vec::new(),
+        }
     }
 
-    /// Brings it up to date. Cost: that of drawing what reads a changed slot, where the state is the same.
-    pub(crate) fn renew(&mut self, state: &Rc<State>, values: &Values) {
-        if !Rc::ptr_eq(&self.state, state) {
-            *self = Self::of(state, values);
+    /// Brings it up to date. Cost: that of drawing what reads a changed slot, where no more than values are others.
+    pub(crate) fn renew(&mut self, state: &Rc<State>, values: &Values, status: &plan::Status) {
+        if !self.state.has_form_of(state) || self.slots != status.slots {
+            self.make_anew(state, values, status);
             return;
+        }
+        if !Rc::ptr_eq(&self.state, state) {
+            self.state = state.clone();
         }
         let changed: Vec<SlotId> = self.values.changed(values).collect();
         if changed.is_empty() {
@@ -57,46 +80,51 @@ impl Shown {
         }
         // a program that has been run for the scene is not run again for its grips
         let evaluator = state.evaluator(values);
-        match evaluator.renew(&mut self.scene, &changed) {
-            Some(moved) => {
-                self.set_apart(&moved);
-                self.moved.so_far.extend(moved);
-                self.values.clone_from(values);
-                let drawn = drawn::grips(state, &evaluator);
-                if drawn.iter().map(|g| &g.path).ne(self.drawn.iter().map(|g| &g.path)) {
-                    self.moved.made += 1;
-                }
-                self.drawn = drawn;
-            }
-            None => {
-                let (made, reach) = (self.moved.made + 1, std::mem::take(&mut self.reach));
-                *self = Self { reach, ..Self::of(state, values) };
-                self.moved.made = made;
-            }
+        let Some(moved) = evaluator.renew(&mut self.scene, &changed) else {
+            let reach = std::mem::take(&mut self.reach);
+            self.make_anew(state, values, status);
+            self.reach = reach;
+            return;
+        };
+        self.times += 1;
+        for (renewed, moved) in self.renewed.iter_mut().zip([&moved.elements, &moved.grips]) {
+            moved.iter().for_each(|&at| renewed[at as usize] = self.times);
         }
+        self.set_apart(moved);
+        self.values.clone_from(values);
+        let drawn = drawn::grips(state, &evaluator);
+        if drawn.iter().map(|g| &g.path).ne(self.drawn.iter().map(|g| &g.path)) {
+            self.made += 1;
+        }
+        self.drawn = drawn;
+    }
+
+    fn make_anew(&mut self, state: &Rc<State>, values: &Values, status: &plan::Status) {
+        let made = self.made + 1;
+        *self = Self { made, ..Self::of(state, values, status) };
     }
 
     /// Counts as apart what has moved now for the first time. Whoever paints what rests has to paint it anew then; so
     /// that this is seldom, all that may move is apart from the second time on, unless it is far more than what does.
-    fn set_apart(&mut self, moved: &eval::Moved) {
+    fn set_apart(&mut self, moved: eval::Moved) {
         /// So many times as much as has moved is not far more.
         const TIMES: usize = 4;
-        if moved.is_within(&self.moved.apart) {
+        if moved.is_within(&self.apart) {
             return;
         }
-        let is_first = self.moved.apart.is_empty();
-        self.moved.apart.extend(moved.clone());
+        let is_first = self.apart.is_empty();
+        self.apart.extend(moved);
         if !is_first {
             let may_move = self.scene.drawn_from(&self.reach);
-            if may_move.len() <= TIMES * self.moved.apart.len() {
-                self.moved.apart.extend(may_move);
+            if may_move.len() <= TIMES * self.apart.len() {
+                self.apart.extend(may_move);
             }
         }
     }
 
     /// Forgets what has moved so far; a drag begins that may change some slots.
     pub(crate) fn rest(&mut self, reach: Vec<SlotId>) {
-        self.moved = Moved::default();
+        self.apart = eval::Moved::default();
         self.reach = reach;
     }
 
@@ -114,6 +142,7 @@ impl Shown {
                 y: grip.at.y,
                 anchored: slots.iter().all(|&s| structure.slots[s].anchored),
                 drawn: false,
+                freedom: words::freedom_of(structure, status, grip.thing),
             }
         };
         let mut view = PictureView {
@@ -122,7 +151,8 @@ impl Shown {
             drawn_by: vec![None; made.things.len()],
             freedom: made.things.iter().map(|&t| words::freedom_of(structure, status, t)).collect(),
             grips: self.grips.iter().map(grip).chain(self.drawn.iter().cloned()).collect(),
-            made: self.moved.made,
+            made: self.made,
+            times: self.times,
         };
         self.tag_entities(&mut view);
         view
@@ -159,46 +189,42 @@ impl Shown {
         }
     }
 
-    /// Brings a view up to date that was made of the same state; returns what moves.
+    /// Brings a view up to date that was made of the same document; returns what moves.
     pub(crate) fn follow(&self, view: &mut PictureView, status: &plan::Status) -> MovedView {
-        if view.made != self.moved.made || view.grips.len() != self.grips.len() + self.drawn.len() {
+        if view.made != self.made || view.grips.len() != self.grips.len() + self.drawn.len() {
             *view = self.view(status);
             return MovedView::Everything;
         }
         let made = &self.scene.picture;
-        for &at in &self.moved.so_far.elements {
-            let now = &made.drawing.elements[at as usize];
-            view.drawing.elements[at as usize].shape.clone_from(&now.shape);
+        let [elements, grips] = &self.renewed;
+        let as_of = view.times;
+        let since = |renewed: &u32| *renewed > as_of;
+        for (at, _) in elements.iter().enumerate().filter(|(_, renewed)| since(renewed)) {
+            let now = &made.drawing.elements[at];
+            view.drawing.elements[at].shape.clone_from(&now.shape);
         }
-        let shown = |&at: &u32| Some((self.grips.binary_search(&at).ok()?, at));
-        for (shown, at) in self.moved.so_far.grips.iter().filter_map(shown) {
-            let now = made.grips[at as usize].at;
-            (view.grips[shown].x, view.grips[shown].y) = (now.x, now.y);
+        for (shown, &at) in self.grips.iter().enumerate() {
+            if since(&grips[at as usize]) {
+                let now = made.grips[at as usize].at;
+                (view.grips[shown].x, view.grips[shown].y) = (now.x, now.y);
+            }
         }
+        view.times = self.times;
         view.grips.truncate(self.grips.len());
         view.grips.extend(self.drawn.iter().cloned());
-        let grips = self.moved.apart.grips.iter().filter_map(shown).map(|(shown, _)| shown);
+        let shown = |at: &u32| self.grips.binary_search(at).ok();
+        let grips = self.apart.grips.iter().filter_map(shown);
         let drawn = self.grips.len()..view.grips.len();
         MovedView::These {
-            elements: self.moved.apart.elements.iter().copied().collect(),
+            elements: self.apart.elements.iter().copied().collect(),
             grips: grips.chain(drawn).map(|at| at as u32).collect(),
         }
     }
 }
 
-/// What has moved since a drag began.
-#[derive(Default)]
-struct Moved {
-    so_far: eval::Moved,
-    /// That, and what is counted with it because it may move as well.
-    apart: eval::Moved,
-    /// How often the picture was made anew in the midst, because other elements were drawn.
-    made: u32,
-}
-
 /// Returns the picture for some values of a state.
 pub(crate) fn picture(state: &Rc<State>, values: &Values, status: &plan::Status) -> PictureView {
-    Shown::of(state, values).view(status)
+    Shown::of(state, values, status).view(status)
 }
 
 /// Says why some things have no picture, each reason once.

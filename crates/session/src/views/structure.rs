@@ -12,26 +12,73 @@ use std::collections::BTreeMap;
 /// is beyond is reached by its path.
 const MOST_ELEMENTS: usize = 1000;
 
-struct Maker<'a> {
-    state: &'a State,
-    values: &'a Values,
-    status: &'a plan::Status,
+/// What is done and left to do of the rows.
+pub(crate) struct Work {
+    /// What is still to be added, the next last.
+    open: Vec<Open>,
     constraints: BTreeMap<ThingId, Vec<ConstraintInstance>>,
     /// The things whose rows are being added.
-    open: Vec<ThingId>,
-    rows: Vec<StructureRow>,
+    within: Vec<ThingId>,
+    /// The rows so far.
+    pub(crate) rows: Vec<StructureRow>,
+}
+
+/// What is to be added, and how deep.
+enum Open {
+    Thing(ThingId, u32),
+    /// What the classes of a thing say of it, after its parts.
+    Own(ThingId, u32),
+    /// All of the innermost thing is added, whose row this is.
+    Shut(usize),
+}
+
+impl Work {
+    /// Begins with the document.
+    pub(crate) fn new(state: &State) -> Self {
+        let mut constraints: BTreeMap<ThingId, Vec<ConstraintInstance>> = BTreeMap::new();
+        for &instance in state.structure.constraints.iter() {
+            constraints.entry(instance.owner).or_default().push(instance);
+        }
+        let open = vec![Open::Thing(kernel::DOCUMENT, 0)];
+        Self { open, constraints, within: Vec::new(), rows: Vec::new() }
+    }
+
+    /// Goes on while there is time; returns true at the end.
+    pub(crate) fn go_on(
+        &mut self,
+        (state, values, status): (&State, &Values, &plan::Status),
+        has_time: &mut dyn FnMut() -> bool,
+    ) -> bool {
+        let mut maker = Maker { state, values, status, work: self };
+        while let Some(next) = maker.work.open.pop() {
+            match next {
+                Open::Thing(thing, depth) => maker.thing(thing, depth),
+                Open::Own(thing, depth) => {
+                    maker.own(thing, depth);
+                    maker.add_drawn(thing, depth);
+                }
+                Open::Shut(at) => maker.shut(at),
+            }
+            if !has_time() {
+                return maker.work.open.is_empty();
+            }
+        }
+        true
+    }
 }
 
 /// Returns every row, the document first.
 pub(crate) fn rows(state: &State, values: &Values, status: &plan::Status) -> Vec<StructureRow> {
-    let mut constraints: BTreeMap<ThingId, Vec<ConstraintInstance>> = BTreeMap::new();
-    for &instance in state.structure.constraints.iter() {
-        constraints.entry(instance.owner).or_default().push(instance);
-    }
-    let mut maker =
-        Maker { state, values, status, constraints, open: Vec::new(), rows: Vec::new() };
-    maker.thing(kernel::DOCUMENT, 0);
-    maker.rows
+    let mut work = Work::new(state);
+    work.go_on((state, values, status), &mut || true);
+    work.rows
+}
+
+struct Maker<'a> {
+    state: &'a State,
+    values: &'a Values,
+    status: &'a plan::Status,
+    work: &'a mut Work,
 }
 
 impl Maker<'_> {
@@ -69,12 +116,11 @@ impl Maker<'_> {
 
     fn thing(&mut self, thing: ThingId, depth: u32) {
         // what a class says of its structure may lead back to what is being shown
-        if self.open.contains(&thing) {
+        if self.work.within.contains(&thing) {
             return;
         }
-        self.open.push(thing);
         let (document, structure) = (&self.state.lowered.document, &self.state.structure);
-        let at = self.rows.len();
+        let at = self.work.rows.len();
         let path = structure.path(document, thing);
         let name = match path.0.last() {
             None => "document".to_string(),
@@ -92,7 +138,7 @@ impl Maker<'_> {
         row.merged_with = (first != thing).then(|| structure.path(document, first).to_string());
         row.freedom = words::freedom_of(structure, self.status, thing);
         row.anchored = !slots.is_empty() && slots.iter().all(|&s| structure.slots[s].anchored);
-        self.rows.push(row);
+        self.work.rows.push(row);
         let class = structure.things[thing].class;
         match document.classes[class].kind {
             ClassKind::Composite | ClassKind::List(_) if first == thing => {
@@ -106,13 +152,12 @@ impl Maker<'_> {
                 let all = parts.len();
                 if all > MOST_ELEMENTS {
                     let shown = format!("the first {MOST_ELEMENTS} of {all}");
-                    self.rows[at].detail = format!("{}, {shown}", self.rows[at].detail);
+                    self.work.rows[at].detail = format!("{}, {shown}", self.work.rows[at].detail);
                 }
-                for part in parts.into_iter().take(MOST_ELEMENTS) {
-                    self.thing(part, depth + 1);
-                }
-                self.own(thing, depth + 1);
-                self.add_drawn(thing, depth + 1);
+                self.work.within.push(thing);
+                self.work.open.extend([Open::Shut(at), Open::Own(thing, depth + 1)]);
+                let parts = parts.into_iter().take(MOST_ELEMENTS).rev();
+                self.work.open.extend(parts.map(|part| Open::Thing(part, depth + 1)));
             }
             ClassKind::Composite
             | ClassKind::List(_)
@@ -120,8 +165,11 @@ impl Maker<'_> {
             | ClassKind::Set(_)
             | ClassKind::Reference(_) => {}
         }
-        self.open.pop();
-        self.rows[at].descendants = (self.rows.len() - at - 1) as u32;
+    }
+
+    fn shut(&mut self, at: usize) {
+        self.work.within.pop();
+        self.work.rows[at].descendants = (self.work.rows.len() - at - 1) as u32;
     }
 
     /// Returns true for the part that nobody wrote, which keeps the masters of placed things.
@@ -147,7 +195,7 @@ impl Maker<'_> {
         let (document, structure) = (&self.state.lowered.document, &self.state.structure);
         let owner = structure.path(document, thing);
         let evaluator = self.state.evaluator(self.values);
-        for instance in self.constraints.remove(&thing).unwrap_or_default() {
+        for instance in self.work.constraints.remove(&thing).unwrap_or_default() {
             let constraint = &document.classes[instance.class].constraints[instance.index as usize];
             let name = words::constraint_name(document, instance);
             let path = owner.then(Step::Part(name.as_str().into())).to_string();
@@ -163,7 +211,7 @@ impl Maker<'_> {
                 (true, false) => "does not hold".into(),
             });
             row.freedom = (!holds).then_some(Freedom::Conflicting);
-            self.rows.push(row);
+            self.work.rows.push(row);
         }
         let line = document.primary_line(structure.things[thing].class);
         for (nearer, &class) in line.iter().enumerate().rev() {
@@ -178,7 +226,7 @@ impl Maker<'_> {
                 row.detail = paths.join(" = ");
                 row.makes_one =
                     merge.paths.iter().map(|path| owner.join(path).to_string()).collect();
-                self.rows.push(row);
+                self.work.rows.push(row);
             }
         }
         for class in document.lineage(structure.things[thing].class).into_iter().rev() {
@@ -186,7 +234,7 @@ impl Maker<'_> {
                 let path = owner.to_string();
                 let mut row = self.row(path, depth, RowKind::Side, String::new(), side.origin);
                 row.detail = format!("side {}: {}", side.path, side.way.word());
-                self.rows.push(row);
+                self.work.rows.push(row);
             }
         }
     }

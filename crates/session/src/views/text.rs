@@ -6,15 +6,23 @@ use base::{Diagnostic, FileId, LineIndex, Place, Severity};
 use std::collections::BTreeMap;
 use syntax::{SyntaxKind, SyntaxToken};
 
-/// Returns the source with its colours and diagnostics.
+/// Returns the source with its diagnostics.
 pub(crate) fn view(state: &State) -> TextView {
+    TextView { source: state.text.clone(), diagnostics: diagnostics(state, &state.diagnostics) }
+}
+
+/// Returns what stands in the `///` lines with which a document begins.
+pub(crate) fn preamble(state: &State) -> String {
+    let lines = state.text.lines().map(str::trim).filter(|line| !line.is_empty());
+    let docs = lines.map_while(|line| line.strip_prefix("///"));
+    docs.map(|line| line.trim_start_matches('/').trim()).collect::<Vec<_>>().join(" ")
+}
+
+/// Returns the colours of the source.
+pub(crate) fn tokens(state: &State) -> Vec<TokenView> {
     let tree = syntax::parse(FileId(0), &state.text).syntax();
     let tokens = tree.descendants_with_tokens().filter_map(syntax::SyntaxElement::into_token);
-    TextView {
-        source: state.text.clone(),
-        tokens: tokens.filter_map(|t| token(&t)).collect(),
-        diagnostics: diagnostics(state, &state.diagnostics),
-    }
+    tokens.filter_map(|t| token(&t)).collect()
 }
 
 fn token(token: &SyntaxToken) -> Option<TokenView> {

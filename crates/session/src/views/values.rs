@@ -21,18 +21,67 @@ const MOST_DRAWN: usize = 1000;
 
 /// Returns the rows, in order of declaration, merged values once.
 pub(crate) fn rows(state: &State, values: &Values, status: &plan::Status) -> Vec<ValueRow> {
-    let evaluator = state.evaluator(values);
-    let mut maker = Maker {
-        state,
-        values,
-        status,
-        evaluator,
-        virtual_parts: BTreeMap::new(),
-        open: Vec::new(),
-        rows: Vec::new(),
-    };
-    maker.add(kernel::DOCUMENT, &mut String::new());
-    maker.rows
+    let mut work = Work::default();
+    work.go_on((state, values, status), &mut || true);
+    work.rows
+}
+
+/// What is done and left to do of the rows.
+pub(crate) struct Work {
+    /// What is still to be added, the next last.
+    open: Vec<Open>,
+    /// The virtual parts of every class met so far.
+    virtual_parts: BTreeMap<ClassId, Rc<[Answers]>>,
+    /// The things whose rows are being added: what a class says may lead back to them.
+    within: Vec<ThingId>,
+    /// The rows so far.
+    pub(crate) rows: Vec<ValueRow>,
+}
+
+/// What is to be added, with the path that leads there.
+enum Open {
+    Thing(ThingId, String),
+    /// What a thing answers, after its parts.
+    Answers(ThingId, String),
+    /// A row that is made already.
+    Row(Box<ValueRow>),
+    /// All of the innermost thing is added.
+    Shut,
+}
+
+impl Default for Work {
+    fn default() -> Self {
+        Self {
+            open: vec![Open::Thing(kernel::DOCUMENT, String::new())],
+            virtual_parts: BTreeMap::new(),
+            within: Vec::new(),
+            rows: Vec::new(),
+        }
+    }
+}
+
+impl Work {
+    /// Goes on while there is time; returns true at the end.
+    pub(crate) fn go_on(
+        &mut self,
+        (state, values, status): (&State, &Values, &plan::Status),
+        has_time: &mut dyn FnMut() -> bool,
+    ) -> bool {
+        let evaluator = state.evaluator(values);
+        let mut maker = Maker { state, values, status, evaluator, work: self };
+        while let Some(next) = maker.work.open.pop() {
+            match next {
+                Open::Thing(thing, path) => maker.add(thing, path),
+                Open::Answers(thing, path) => maker.add_virtual(thing, path),
+                Open::Row(row) => maker.work.rows.push(*row),
+                Open::Shut => drop(maker.work.within.pop()),
+            }
+            if !has_time() {
+                return maker.work.open.is_empty();
+            }
+        }
+        true
+    }
 }
 
 /// Brings rows up to date with other values of the same state. Cost: that of these rows alone.
@@ -163,16 +212,12 @@ struct Maker<'a> {
     values: &'a Values,
     status: &'a plan::Status,
     evaluator: Evaluator<'a>,
-    /// The virtual parts of every class met so far.
-    virtual_parts: BTreeMap<ClassId, Rc<[Answers]>>,
-    /// The things whose rows are being added: what a class says may lead back to them.
-    open: Vec<ThingId>,
-    rows: Vec<ValueRow>,
+    work: &'a mut Work,
 }
 
 impl Maker<'_> {
-    /// Adds the rows of a thing; `path` leads there, and does so again afterwards.
-    fn add(&mut self, thing: ThingId, path: &mut String) {
+    /// Adds the row of a value; of anything else what it is made of is to be added next.
+    fn add(&mut self, thing: ThingId, path: String) {
         let state = self.state;
         let (document, structure) = (&state.lowered.document, &state.structure);
         if structure.merged[thing] != thing {
@@ -182,8 +227,9 @@ impl Maker<'_> {
             let s = &structure.slots[slot];
             let Cell { words: Shown { text, unit, exact }, number } =
                 show(state, self.values, slot);
-            self.rows.push(ValueRow {
-                path: path.clone(),
+            let is_of_library = is_of_library(state, &path);
+            self.work.rows.push(ValueRow {
+                path,
                 shortest: shortest_path(state, thing),
                 class: document.classes[structure.things[thing].class].name.to_string(),
                 text,
@@ -194,23 +240,25 @@ impl Maker<'_> {
                 given: s.given.is_some(),
                 is_virtual: false,
                 anchored: s.anchored,
-                is_layout: s.is_layout || s.anchored && is_of_library(state, path),
+                is_layout: s.is_layout || s.anchored && is_of_library,
                 freedom: words::freedom_of(structure, self.status, thing),
                 doc: words::doc_of(state, thing),
                 range: self.asked_range(thing),
             });
             return;
         }
-        if self.open.contains(&thing) {
+        if self.work.within.contains(&thing) {
             return;
         }
-        self.open.push(thing);
+        self.work.within.push(thing);
+        self.work.open.push(Open::Shut);
+        let from = self.work.open.len();
         if crate::general::defines(state, thing, "values") {
-            self.add_table(thing, path);
+            self.open_table(thing, path);
         } else {
-            self.add_parts(thing, path);
+            self.open_parts(thing, path);
         }
-        self.open.pop();
+        self.work.open[from..].reverse();
     }
 
     /// Returns the range that a program gives the parameter that a thing is.
@@ -228,27 +276,27 @@ impl Maker<'_> {
         Some((end(least)?, end(most)?))
     }
 
-    /// Adds the rows of a thing's parts and of what it answers.
-    fn add_parts(&mut self, thing: ThingId, path: &mut String) {
+    /// Opens a thing's parts and what it answers, in order.
+    fn open_parts(&mut self, thing: ThingId, mut path: String) {
         let (document, structure) = (&self.state.lowered.document, &self.state.structure);
         let end = path.len();
         for part in structure.parts(thing) {
             match structure.field_name(document, part) {
-                Some(name) => append(path, name),
+                Some(name) => append(&mut path, name),
                 None => {
                     let _ = write!(path, "[{}]", structure.things[part].field);
                 }
             }
-            self.add(part, path);
+            self.work.open.push(Open::Thing(part, path.clone()));
             path.truncate(end);
         }
         if document.classes[structure.things[thing].class].kind == ClassKind::Composite {
-            self.add_virtual(thing, path);
+            self.work.open.push(Open::Answers(thing, path));
         }
     }
 
-    /// Adds the rows that a thing's class says: parts and messages by name, or names with values.
-    fn add_table(&mut self, thing: ThingId, path: &mut String) {
+    /// Opens what a thing's class says, in order: parts and messages by name, or names with values.
+    fn open_table(&mut self, thing: ThingId, mut path: String) {
         let document = &self.state.lowered.document;
         let structure = &self.state.structure;
         let end = path.len();
@@ -259,16 +307,16 @@ impl Maker<'_> {
             let (name, value) = match item {
                 Answer::Text(name) => match structure.part_named(thing, name) {
                     Some(part) => {
-                        append(path, name);
-                        self.add(part, path);
+                        append(&mut path, name);
+                        self.work.open.push(Open::Thing(part, path.clone()));
                         path.truncate(end);
                         continue;
                     }
                     None => (name.to_string(), self.evaluator.ask(thing, &Name::new(name)).ok()),
                 },
                 Answer::Thing(part) => {
-                    let mut to = structure.path(document, *part).to_string();
-                    self.add(*part, &mut to);
+                    let to = structure.path(document, *part).to_string();
+                    self.work.open.push(Open::Thing(*part, to));
                     continue;
                 }
                 pair => match entry(pair) {
@@ -276,31 +324,32 @@ impl Maker<'_> {
                     None => continue,
                 },
             };
-            append(path, &name);
-            self.rows.extend(value.and_then(|v| answered(document, path, &v, ["", ""], false)));
+            append(&mut path, &name);
+            let row = value.and_then(|v| answered(document, &path, &v, ["", ""], false));
+            self.work.open.extend(row.map(Box::new).map(Open::Row));
             path.truncate(end);
         }
     }
 
-    fn add_virtual(&mut self, thing: ThingId, path: &mut String) {
+    fn add_virtual(&mut self, thing: ThingId, mut path: String) {
         let document = &self.state.lowered.document;
         let class = self.state.structure.things[thing].class;
         let parts =
-            self.virtual_parts.entry(class).or_insert_with(|| virtual_parts(document, class));
+            self.work.virtual_parts.entry(class).or_insert_with(|| virtual_parts(document, class));
         let end = path.len();
         let draws = document.program(class).is_some();
-        let most = self.rows.len() + MOST_DRAWN;
+        let most = self.work.rows.len() + MOST_DRAWN;
         for Answers { name, doc, is_pictured } in parts.clone().iter() {
             let (answer, read) = self.evaluator.listening(|| self.evaluator.ask(thing, name));
             let Ok(answer) = answer else { continue };
             let slots = &self.state.structure.slots;
             let is_layout = read.iter().all(|&slot| slots[slot].is_layout)
                 && (*is_pictured || !read.is_empty());
-            append(path, name);
+            append(&mut path, name);
             let said = [answer_class(document, class, name), doc];
-            match answered(document, path, &answer, said, is_layout) {
-                None if draws => self.add_drawn(&answer, path, most),
-                row => self.rows.extend(row),
+            match answered(document, &path, &answer, said, is_layout) {
+                None if draws => self.add_drawn(&answer, &mut path, most),
+                row => self.work.rows.extend(row),
             }
             path.truncate(end);
         }
@@ -308,7 +357,7 @@ impl Maker<'_> {
 
     /// Adds the rows of what a program drew: the numbers of its figures, turn by turn.
     fn add_drawn(&mut self, answer: &Answer<'_>, path: &mut String, most: usize) {
-        let (document, rows) = (&self.state.lowered.document, &mut self.rows);
+        let (document, rows) = (&self.state.lowered.document, &mut self.work.rows);
         walk(document, (answer, Standing::Result), path, &mut |answer, _, path| {
             if rows.len() >= most {
                 return false;

@@ -282,8 +282,58 @@ fn a_picture_that_is_followed_is_the_one_that_is_made_anew() {
                     }
                 }
             }
-            desk.session.cancel(desk.id);
+            if grip.path != grips[0].path {
+                desk.session.cancel(desk.id);
+                continue;
+            }
+            // after the release, and after that is taken back, it is that of the text that stands then
+            for command in [None, Some(session::Command::Undo)] {
+                let done = match &command {
+                    None => desk.session.release(desk.id).is_ok_and(|c| !c.edits.is_empty()),
+                    Some(command) => desk.session.apply(desk.id, command).is_ok(),
+                };
+                desk.session.follow_picture(desk.id, &mut view);
+                let opened = Desk::of(&desk.session.text(desk.id).source);
+                let anew = opened.session.picture(opened.id);
+                assert_eq!(view.drawing.elements, anew.drawing.elements, "{name}: {}", grip.path);
+                assert_eq!(view.grips, anew.grips, "{name}: {}", grip.path);
+                assert_eq!(view.freedom, anew.freedom, "{name}: {}", grip.path);
+                if !done {
+                    break;
+                }
+            }
         }
+    }
+}
+
+#[test]
+fn a_document_that_is_opened_stage_by_stage_is_the_one_that_is_opened_at_once() {
+    for name in GALLERY {
+        let text = gallery(name);
+        let mut desk = Desk::of(&text);
+        let mut opening = desk.session.begin_opening("again", &text);
+        while !opening.is_over() {
+            opening = desk.session.go_on_opening(opening);
+        }
+        let again = desk.session.end_opening(opening);
+        assert_eq!(desk.session.values(again), desk.session.values(desk.id), "{name}");
+        assert_eq!(desk.session.status(again), desk.session.status(desk.id), "{name}");
+    }
+}
+
+#[test]
+fn rows_that_are_made_one_by_one_are_those_that_are_made_at_once() {
+    for name in GALLERY {
+        let desk = Desk::of(&gallery(name));
+        let mut listing = desk.session.begin_listing(desk.id);
+        let mut turns = 0;
+        while !listing.go_on(&mut || false) {
+            turns += 1;
+        }
+        let (structure, values) = listing.finished();
+        assert!(turns >= structure.len(), "{name}: {turns} turns");
+        assert_eq!(structure, desk.session.structure(desk.id), "{name}");
+        assert_eq!(values, desk.session.values(desk.id), "{name}");
     }
 }
 

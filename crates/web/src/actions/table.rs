@@ -491,7 +491,7 @@ pub const ACTIONS: &[Action] = &[
                 lab.band.set(None);
             } else if lab.dragging.with_untracked(Option::is_some) {
                 lab.cancel();
-            } else if lab.stop_sweeping() {
+            } else if lab.stop_job() || lab.stop_sweeping() {
                 // what else there is, another Esc ends
             } else if lab.drafts() {
                 lab.draft_end();
@@ -588,7 +588,11 @@ pub const ACTIONS: &[Action] = &[
         enabled: |lab| document(lab).map(drop),
         run: |lab| {
             lab.open_dock(Tab::Text);
-            request_animation_frame(|| focus(".cm-content"));
+            request_animation_frame(|| {
+                // before the editor has come, its place: it takes the keyboard over
+                focus("#editor");
+                focus(".cm-content");
+            });
         },
     },
     Action {

@@ -89,9 +89,11 @@ fn Row(family: Family, at: usize, row: FamilyRow) -> impl IntoView {
     let delete = move |_| {
         family.edit(|session, id, name| session.delete_family_row(id, name, at));
     };
-    let is_bad = move || outcome.with(|o| o.outcome != "drawn");
+    // nothing is known of a row that is still to be drawn
+    let is_bad = move || outcome.with(|o| !o.outcome.is_empty() && o.outcome != "drawn");
     let said = move || {
         outcome.with(|o| match o.outcome.as_str() {
+            "" => String::from("…"),
             "drawn" => String::from(words::ROW_DRAWN),
             kind => format!("{kind}: {}", o.message),
         })

@@ -1,10 +1,12 @@
 //! The map of a program: where in two of its parameters it draws. A click gives the example the values of a place.
 
 use super::Family;
-use crate::{field, words};
+use crate::lab::{Kind, Told};
+use crate::words;
 use leptos::ev::{KeyboardEvent, PointerEvent};
 use leptos::prelude::*;
 use leptos::svg::Svg;
+use session::jobs::{LongAnswer, LongQuestion};
 use session::view::{FamilyAxis, FamilyMap};
 
 /// So many reasons have a look of their own; further ones share the last.
@@ -34,14 +36,22 @@ pub fn Map(
         }
         name
     });
-    let made = Memo::new(move |_| {
+    let made = RwSignal::new(None::<Result<FamilyMap, String>>);
+    Effect::new(move |_| {
         lab.text.track();
-        let [across, up] = axes.get()?;
-        let (name, thing) = (name.get(), thing.get());
-        let map =
-            |s: &session::Session, id| s.family_map(id, (&name, thing.as_deref()), [&across, &up]);
-        lab.ask_of_shown(map)
+        let Some(axes) = axes.get() else { return };
+        let question = LongQuestion::Map { family: name.get(), thing: thing.get(), axes };
+        lab.ask_long(Kind::Map, question, move |told| {
+            let map = match told {
+                Told::Part(LongAnswer::Map(map)) => map,
+                Told::Part(_) | Told::Over => return,
+                Told::Stopped => Err(String::from(words::MAP_STOPPED)),
+                Told::Failed(why) => Err(words::job_failed(&why)),
+            };
+            made.try_set(Some(map));
+        });
     });
+    on_cleanup(move || lab.forget_long(Kind::Map));
     let axis = move |at: usize, label: &'static str| {
         view! { <Axis axes=axes offered=offered at=at label=label /> }
     };
@@ -50,7 +60,7 @@ pub fn Map(
             <div class="plot-form">{axis(0, words::MAP_ACROSS)}{axis(1, words::MAP_UP)}</div>
             {move || match made.get() {
                 Some(Ok(map)) => view! { <Chart family=family map=map /> }.into_any(),
-                Some(Err(refusal)) => view! { <p class="error" role="alert">{field::reason(&refusal)}</p> }.into_any(),
+                Some(Err(why)) => view! { <p class="error" role="alert">{why}</p> }.into_any(),
                 None => ().into_any(),
             }}
         </Show>

@@ -3,6 +3,7 @@
 use super::{Family, MOST_ROWS};
 use crate::words;
 use leptos::prelude::*;
+use session::view::FamilyRow;
 
 /// The sheet.
 #[component]
@@ -12,30 +13,38 @@ pub fn Pictures(
 ) -> impl IntoView {
     let Family { grid, outcomes, thing, .. } = family;
     let more = move || grid.with(|grid| grid.rows.len().saturating_sub(MOST_ROWS));
+    let card = move |(at, row): (usize, FamilyRow)| {
+        let (name, mark) = (row.name.clone(), row.name.clone());
+        let outcome =
+            Memo::new(move |_| outcomes.with(|all| all.get(at).cloned()).unwrap_or_default());
+        let is_bad = move || outcome.with(|o| !o.outcome.is_empty() && o.outcome != "drawn");
+        let alt = name.clone();
+        let picture = move || {
+            let svg = outcome.with(|outcome| outcome.svg.clone());
+            (!svg.is_empty()).then(|| {
+                let source = String::from(js_sys::encode_uri_component(&svg));
+                view! { <img alt=alt.clone() src=format!("data:image/svg+xml,{source}") /> }
+            })
+        };
+        let why = move || {
+            is_bad().then(|| {
+                let outcome = outcome.get();
+                view! { <span class="error">{outcome.outcome}": "{outcome.message}</span> }
+            })
+        };
+        let apply = move |_| family.apply_row(&row);
+        view! {
+            <li class="specimen" class:bad=is_bad data-picture=mark>
+                <button class="bare" disabled=move || thing.with(Option::is_none)
+                    title=move || thing.get().map(|thing| words::applied_to(&thing)) on:click=apply>
+                    {picture}<b>{name}</b>{why}
+                </button>
+            </li>
+        }
+    };
     let cards = move || {
         let rows = grid.with(|grid| grid.rows.iter().take(MOST_ROWS).cloned().collect::<Vec<_>>());
-        let card = |(row, outcome): (session::view::FamilyRow, session::view::RowOutcome)| {
-            let name = row.name.clone();
-            let mark = name.clone();
-            let picture = (!outcome.svg.is_empty()).then(|| {
-                let source = String::from(js_sys::encode_uri_component(&outcome.svg));
-                view! { <img alt=name.clone() src=format!("data:image/svg+xml,{source}") /> }
-            });
-            let why = (outcome.outcome != "drawn").then(|| {
-                view! { <span class="error">{outcome.outcome.clone()}": "{outcome.message.clone()}</span> }
-            });
-            let is_bad = outcome.outcome != "drawn";
-            let apply = move |_| family.apply_row(&row);
-            view! {
-                <li class="specimen" class:bad=is_bad data-picture=mark>
-                    <button class="bare" disabled=move || thing.with(Option::is_none)
-                        title=move || thing.get().map(|thing| words::applied_to(&thing)) on:click=apply>
-                        {picture}<b>{name}</b>{why}
-                    </button>
-                </li>
-            }
-        };
-        rows.into_iter().zip(outcomes.get()).map(card).collect_view()
+        rows.into_iter().enumerate().map(card).collect_view()
     };
     let is_empty = move || grid.with(|grid| grid.rows.is_empty());
     view! {

@@ -57,9 +57,9 @@ impl Lab {
 
     /// Opens a text in the session under a path, with the files that it uses.
     pub(super) async fn take_up(self, path: &str, stored: Stored) -> Result<Opened, String> {
-        let mut id = self.open(path, &stored.text);
+        let mut id = self.open(path, &stored.text).await;
         while self.fetch_used(path).await {
-            id = self.open(path, &stored.text);
+            id = self.open(path, &stored.text).await;
         }
         let title = self.session.with_value(|session| session.title(id));
         let opened = Opened {
@@ -76,8 +76,14 @@ impl Lab {
         Ok(opened)
     }
 
-    pub(super) fn open(self, path: &str, text: &str) -> DocumentId {
-        self.order(|session| session.open(path, text))
+    /// Opens a text stage by stage; the page has its turn between.
+    async fn open(self, path: &str, text: &str) -> DocumentId {
+        let mut opening = self.ask(|session| session.begin_opening(path, text));
+        while !opening.is_over() {
+            opening = self.ask(|session| session.go_on_opening(opening));
+            js::pause().await;
+        }
+        self.order(|session| session.end_opening(opening))
     }
 
     /// Fetches the files that a document was found to use; returns whether there are new ones.
@@ -114,7 +120,7 @@ impl Lab {
         self.current.set(Some(String::from(path)));
         self.document.set(Some(opened));
         self.offer_draft(path);
-        self.refresh();
+        self.show_views();
         self.meet_lesson(path);
         self.zoom.set(Some(Zoom::Fit));
     }

@@ -1,116 +1,155 @@
 //! Drafts: unsaved texts, kept in the browser outside the bundle's memory, for when the page goes without warning.
 //!
-//! A draft remembers which state of the file it began from: brought back over a file that has changed since, it is
-//! not saved over that unasked. One that nobody has decided about is not lost to newer changes; it is offered after these.
+//! Each tab keeps drafts of its own: two that show one document do not write over each other. Those of tabs that have
+//! gone are offered, one after the other, until somebody has decided about each. A draft remembers which state of the
+//! file it began from: brought back over a file that has changed since, it is not saved over that unasked.
 
-use super::Lab;
-use crate::theme;
+use super::{Lab, Notice};
+use crate::{js, theme, words};
+use js_sys::Array;
 use leptos::prelude::*;
 use session::Command;
 
+/// Where drafts are kept: the tab and the document's path follow.
+const PLACE: &str = "thinglab/draft/";
+
 /// An unsaved text.
-#[derive(Clone, PartialEq, Eq, Debug)]
+#[derive(Clone, PartialEq, Debug)]
 pub struct Draft {
     /// The version on disk that it began from.
     pub version: String,
+    /// When it was kept, in milliseconds since 1970.
+    pub kept: f64,
     /// The text.
     pub text: String,
 }
 
 impl Draft {
-    /// As the browser keeps it: the version has a line of its own.
+    /// As the browser keeps it: version and time have a line of their own.
     fn written(&self) -> String {
-        format!("{}\n{}", self.version, self.text)
+        format!("{} {}\n{}", self.version, self.kept, self.text)
     }
 
     fn read(kept: &str) -> Option<Self> {
-        let (version, text) = kept.split_once('\n')?;
-        Some(Self { version: String::from(version), text: String::from(text) })
+        let (head, text) = kept.split_once('\n')?;
+        let (version, kept) = head.split_once(' ').unwrap_or((head, "0"));
+        let (version, text) = (String::from(version), String::from(text));
+        Some(Self { version, kept: kept.parse().unwrap_or(0.0), text })
     }
 }
 
-/// Where the draft of a document is kept, and one before it that was not decided about.
-fn places(path: &str) -> [String; 2] {
-    [format!("thinglab/draft/{path}"), format!("thinglab/earlier-draft/{path}")]
+/// A draft that is offered, and where it is kept.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Offered {
+    /// The draft.
+    pub draft: Draft,
+    place: String,
 }
 
-/// The drafts of a document that say something else than its file, the newest first, each with its place.
-fn kept(path: &str, saved: &str) -> Vec<(String, Draft)> {
-    let at = |place: String| Some((place.clone(), Draft::read(&theme::keep(&place)?)?));
-    places(path).into_iter().filter_map(at).filter(|(_, draft)| draft.text != saved).collect()
+/// Where this tab keeps the draft of a document.
+fn own_place(path: &str) -> String {
+    format!("{PLACE}{}/{path}", js::tab_name())
+}
+
+/// The tab and the path that a place is for; nothing where no draft is kept.
+fn place_of(name: &str) -> Option<(&str, &str)> {
+    name.strip_prefix(PLACE)?.split_once('/')
+}
+
+/// The drafts of a document that say something else than its file and are of no tab that lives, the newest first.
+fn left_behind(path: &str, saved: &str, live: &[String]) -> Vec<Offered> {
+    let is_left = |name: &String| {
+        place_of(name).is_some_and(|(tab, of)| of == path && !live.iter().any(|l| l == tab))
+    };
+    let places = theme::names().into_iter().filter(is_left);
+    let draft = |place: String| Some(Offered { draft: Draft::read(&theme::keep(&place)?)?, place });
+    let (mut found, needless): (Vec<Offered>, Vec<Offered>) =
+        places.filter_map(draft).partition(|offered| offered.draft.text != saved);
+    for offered in needless {
+        theme::put(&offered.place, None);
+    }
+    found.sort_by(|a, b| b.draft.kept.total_cmp(&a.draft.kept));
+    found
 }
 
 impl Lab {
-    /// Offers the unsaved text of an earlier visit, where there is one.
+    /// Offers the unsaved text of a tab that has gone, where there is one.
     pub(super) fn offer_draft(self, path: &str) {
-        let found = self.document.with_untracked(|document| {
-            let document = document.as_ref().filter(|document| !document.dirty)?;
-            kept(path, &document.saved).into_iter().next().map(|(_, draft)| draft)
+        self.draft.set(None);
+        let path = String::from(path);
+        leptos::task::spawn_local(async move {
+            let mut live: Vec<String> =
+                Array::from(&js::live_tabs().await).iter().filter_map(|n| n.as_string()).collect();
+            live.push(js::tab_name());
+            if self.current.with_untracked(|current| *current != Some(path.clone())) {
+                return;
+            }
+            let saved = self.document.with_untracked(|d| d.as_ref().map(|d| d.saved.clone()));
+            let found = left_behind(&path, &saved.unwrap_or_default(), &live).into_iter().next();
+            self.draft.set(found);
         });
-        self.draft.set(found);
     }
 
     /// Keeps a text of the shown document, or no text any more where that is what is saved.
     pub(super) fn keep_draft(self, text: &str) {
         let Some(path) = self.current.get_untracked() else { return };
-        let Some(document) = self.document.get_untracked() else { return };
-        let [place, earlier] = places(&path);
-        let offered = self.draft.get_untracked();
-        if document.saved == text {
-            if offered.is_none() {
-                theme::put(&place, None);
-            }
-            return;
+        let place = own_place(&path);
+        let draft = self.document.with_untracked(|document| {
+            let document = document.as_ref().filter(|document| document.saved != text)?;
+            let (version, text) = (document.version.clone(), String::from(text));
+            Some(Draft { version, kept: js_sys::Date::now(), text }.written())
+        });
+        let is_kept = theme::put(&place, draft.as_deref());
+        if draft.is_some() && !is_kept && !self.is_unkept.get_value() {
+            self.notice.set(Some(Notice::Said(String::from(words::DRAFT_NOT_KEPT))));
         }
-        if let Some(offered) = offered.map(|offered| offered.written())
-            && theme::keep(&place).as_ref() == Some(&offered)
-        {
-            theme::put(&earlier, Some(&offered));
-        }
-        let draft = Draft { version: document.version, text: String::from(text) };
-        theme::put(&place, Some(&draft.written()));
+        self.is_unkept.set_value(draft.is_some() && !is_kept);
     }
 
-    /// Forgets what is kept of a document that stands under another name now.
+    /// Forgets what this tab keeps of a document that stands under another name now.
     pub(super) fn forget_draft(path: &str) {
-        for place in places(path) {
-            theme::put(&place, None);
-        }
+        theme::put(&own_place(path), None);
     }
 
-    /// Takes up the unsaved text of an earlier visit, or forgets it; then the one before it is offered.
+    /// Takes up the unsaved text that is offered, or forgets it; then the one before it is offered.
     pub fn decide_draft(self, restore: bool) {
-        let (Some(draft), Some(path)) = (self.draft.get_untracked(), self.current.get_untracked())
+        let (Some(Offered { draft, place }), Some(path)) =
+            (self.draft.get_untracked(), self.current.get_untracked())
         else {
             return;
         };
         self.draft.set(None);
-        for place in places(&path) {
-            if theme::keep(&place) == Some(draft.written()) {
-                theme::put(&place, None);
-            }
-        }
         if restore {
             self.flush_text();
             self.update_document(|document| document.version = draft.version);
+            // from now on this tab keeps it
             self.apply(&Command::Text(draft.text));
-        } else {
-            self.keep_draft(&self.written());
-            self.offer_draft(&path);
         }
+        // where there is no room for both, the older one stays until this one is saved
+        if !restore || !self.is_unkept.get_value() {
+            theme::put(&place, None);
+        }
+        self.offer_draft(&path);
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::Draft;
+    use super::{Draft, place_of};
 
     #[test]
     fn a_draft_is_read_as_it_was_written() {
         for text in ["", "x: Real\n", "\nfirst line empty", "a\r\nb\n\n"] {
-            let draft = Draft { version: String::from("absent"), text: String::from(text) };
+            let (version, kept) = (String::from("absent"), 1.75e12);
+            let draft = Draft { version, kept, text: String::from(text) };
             assert_eq!(Draft::read(&draft.written()), Some(draft));
         }
         assert_eq!(Draft::read("no line"), None);
+    }
+
+    #[test]
+    fn a_place_tells_the_tab_and_the_document() {
+        assert_eq!(place_of("thinglab/draft/7e-1/a/b.thing"), Some(("7e-1", "a/b.thing")));
+        assert_eq!(place_of("thinglab/dock"), None);
     }
 }

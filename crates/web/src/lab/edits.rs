@@ -288,6 +288,7 @@ impl Lab {
             .id()
             .zip(session::parse_path(path))
             .and_then(|(id, path)| self.ask(|session| session.value_shown(id, &path, word)));
+        self.list();
         let found = self.values.with_untracked(|rows| {
             let row = rows.iter().find(|row| value.as_ref() == Some(&row.path))?;
             let unit = if row.unit.is_empty() { String::new() } else { format!(" {}", row.unit) };

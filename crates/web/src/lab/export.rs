@@ -36,6 +36,7 @@ impl Lab {
     /// Hands the user the values as CSV.
     pub fn export_csv(self) {
         if let Some((name, _)) = self.drawn() {
+            self.list();
             js::download(&format!("{name}.csv"), &self.values.with_untracked(|rows| csv(rows)));
         }
     }

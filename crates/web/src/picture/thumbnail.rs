@@ -1,6 +1,6 @@
 //! A small picture of a document, which moves while one looks at it.
 
-use super::{Texts, grip_freedom, new_painter, paint, states};
+use super::{Texts, new_painter, paint};
 use crate::js::{self, Painter};
 use crate::lab::Lab;
 use crate::orbit;
@@ -30,7 +30,6 @@ pub fn Thumbnail(
     let size = RwSignal::new((0.0, 0.0));
     let painter = StoredValue::new_local(None::<Painter>);
     let picture = RwSignal::new(lab.ask(|session| session.picture(id)));
-    let freedom = StoredValue::new(states(&lab.ask(|session| session.structure(id))));
     let rest = StoredValue::new(picture.with_untracked(|picture| picture.drawing.clone()));
     Effect::new(move |_| {
         if let Some(canvas) = canvas.get() {
@@ -46,10 +45,7 @@ pub fn Thumbnail(
         lab.colors.changes.track();
         let size = size.get();
         let view = rest.with_value(|drawing| fit(drawing, size, MARGIN));
-        let list = picture.with(|picture| {
-            let freedom = freedom.with_value(|states| grip_freedom(picture, states));
-            display_list(picture, Part::Whole, &freedom, &[])
-        });
+        let list = picture.with(|picture| display_list(picture, Part::Whole, &[]));
         painter
             .with_value(|painter| {
                 let painter = painter.as_ref().filter(|_| size.0 > 0.0)?;

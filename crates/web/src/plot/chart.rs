@@ -52,7 +52,7 @@ pub fn Chart(
         let frame = frame.get();
         let drawing = plot.with(|plot| plot.chart(&frame));
         let picture = PictureView { drawing, ..PictureView::default() };
-        let list = display_list(&picture, Part::Whole, &[], &[]);
+        let list = display_list(&picture, Part::Whole, &[]);
         let view = View { scale: 1.0, x: 0.0, y: 0.0, vertical: Vertical::Down };
         let paint_all = |painter: &Option<Painter>| {
             let painter = painter.as_ref().filter(|_| frame.size.0 > 0.0)?;

@@ -29,7 +29,7 @@ impl<'m> Maker<'m> {
         let evaluator = state.evaluator(self.values);
         let Ok(Some(run)) = evaluator.run(thing) else { return };
         let path = state.structure.path(&state.lowered.document, thing).to_string();
-        let most = self.rows.len() + MOST_ROWS;
+        let most = self.work.rows.len() + MOST_ROWS;
         self.steps(&run, &path, depth, most);
     }
 
@@ -39,7 +39,7 @@ impl<'m> Maker<'m> {
             |e: &&eval::Entry<'_>| !e.name.is_empty() && !matches!(e.standing, Standing::Carried);
         let steps: Vec<&eval::Entry<'_>> = context.made.iter().filter(is_step).collect();
         for (shown, entry) in steps.iter().enumerate() {
-            if self.rows.len() >= most {
+            if self.work.rows.len() >= most {
                 return self.add_more(steps.len() - shown, path, depth);
             }
             let own = if path.is_empty() {
@@ -61,7 +61,7 @@ impl<'m> Maker<'m> {
 
     /// Adds the row of what a step made, or a part of that, and those below it.
     fn entity(&mut self, answer: &Answer<'_>, place: &Place<'_>, most: usize) {
-        let at = self.rows.len();
+        let at = self.work.rows.len();
         let origin = place.said.map(|message| message.origin);
         let mut row = self.row(
             place.path.into(),
@@ -80,14 +80,14 @@ impl<'m> Maker<'m> {
             Standing::Erased => format!("{what}, erased"),
         };
         let is_value = row.value.is_some();
-        self.rows.push(row);
+        self.work.rows.push(row);
         let document = &self.state.lowered.document;
         match answer {
             _ if is_value => {}
             Answer::Context(context) => self.steps(context, place.path, place.depth + 1, most),
             Answer::List(items) => {
                 for (i, item) in items.iter().enumerate() {
-                    if i >= MOST_TURNS || self.rows.len() >= most {
+                    if i >= MOST_TURNS || self.work.rows.len() >= most {
                         self.add_more(items.len() - i, place.path, place.depth + 1);
                         break;
                     }
@@ -114,14 +114,14 @@ impl<'m> Maker<'m> {
             | Answer::Picture(_)
             | Answer::Function(_) => {}
         }
-        self.rows[at].descendants = (self.rows.len() - at - 1) as u32;
+        self.work.rows[at].descendants = (self.work.rows.len() - at - 1) as u32;
     }
 
     /// Adds the row that says how many more there are; it leads to what they are in.
     fn add_more(&mut self, more: usize, path: &str, depth: u32) {
         let name = format!("… {more} more");
         let row = self.row(path.into(), depth, RowKind::Virtual, name, OriginId(0));
-        self.rows.push(row);
+        self.work.rows.push(row);
     }
 
     fn message(&self, class: ClassId, name: &base::Name) -> Option<&'m Message> {

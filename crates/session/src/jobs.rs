@@ -1,0 +1,148 @@
+//! Jobs: questions whose answers may take long, so that they are asked of a copy of the document in a worker.
+//!
+//! In: a document's text and a question. Out: the answers, part by part. All of it is plain data; the same question
+//! may be asked of an open document where there is no worker.
+
+use crate::host::Host;
+use crate::plain::{plain_enum, plain_struct};
+use crate::session::Session;
+use crate::view::{Analysis, DocumentId, FamilyAxis, FamilyMap, FamilyRow, RowFormats, RowOutcome};
+
+/// A question, with all that its answer follows from.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Job {
+    /// The document's name.
+    pub name: String,
+    /// Its text: a state is made from its text alone.
+    pub text: String,
+    /// What it uses, by name.
+    pub files: Vec<(String, String)>,
+    /// What is asked.
+    pub question: LongQuestion,
+}
+
+/// What may take long.
+#[derive(Clone, PartialEq, Debug)]
+pub enum LongQuestion {
+    /// What is free, superfluous and contradictory.
+    Analysis,
+    /// What comes of rows of a family.
+    Rows {
+        /// The family.
+        family: String,
+        /// The rows.
+        rows: Vec<FamilyRow>,
+        /// What they are written as.
+        formats: RowFormats,
+    },
+    /// Where in two parameters a program draws.
+    Map {
+        /// The family or program.
+        family: String,
+        /// The thing whose values count for the other parameters.
+        thing: Option<String>,
+        /// The two parameters.
+        axes: [FamilyAxis; 2],
+    },
+}
+
+/// An answer, or a part of one.
+#[derive(Clone, PartialEq, Debug)]
+pub enum LongAnswer {
+    /// To [`LongQuestion::Analysis`].
+    Analysis(Analysis),
+    /// Of [`LongQuestion::Rows`] the next one.
+    Row(RowOutcome),
+    /// To [`LongQuestion::Map`]; or why there is none.
+    Map(Result<FamilyMap, String>),
+}
+
+plain_struct!(Job { name, text, files, question });
+plain_enum!(LongQuestion {
+    0: Analysis,
+    1: Rows { family, rows, formats },
+    2: Map { family, thing, axes }
+});
+plain_enum!(LongAnswer { 0: Analysis(analysis), 1: Row(outcome), 2: Map(map) });
+
+impl LongQuestion {
+    /// In how many parts it is answered.
+    pub fn parts(&self) -> usize {
+        match self {
+            Self::Rows { rows, .. } => rows.len(),
+            Self::Analysis | Self::Map { .. } => 1,
+        }
+    }
+}
+
+/// Who answers jobs, one after the other: the document of the last one stays open.
+#[derive(Debug, Default)]
+pub struct Desk {
+    open: Option<(Session, DocumentId, Job)>,
+}
+
+/// The texts that a job brings along.
+struct Brought(Vec<(String, String)>);
+
+impl Host for Brought {
+    fn read(&self, name: &str) -> Option<String> {
+        self.0.iter().find(|(own, _)| own == name).map(|(_, text)| text.clone())
+    }
+}
+
+impl Desk {
+    /// Takes up a job; its answers come part by part.
+    pub fn take(&mut self, job: Job) {
+        let is_same = |open: &Job| {
+            (&open.name, &open.text, &open.files) == (&job.name, &job.text, &job.files)
+        };
+        match &mut self.open {
+            Some((_, _, open)) if is_same(open) => *open = job,
+            _ => {
+                let mut session = Session::new(Box::new(Brought(job.files.clone())));
+                let id = session.open(&job.name, &job.text);
+                self.open = Some((session, id, job));
+            }
+        }
+    }
+    /// Returns a part of the answer by its number; nothing after the last.
+    pub fn answer(&mut self, part: usize) -> Option<LongAnswer> {
+        let (session, id, job) = self.open.as_mut()?;
+        session.answer(*id, &job.question, part)
+    }
+}
+
+impl Session {
+    /// Returns the job of a question about a document.
+    pub fn job(&self, id: DocumentId, question: LongQuestion) -> Job {
+        let open = self.document(id);
+        let files = open.state.lowered.files.iter().map(|(_, file)| file);
+        let used = files.filter(|file| !file.name.is_empty());
+        Job {
+            name: open.name.clone(),
+            text: open.state.text.clone(),
+            files: used.map(|file| (file.name.to_string(), file.text.to_string())).collect(),
+            question,
+        }
+    }
+    /// Returns a part of the answer to a question about a document as its text says it, by its number.
+    pub fn answer(
+        &mut self,
+        id: DocumentId,
+        question: &LongQuestion,
+        part: usize,
+    ) -> Option<LongAnswer> {
+        match question {
+            _ if part >= question.parts() => None,
+            LongQuestion::Analysis => Some(LongAnswer::Analysis(self.analysis(id))),
+            LongQuestion::Rows { family, rows, formats } => {
+                let drawn = self.draw_row(id, family, rows.get(part)?, *formats);
+                Some(LongAnswer::Row(drawn.unwrap_or_default()))
+            }
+            LongQuestion::Map { family, thing, axes: [across, up] } => {
+                let map = self.family_map(id, (family, thing.as_deref()), [across, up]);
+                Some(LongAnswer::Map(map.map_err(|refusal| refusal.message)))
+            }
+        }
+    }
+}

@@ -1,0 +1,51 @@
+//! Listings: the rows of structure and values, made while there is time.
+//!
+//! In: a document as it stands. Out: its rows, a few at a time, so that whoever shows them goes on between. What has
+//! become of the document meanwhile is not seen.
+
+use super::{structure, values};
+use crate::document::Open;
+use crate::state::State;
+use crate::view::{StructureRow, ValueRow};
+use kernel::Values;
+use std::rc::Rc;
+
+/// Rows that are being made.
+pub struct Listing {
+    state: Rc<State>,
+    values: Values,
+    status: plan::Status,
+    structure_rows: structure::Work,
+    value_rows: values::Work,
+}
+
+impl std::fmt::Debug for Listing {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let rows = self.structure_rows.rows.len() + self.value_rows.rows.len();
+        f.debug_struct("Listing").field("rows", &rows).finish_non_exhaustive()
+    }
+}
+
+impl Listing {
+    pub(crate) fn of(open: &Open) -> Self {
+        Self {
+            state: open.state.clone(),
+            values: open.values().clone(),
+            status: open.status.clone(),
+            structure_rows: structure::Work::new(&open.state),
+            value_rows: values::Work::default(),
+        }
+    }
+
+    /// Goes on while there is time, which is asked after every row or two; returns true when all rows are made.
+    pub fn go_on(&mut self, has_time: &mut dyn FnMut() -> bool) -> bool {
+        let of = (&*self.state, &self.values, &self.status);
+        self.structure_rows.go_on(of, has_time) && self.value_rows.go_on(of, has_time)
+    }
+
+    /// Makes what is left, and returns all rows.
+    pub fn finished(mut self) -> (Vec<StructureRow>, Vec<ValueRow>) {
+        self.go_on(&mut || true);
+        (self.structure_rows.rows, self.value_rows.rows)
+    }
+}

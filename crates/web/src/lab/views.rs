@@ -1,0 +1,172 @@
+//! Views: what of them is made anew after a command, and when.
+//!
+//! At once there are the picture, the status line and the rows in sight. All rows follow while the page rests, a few
+//! at a time, where no more than values are others; whoever has to know them all before asks for them by
+//! [`Lab::list`]. During a drag only what is in sight is made.
+
+use super::{Lab, Zoom};
+use crate::js;
+use leptos::prelude::*;
+use session::Listing;
+use session::view::{DocumentId, MovedView, PictureView, RowKind, StructureRow};
+use std::collections::BTreeMap;
+use std::time::Duration;
+
+/// Rows are made for so many milliseconds before the page has its turn.
+const A_WHILE: f64 = 8.0;
+/// So many rows are made between two looks at the clock.
+const BETWEEN_LOOKS: u32 = 16;
+/// While something is dragged, they wait so long.
+const PAUSE: Duration = Duration::from_millis(100);
+
+/// Rows that are being made, and for the how-manieth time.
+#[derive(Debug, Default)]
+pub(super) struct Rows {
+    number: u32,
+    /// Of which document; its picture is shown as well.
+    of: Option<DocumentId>,
+    listing: Option<Listing>,
+}
+
+impl Lab {
+    /// Makes the views that a drag changes, as far as they are in the page.
+    pub(super) fn repaint(self) {
+        let Some(id) = self.id() else { return };
+        self.follow_picture(id);
+        self.renew_rows(id);
+    }
+
+    /// Makes all views of a document that was not shown before.
+    pub(super) fn show_views(self) {
+        self.structure.set(Vec::new());
+        self.values.set(Vec::new());
+        self.value_rows.update(|n| *n += 1);
+        let Some(id) = self.id() else { return };
+        self.follow_picture(id);
+        self.tell_state(id);
+        let number = self.begin_listing(id);
+        set_timeout(move || self.go_on_listing(number), Duration::ZERO);
+    }
+
+    /// Brings the views up to date after a command.
+    pub(super) fn refresh(self) {
+        let Some(id) = self.id() else { return };
+        let is_anew = self.follow_picture(id) == MovedView::Everything;
+        self.tell_state(id);
+        let number = self.begin_listing(id);
+        if is_anew {
+            return self.list();
+        }
+        self.renew_rows(id);
+        self.go_on_listing(number);
+    }
+
+    /// Brings the picture up to date, and says what of it moves.
+    fn follow_picture(self, id: DocumentId) -> MovedView {
+        if self.listing.with_value(|rows| rows.of != Some(id)) {
+            // nothing of it is of this document
+            let _ = self.picture.try_update_untracked(|view| *view = PictureView::default());
+        }
+        let followed = self
+            .picture
+            .try_update_untracked(|view| self.ask(|session| session.follow_picture(id, view)));
+        let moved = followed.unwrap_or(MovedView::Everything);
+        // which way the sheet counts y may have been said just now
+        let vertical = self.picture.with_untracked(|picture| picture.drawing.vertical);
+        if vertical != self.view.with_untracked(|view| view.vertical) {
+            self.zoom.set(Some(Zoom::Fit));
+        }
+        if self.moved.with_untracked(|before| *before != moved) {
+            self.moved.set(moved.clone());
+        }
+        self.picture.notify();
+        moved
+    }
+
+    /// Says how the document stands, and keeps its text as a draft.
+    fn tell_state(self, id: DocumentId) {
+        let (text, status, title) =
+            self.ask(|session| (session.text(id), session.status(id), session.title(id)));
+        self.status.set(status);
+        self.update_document(|document| {
+            document.dirty = document.saved != text.source;
+            document.title = title;
+        });
+        self.keep_draft(&text.source);
+        self.text.set(text);
+        self.follow_lesson();
+    }
+
+    /// Brings the rows up to date that are in the page.
+    fn renew_rows(self, id: DocumentId) {
+        let dragged = self.structure.with_untracked(|rows| {
+            let shown = self.shown_things.get_value();
+            self.ask(|session| {
+                let part = |at: &usize| rows.get(*at).filter(|row| row.kind == RowKind::Part);
+                let value =
+                    |row: &StructureRow| session.shown_value(id, &session::parse_path(&row.path)?);
+                let of = |at: usize| Some((at, part(&at).and_then(value)?));
+                shown.into_iter().filter_map(of).collect()
+            })
+        });
+        self.dragged_values.set(dragged);
+        let mut shown = self.shown_values.get_value();
+        shown.extend(self.inspected_values.get_value());
+        shown.sort_unstable();
+        shown.dedup();
+        self.values.update(|rows| {
+            let mut shown = shown.iter().peekable();
+            let rows = rows.iter_mut().enumerate();
+            let rows = rows.filter(|(at, _)| shown.next_if(|next| *next == at).is_some());
+            self.ask(|session| session.renew_values(id, rows.map(|(_, row)| row)));
+        });
+    }
+
+    /// Begins to make all rows, instead of any that are being made; returns which ones they are.
+    fn begin_listing(self, id: DocumentId) -> u32 {
+        let listing = self.ask(|session| session.begin_listing(id));
+        let number = self.listing.try_update_value(|rows| {
+            let number = rows.number + 1;
+            *rows = Rows { number, of: Some(id), listing: Some(listing) };
+            rows.number
+        });
+        number.unwrap_or_default()
+    }
+
+    /// Goes on for a while, and again later until all rows are made or others have taken their place.
+    fn go_on_listing(self, number: u32) {
+        let again = move |after: Duration| set_timeout(move || self.go_on_listing(number), after);
+        // the lab may have gone with the page
+        let is_it = self.listing.try_with_value(|rows| rows.number == number);
+        if is_it != Some(true) {
+            return;
+        }
+        if self.dragging.with_untracked(Option::is_some) {
+            return again(PAUSE);
+        }
+        let until = js::now() + A_WHILE;
+        let mut made = 0_u32;
+        let mut has_time = || {
+            made += 1;
+            !made.is_multiple_of(BETWEEN_LOOKS) || js::now() < until
+        };
+        let is_done = self.listing.try_update_value(|rows| {
+            rows.listing.as_mut().is_none_or(|listing| listing.go_on(&mut has_time))
+        });
+        match is_done {
+            Some(true) => self.list(),
+            _ => again(Duration::ZERO),
+        }
+    }
+
+    /// Shows all rows, those as well that are still to be made.
+    pub fn list(self) {
+        let listing = self.listing.try_update_value(|rows| rows.listing.take()).flatten();
+        let Some(listing) = listing else { return };
+        let (structure, values) = listing.finished();
+        self.values.set(values);
+        self.value_rows.update(|n| *n += 1);
+        self.structure.set(structure);
+        self.dragged_values.update(BTreeMap::clear);
+    }
+}

@@ -1,0 +1,29 @@
+//! The words of long jobs.
+
+use crate::lab::Kind;
+
+pub const NO_WORKER: &str =
+    "The browser refuses a worker: long jobs run in the page, which may stand still meanwhile";
+pub const JOB_STOPPED: &str = "Stopped";
+pub const STOP_JOB: &str = "Stop";
+pub const ANALYSING: &str = "Looking what is free and what contradicts …";
+pub const ANALYSIS_STOPPED: &str =
+    "What is free and what contradicts was not looked up to the end.";
+pub const ROWS_STOPPED: &str =
+    "Not all rows were drawn: the drawing was stopped. Another edit draws them again.";
+pub const MAP_STOPPED: &str = "The map was stopped. Another range makes it again.";
+pub const ANALYSE_AGAIN: &str = "Look again";
+
+/// What a job is called while it goes on.
+pub fn job(kind: Kind) -> &'static str {
+    match kind {
+        Kind::Analysis => "Analysing",
+        Kind::Rows => "Drawing rows",
+        Kind::Map => "Making the map",
+    }
+}
+
+/// Why a job came to no end.
+pub fn job_failed(why: &str) -> String {
+    format!("It came to no end: {why}")
+}
