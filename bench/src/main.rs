@@ -2,12 +2,13 @@
 //!
 //! `cargo bench-table SECTION` prints one section, `cargo bench-table SECTION NAME` the rows whose names
 //! begin so: `cargo bench-table sketches rects`. The sections: `sketches`, `drags`, `displaced`, `circuits`,
-//! `trusses`, `rows`, `instances`, `programs`, `tape`, `things`, `gallery` (`gallery NAME GRIP` drags by one grip),
+//! `trusses`, `rows`, `instances`, `programs`, `drafting`, `tape`, `things`, `gallery` (`gallery NAME GRIP` drags by one grip),
 //! `browser` (in WebAssembly, in a browser), `lab` (the page as people get it). Figures to
 //! read, not tests: nothing here fails for being slow.
 
 mod circuits;
 mod displacements;
+mod drafting;
 mod gallery;
 mod instances;
 mod programs;
@@ -20,7 +21,7 @@ use std::io::{self, Write};
 use std::process::{Command, Stdio};
 
 /// The sections, in the order in which they are printed.
-const SECTIONS: [&str; 13] = [
+const SECTIONS: [&str; 14] = [
     "sketches",
     "drags",
     "displaced",
@@ -29,6 +30,7 @@ const SECTIONS: [&str; 13] = [
     "rows",
     "instances",
     "programs",
+    "drafting",
     "tape",
     "things",
     "gallery",
@@ -57,6 +59,7 @@ fn main() -> io::Result<()> {
             "rows" => rows::table(out, filter)?,
             "instances" => instances::table(out)?,
             "programs" => programs::table(out, filter)?,
+            "drafting" => drafting::table(out)?,
             "tape" => tape::table(out)?,
             "things" => things::table(out)?,
             "gallery" => gallery::table(out, filter, grip)?,

@@ -20,9 +20,10 @@
 //! Reading order: `origins`, `lower`, `files`, `visible`, `classes`, `scope`, `members`, `programs`, `families`, `loops`,
 //! `rules`, `switches`, `kept`, `names`, `hints`, `paths`, `refine`, `terms`, `components`, `calls`, `kin`, `kinds`,
 //! `settle`, `restore`,
-//! `checks`, `lessons`, `views`,
+//! `alone`, `checks`, `lessons`, `views`,
 //! `numbers`, `mixed`, `write`, `uses`,
 //! `edits`, `references`, `mentions`.
+mod alone;
 mod bindings;
 mod calls;
 mod checks;
@@ -69,6 +70,7 @@ mod views;
 mod visible;
 mod write;
 
+pub use alone::{Alone, read_alone};
 pub use checks::{Check, Expectation, PlanKind, Statement, StatementKind, without_checks};
 pub use edits::{Restructuring, edits_for, for_every, is_count, of_constraint, write_sides};
 pub use families::{Family, Row as FamilyRow};
@@ -78,5 +80,6 @@ pub use lower::{Lowered, lower, lower_written, mentions};
 pub use mentions::{Meant, Mention};
 pub use numbers::{Wanted, read_literal, show_limit};
 pub use origins::Origins;
+pub use placed::PLACED;
 pub use views::{PlotOf, Toolbox};
 pub use write::{quoted, write_values};

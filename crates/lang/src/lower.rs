@@ -4,6 +4,7 @@
 //! classes named; superclasses are found; parts and messages are declared; at last everything that
 //! speaks of parts is lowered.
 
+use crate::alone::Names;
 use crate::checks::{self, Check};
 use crate::counts::Counts;
 use crate::families::Family;
@@ -73,6 +74,8 @@ pub struct Lowered {
     pub(crate) parts: ByName<usize>,
     /// Where the document's own text declares classes.
     pub(crate) class_spans: Vec<Span>,
+    /// What its names mean, for expressions that are read alone.
+    pub(crate) names: Rc<Names>,
 }
 
 /// What members of classes are told apart by: class and name, in order of declaration.
@@ -185,6 +188,19 @@ pub(crate) fn lower_text(
         files: l.files,
         parts: l.parts,
         added: l.added,
+        names: Rc::new(Names {
+            visible: l.visible,
+            object: l.object,
+            messages: l.messages,
+            message_kinds: l.message_kinds,
+            primary_names: l.primary_names,
+            constants: l.constants,
+            broken: l.broken,
+            file_things: l.file_things,
+            choices: l.choices,
+            made: l.made,
+            counted: l.counted,
+        }),
     }
 }
 
@@ -293,7 +309,17 @@ pub(crate) struct Lowerer<'l> {
 
 impl<'l> Lowerer<'l> {
     fn new(load: &'l dyn Fn(&str) -> Option<String>, before: Option<&'l Lowered>) -> Self {
-        let mut l = Self {
+        let mut l = Self::empty(load, before);
+        l.own_classes();
+        l
+    }
+
+    /// Makes one that knows no class yet, not even the language's own.
+    pub(crate) fn empty(
+        load: &'l dyn Fn(&str) -> Option<String>,
+        before: Option<&'l Lowered>,
+    ) -> Self {
+        Self {
             load,
             before,
             changed: Vec::new(),
@@ -353,9 +379,7 @@ impl<'l> Lowerer<'l> {
             declared_for_counts: Vec::new(),
             references: None,
             counting: None,
-        };
-        l.own_classes();
-        l
+        }
     }
 
     /// Lowers a text, and returns what it says beside classes and members.

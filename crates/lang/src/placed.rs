@@ -7,6 +7,9 @@
 //!
 //! A stay keeps the master as it is while instances are dragged: it changes with its class.
 //!
+//! A placed thing of a *program* has no master: `w: Placed of Washer { at = (10, 20)  inner = 5 mm }` is a washer with
+//! parameters of its own, in whose frame its steps draw; what it shows of them is moved, scaled and turned.
+//!
 //! **Source:** Sutherland 1963, "Sketchpad", chapter VI, instances and their attachers.
 
 use crate::kinds::Kind;
@@ -16,12 +19,14 @@ use base::{Diagnostic, FileId, Name, Place, Span};
 use expr::dimension::Dimension;
 use kernel::{
     Argument, BinaryOperator, ClassId, ClassKind, Constraint, Document, Given, Message, OriginId,
-    Part, Path, Primitive, Stay, Step, Strength, Term,
+    Part, Path, Primitive, Search, Stay, Step, Strength, Superclass, Term,
 };
 use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 use syntax::ast::{self, AstNode, Expr};
 
+/// The message by which a placed thing of a program shows all that it draws, where it is placed. No text can say it.
+pub const PLACED: &str = "(placed)";
 /// How many parts of a master are placed, those of its parts included.
 const MOST_FIELDS: u32 = 10_000;
 
@@ -30,8 +35,8 @@ const MOST_FIELDS: u32 = 10_000;
 pub(crate) struct PlacedClasses {
     /// Every placed class with the class of its master.
     of: BTreeMap<ClassId, ClassId>,
-    /// Those that have no parts yet, with the file that spoke of them first.
-    waiting: Vec<(ClassId, FileId)>,
+    /// Those that have no parts yet, with where they were spoken of first.
+    waiting: Vec<(ClassId, Place)>,
     /// The class of the document's masters.
     pub(crate) masters: Option<(Name, ClassId)>,
 }
@@ -58,7 +63,11 @@ impl Lowerer<'_> {
         }
         let class = self.class_made_of("Placed of", ClassKind::Composite, master);
         if self.placed.of.insert(class, master).is_none() {
-            self.placed.waiting.push((class, file));
+            self.placed.waiting.push((class, Place { file, span }));
+            if self.draws(master) {
+                let program = Superclass { class: master, name: Name::new("") };
+                self.document.classes[class].supers = vec![program];
+            }
         }
         Some(class)
     }
@@ -66,12 +75,20 @@ impl Lowerer<'_> {
     /// Gives placed classes their parts and messages, once those of their masters are declared.
     pub(crate) fn complete_placed(&mut self) {
         let waiting = std::mem::take(&mut self.placed.waiting);
-        for &(class, file) in &waiting {
+        for &(class, Place { file, span }) in &waiting {
             let master = self.placed.of[&class];
             let origin = self.document.classes[class].origin;
             let at = self.place_class(file, origin);
             let own = |name: &str| self.visible.class(OWN, name);
             let (Some(turn), Some(scale)) = (own("Angle"), own("Real")) else { return };
+            if self.draws(master) {
+                self.complete_placed_program(
+                    (class, master),
+                    [scale, turn, at],
+                    Place { file, span },
+                );
+                continue;
+            }
             let reference = self.reference_to(master);
             // what is declared last yields first: a placed thing that is dragged is moved
             for (name, part) in
@@ -93,7 +110,10 @@ impl Lowerer<'_> {
             }
         }
         for (class, _) in waiting {
-            self.forward(class, self.placed.of[&class]);
+            let master = self.placed.of[&class];
+            if !self.draws(master) {
+                self.forward(class, master);
+            }
         }
     }
 
@@ -164,6 +184,76 @@ impl Lowerer<'_> {
         let of = self.master_name(master);
         self.add_hidden_part(class, of, master, origin);
         name
+    }
+
+    /// Gives placed things of a program a scale, a turn and a place beside their parameters.
+    fn complete_placed_program(
+        &mut self,
+        (class, program): (ClassId, ClassId),
+        classes: [ClassId; 3],
+        place: Place,
+    ) {
+        let origin = self.document.classes[class].origin;
+        for (name, part) in ["scale", "turn", "at"].into_iter().zip(classes) {
+            let name = Name::new(name);
+            if self.class_of_part(program, &name).is_some()
+                || self.defined_message(program, &name).is_some()
+            {
+                let of = self.master_name(program);
+                let message = format!("{of} has a {name} of its own, and what is placed has one");
+                let d = Diagnostic::error("duplicate-name", place, message);
+                self.report(d.hint(format!("call that of {of} otherwise")));
+                continue;
+            }
+            self.add_hidden_part(class, name, part, origin);
+        }
+        for (name, value) in [("scale", 1.0), ("turn", 0.0)] {
+            let (path, value) = (Path::of(&[name]), Term::number(value));
+            self.document.classes[class].givens.push(Rc::new(Given { path, value, origin }));
+        }
+    }
+
+    /// Lets placed things of programs show their steps where they are placed, once these are lowered.
+    pub(crate) fn forward_programs(&mut self) {
+        let all = self.placed.of.iter().map(|(&class, &program)| (class, program));
+        let all: Vec<_> = all.filter(|&(_, program)| self.draws(program)).collect();
+        for (class, program) in all {
+            let origin = self.document.classes[class].origin;
+            let is_step = |m: &&Message| matches!(m.answer, Term::Step(_));
+            let steps = self.document.classes[program].messages.iter().filter(is_step);
+            for name in steps.map(|m| m.name.clone()).collect::<Vec<_>>() {
+                let kind = self.message_kind(program, &name);
+                let search = Some(Search::Above(class));
+                let (to, arguments) = (Box::new(Term::Me), Vec::new());
+                let own = Term::Send { to, name: name.clone(), arguments, search };
+                let answer = match &kind {
+                    Kind::Number(Some(dimension)) => (0..powers_of_length(*dimension))
+                        .fold(own, |own, _| times(self::own("scale"), own)),
+                    Kind::Thing(_) | Kind::List(_) | Kind::Unknown => somewhere_else(own),
+                    Kind::Number(None)
+                    | Kind::Bool
+                    | Kind::Option(_)
+                    | Kind::Text
+                    | Kind::Tuple(_)
+                    | Kind::Picture
+                    | Kind::Function => own,
+                };
+                self.add_hidden_message(class, &name, answer, kind, origin);
+            }
+            let parts = self.document.classes[program].parts.iter();
+            let given = parts
+                .map(|part| Argument { label: Some(part.name.clone()), value: own(&part.name) });
+            let drawn = Term::Make { class: program, arguments: given.collect() };
+            let drawn = shown(drawn);
+            self.add_hidden_message(class, PLACED, drawn, Kind::Thing(program), origin);
+            let has_own = self.defined_message(program, &Name::new("picture"));
+            if has_own.is_some_and(|m| matches!(m.answer, Term::Call { .. })) {
+                let value = shown(Term::Result);
+                let arguments = vec![Argument { label: None, value }];
+                let picture = Term::Call { name: Name::new("picture"), arguments };
+                self.add_hidden_message(class, "picture", picture, Kind::Picture, origin);
+            }
+        }
     }
 
     /// Lets a placed class answer to whatever its master does.
@@ -338,8 +428,7 @@ impl Placing<'_> {
     fn term(&mut self, of: Term, class: ClassId, depth: u32) -> Term {
         match self.document.classes[class].kind {
             ClassKind::Primitive(Primitive::Real(dimension)) => {
-                let scales = (1..=3).find(|&n| dimension == Dimension::LENGTH.power(n));
-                (0..scales.unwrap_or(0)).fold(of, |value, _| times(own("scale"), value))
+                (0..powers_of_length(dimension)).fold(of, |value, _| times(own("scale"), value))
             }
             ClassKind::Primitive(_) | ClassKind::Reference(_) | ClassKind::Set(_) => of,
             ClassKind::List(element) => {
@@ -389,6 +478,40 @@ impl Placing<'_> {
         self.way.pop();
         Term::Make { class, arguments }
     }
+}
+
+/// Returns which power of a length a dimension is: 1, 2 or 3; 0 for any other.
+fn powers_of_length(dimension: Dimension) -> i8 {
+    (1..=3).find(|&n| dimension == Dimension::LENGTH.power(n)).unwrap_or(0)
+}
+
+/// What is drawn in the frame of a placed thing, where that is: moved, then scaled and turned about its place.
+fn somewhere_else(of: Term) -> Term {
+    let labelled =
+        |label: &str, part: &str| Argument { label: Some(Name::new(label)), value: own(part) };
+    let to = |of: Term, name: &str, arguments: Vec<Argument>| Term::Send {
+        to: Box::new(of),
+        name: Name::new(name),
+        arguments,
+        search: None,
+    };
+    let moved = to(of, "moved", vec![labelled("by", "at")]);
+    let scaled = to(moved, "scaled", vec![labelled("about", "at"), labelled("by", "scale")]);
+    to(scaled, "turned", vec![labelled("about", "at"), labelled("by", "turn")])
+}
+
+/// The same where it is only seen: what is neither turned nor scaled need not know how that is done.
+fn shown(of: Term) -> Term {
+    let is = |part: &str, number: f64| {
+        let sides = (Box::new(own(part)), Box::new(Term::number(number)));
+        Term::Binary(BinaryOperator::Equal, sides.0, sides.1)
+    };
+    let both = (Box::new(is("turn", 0.0)), Box::new(is("scale", 1.0)));
+    let is_plain = Term::Binary(BinaryOperator::And, both.0, both.1);
+    let arguments = vec![Argument { label: Some(Name::new("by")), value: own("at") }];
+    let to = Box::new(of.clone());
+    let moved = Term::Send { to, name: Name::new("moved"), arguments, search: None };
+    Term::If(Box::new(is_plain), Box::new(moved), Box::new(somewhere_else(of)))
 }
 
 fn own(name: &str) -> Term {

@@ -54,6 +54,7 @@ impl Lowerer<'_> {
         self.complete_placed();
         self.prepare_modifications();
         self.define_programs();
+        self.forward_programs();
         self.define_pending();
         self.finish_programs();
         self.drop_broken_messages();

@@ -6,7 +6,7 @@ use kernel::ClassId;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The classes that can be named.
-#[derive(Default)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Visible {
     /// The classes of each name, in order of declaration, with their texts; the language's own have
     /// none.

@@ -44,6 +44,8 @@ pub(crate) struct Open {
     pub(crate) picking: crate::drafting::Picking,
     /// The program that is recorded, if any.
     pub(crate) recording: Option<crate::drafting::Recording>,
+    /// What was tried for the second turn of a loop.
+    pub(crate) tried: crate::drafting::Tried,
     /// A drag between press and release.
     pub(crate) drag: Option<crate::drag::Drag>,
     /// What the calculator shows.
@@ -87,6 +89,7 @@ impl Open {
             picking: crate::drafting::Picking::default(),
             recording: None,
             drag: None,
+            tried: crate::drafting::Tried::default(),
             sums: None,
             study: None,
             pane: None,

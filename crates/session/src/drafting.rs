@@ -8,9 +8,11 @@
 //! them in a copy of the text. So a construction that a library gains is a tool at once.
 //!
 //! Reading order: `catalogue`, `scene`, `typed`, `outcome`, `dialogue`, `older`, `hands`, `recording`, `blocks`,
-//! `operands`, `repeat`, `choice`, `demonstrating`, `measure`, `steps`, `visit`, `remove`, `visiting`, `text`.
+//! `operands`, `repeat`, `choice`, `demonstrating`, `measure`, `steps`, `visit`, `remove`, `changing`, `visiting`,
+//! `text`.
 mod blocks;
 mod catalogue;
+mod changing;
 mod choice;
 mod demonstrating;
 mod dialogue;
@@ -33,6 +35,8 @@ mod visiting;
 
 pub(crate) use dialogue::Dialogue;
 pub(crate) use recording::retext;
+pub(crate) use repeat::Tried;
+pub(crate) use visit::keep_own;
 
 use base::Name;
 use kernel::Path;
@@ -90,6 +94,10 @@ pub(crate) struct Recording {
     pub(crate) replaces: Option<String>,
     /// The deletion whose dependents are asked about.
     pub(crate) removing: Option<remove::Removing>,
+    /// What of a step is changed.
+    pub(crate) changing: Option<changing::Changing>,
+    /// The example as its text declared it, while the program is visited by other values.
+    pub(crate) own_values: Option<String>,
 }
 
 impl Home {

@@ -31,6 +31,7 @@ mod following;
 mod general;
 mod ghosts;
 mod given_twice;
+mod instances;
 pub mod jobs;
 mod joining;
 mod kinds;

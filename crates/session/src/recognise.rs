@@ -17,6 +17,8 @@ use kernel::{
 
 /// How many parts can be asked about: their orders are all tried.
 const MOST_PARTS: usize = 6;
+/// What the name of the class of placed things begins with: nobody declares it.
+const PLACED_OF: &str = "Placed of ";
 
 /// Returns the classes that some parts could be the parts of, those with most constraints first.
 ///
@@ -110,6 +112,7 @@ pub(crate) fn is_candidate(state: &State, id: ClassId, class: &Class) -> bool {
         && !class.supers.is_empty()
         && id != document.root
         && !class.name.is_empty()
+        && !class.name.starts_with(PLACED_OF)
         && !state.lowered.is_class_of_one(id)
 }
 

@@ -55,6 +55,21 @@ impl Tool {
     /// # Errors
     /// There is no such class, or its things have no place that could be set.
     pub(crate) fn new(open: &Open, host: &dyn Host, class: &str) -> Result<Self, Refusal> {
+        let within = open.pane.as_ref().map(|pane| pane.part(&Path::default())).unwrap_or_default();
+        let name = recognise::free_name_in(&open.state, &within, &Name::new(class));
+        Self::with_values(open, host, (class, name, &[]))
+    }
+
+    /// Takes a tool for a thing of a class, by its name, to which some values are given. Things that a program draws
+    /// are placed: each has a place beside its parameters.
+    ///
+    /// # Errors
+    /// There is no such class, or its things have no place that could be set.
+    pub(crate) fn with_values(
+        open: &Open,
+        host: &dyn Host,
+        (class, name, values): (&str, String, &[String]),
+    ) -> Result<Self, Refusal> {
         let state = &open.state;
         let document = &state.lowered.document;
         let class = Name::new(class);
@@ -64,9 +79,12 @@ impl Tool {
         else {
             return Err(words::refuse(format!("there is no class {class} to make things of")));
         };
-        let within = open.pane.as_ref().map(|pane| pane.part(&Path::default())).unwrap_or_default();
-        let name = recognise::free_name_in(state, &within, &class);
-        let text = trial_text(&state.text, &name, &class);
+        let written = if document.program(known).is_some() { "Placed of " } else { "" };
+        let body = match values {
+            [] => String::new(),
+            values => format!(" {{\n    {}\n}}", values.join("\n    ")),
+        };
+        let text = trial_text(&state.text, &format!("{name}: {written}{class}{body}"));
         let trial = Box::new(Open::of(&open.name, text, host));
         let stages = stages(&trial.state, &name);
         let goes_on = document.class_named("Line").is_some_and(|line| document.is_a(known, line));
@@ -363,15 +381,23 @@ fn guides(catch: &Catch, last: Option<&Catch>) -> Vec<Element> {
 }
 
 /// A text that says what classes a document has, and one thing of one of them.
-fn trial_text(text: &str, name: &str, class: &str) -> String {
-    format!("{}\n{name}: {class}\n", of_classes(text))
+fn trial_text(text: &str, thing: &str) -> String {
+    format!("{}\n{thing}\n", of_classes(text))
 }
 
 /// What a text says of classes, and not of things.
 pub(crate) fn of_classes(text: &str) -> String {
     let file = syntax::parse(base::FileId(0), text).file();
     let is_of_classes = |m: &Member| {
-        matches!(m, Member::Use(_) | Member::Class(_) | Member::Unit(_) | Member::Y(_))
+        matches!(
+            m,
+            Member::Use(_)
+                | Member::Class(_)
+                | Member::Choice(_)
+                | Member::Program(_)
+                | Member::Unit(_)
+                | Member::Y(_)
+        )
     };
     let kept = file.members().filter(is_of_classes).map(|m| m.syntax().text().to_string());
     kept.collect::<Vec<String>>().join("\n")

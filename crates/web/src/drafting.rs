@@ -11,6 +11,7 @@ use wasm_bindgen::JsCast;
 use wasm_bindgen::closure::Closure;
 
 pub mod calculator;
+pub mod numbers;
 pub mod prompt;
 pub mod recorder;
 pub mod steps;
@@ -270,7 +271,8 @@ impl Lab {
         self.draft_end();
         match self.tell(session::Session::stop_recording) {
             Some(Err(refusal)) => self.notice.set(Some(Notice::Refused(refusal))),
-            Some(Ok(())) | None => {
+            stopped => {
+                self.settle(stopped);
                 self.drafting.lit.set(None);
                 self.show_made(drawing::Drawing::default());
             }
@@ -336,6 +338,36 @@ impl Lab {
             tag: drawing::Tag(0),
         };
         self.show_made(drawing::Drawing { elements: vec![element], ..drawing::Drawing::default() });
+    }
+
+    /// Begins to change a part of what a step says; records the program again where that has ended.
+    fn change_operand(self, steps: &StepsView, (step, slot): (&str, &str)) {
+        if !steps.is_recorded {
+            self.record(&steps.program);
+        }
+        self.ask_prompt(|session, id| session.begin_change(id, (step, slot)));
+        let says = self.drafting.prompt.with_untracked(|p| match p.as_ref()?.wants.clone() {
+            Wants::Change(says) if p.as_ref()?.is_value => Some(says),
+            _ => None,
+        });
+        // a value is changed from what it is; what is typed first takes its place
+        if let Some(says) = says {
+            self.drafting.typed.set(says);
+            request_animation_frame(|| {
+                let field = document().query_selector("input[name='operand']").ok().flatten();
+                if let Some(field) =
+                    field.and_then(|f| f.dyn_into::<web_sys::HtmlInputElement>().ok())
+                {
+                    field.select();
+                }
+            });
+        }
+    }
+
+    /// Gives the example its own values again.
+    fn own_values(self) {
+        self.settle(self.tell(session::Session::own_values));
+        self.drafting.turned.update(|n| *n += 1);
     }
 
     /// Goes somewhere in the program that is recorded.

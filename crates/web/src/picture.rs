@@ -3,6 +3,7 @@
 //! Pointer moves are taken at most once a frame; key presses are commands of their own, so that none
 //! is lost.
 
+use crate::drafting::numbers::StepNumbers;
 use crate::field::Edit;
 use crate::js::{self, Painter};
 use crate::lab::{Lab, Marked, Zoom, first_path};
@@ -113,6 +114,7 @@ pub fn Picture(
                     </div>
                 }
             })}
+            <StepNumbers lab=lab />
             {move || lab.band.get().map(|[from, to]| {
                 let (left, top) = (f64::min(from.0, to.0), f64::min(from.1, to.1));
                 view! {

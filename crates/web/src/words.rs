@@ -605,6 +605,20 @@ pub const VISIT_PICKED: &str = "Until what you pick in the picture is drawn";
 pub const VISIT_HERE: &str = "Go to this step: what is drawn then is inserted before it";
 /// Draws a step anew.
 pub const REPLACE_STEP: &str = "Replace this step by what you draw next";
+/// Changes a part of what a step says.
+pub const CHANGE_OPERAND: &str = "Change it: pick or type another";
+/// The field of a step's number on the drawing.
+pub const STEP_NUMBER: &str = "number of the step";
+/// That a program is visited by other values than its example's own.
+pub const BY_OTHERS: &str = "Visited by other values. ";
+/// Gives the example its own values again.
+pub const OWN_VALUES: &str = "Own values";
+
+/// How a number of a step is changed.
+pub fn typed_anew(says: &str) -> String {
+    format!("{says}: double click, or Enter, to type another")
+}
+
 /// Goes on recording.
 pub const RECORD_MORE: &str = "Record more of it";
 /// What speaks of a step that is deleted goes too.
@@ -662,8 +676,36 @@ pub fn would_move(moved: &[String]) -> String {
 
 /// The button of the strip that makes a class of the selection.
 pub const CLASS: &str = "class…";
-/// The action that gives the keyboard to the inspector.
+/// The action that holds a placed thing of a program, or lets it go.
+pub const HOLD_PLACE: &str = "Fit by dragging: hold its place, or let it go";
+/// The action that makes plain figures of what a program drew.
+pub const UNLINK: &str = "Unlink from its program";
+/// Why an action about programs cannot be done.
+pub const NOT_DRAWN: &str = "no program draws what is selected";
+/// Why a thing cannot be held in its place.
+pub const NOT_PLACED: &str =
+    "what is selected has no place of its own: place it from the bin or a row";
+
+/// That a thing is held in its place.
+pub fn held_in_place(thing: &str) -> String {
+    format!("{thing} is held in its place: a drag of what it shows fits its parameters")
+}
+
+/// That a thing is let go.
+pub fn let_go(thing: &str) -> String {
+    format!("{thing} is let go: a drag of what it shows moves it")
+}
+
+/// What an unlinked thing became.
+pub fn unlinked(thing: &str, figures: &[String]) -> String {
+    format!("{thing} became {}", figures.join(", "))
+}
+
+/// The action that gives the keyboard to constructions and recording.
+pub const GO_DRAW: &str = "Go to drawing and recording";
+/// The action that gives the keyboard to what is wrong, and what would mend it.
 pub const GO_WHY: &str = "Go to the reasons and repairs";
+/// The action that gives the keyboard to the inspector.
 pub const GO_INSPECTOR: &str = "Go to the inspector";
 
 /// What the inspector is about where several things are selected.

@@ -214,6 +214,25 @@ async fn a_wrong_step_is_found_by_what_it_drew_and_replaced() {
     visit
         .until("window.__thinglab.state().text.includes('with: circle, radius: circle.radius / 4')")
         .await;
+    // its numbers stand on the drawing: another one is typed there
+    press(&visit, "[data-step='turns.circle2'] .step").await;
+    let number = "document.querySelector(\"[data-step-number='radius']\")";
+    visit.until(&format!("{number}?.innerText.includes('10')")).await;
+    visit
+        .script(&format!("{number}.dispatchEvent(new MouseEvent('dblclick', {{bubbles: true}}))"))
+        .await;
+    visit.until("document.activeElement?.name === 'step-number'").await;
+    fill(&visit, "input[name='step-number']", &format!("circle.radius / 8{ENTER}")).await;
+    visit.until("window.__thinglab.state().text.includes('radius: circle.radius / 8')").await;
+    // how often the loop runs is asked anew, from what it was
+    press(&visit, "[data-step='turns'] .step").await;
+    press(&visit, "[data-step-operand='times']").await;
+    asked(&visit, "is 3").await;
+    visit
+        .until("getSelection().toString() === '3' || document.activeElement?.selectionEnd === 1")
+        .await;
+    enter(&visit, "4").await;
+    visit.until("window.__thinglab.state().text.includes('repeat 4 times')").await;
     // a step that another one speaks of: that one is asked about
     press(&visit, "[data-step='turns.circle'] [data-step-delete]").await;
     asked(&visit, "speaks of circle").await;
@@ -241,6 +260,9 @@ async fn a_family_is_a_grid_in_which_rows_are_changed_and_used() {
     visit.until(&format!("{}.includes('wall is not met')", outcome("6204"))).await;
     press(&visit, "[data-row='6206'] [data-family='apply']").await;
     visit.until("window.__thinglab.state().text.includes('outer = 62')").await;
+    // placed, it has a place of its own
+    press(&visit, "[data-row='6206'] [data-family='place']").await;
+    visit.until("window.__thinglab.state().text.includes(': Placed of Bearing {')").await;
     press(&visit, "[data-family='pictures']").await;
     visit.until("document.querySelectorAll('.specimen img').length === 10").await;
     press(&visit, "[data-family='map']").await;

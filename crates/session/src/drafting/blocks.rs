@@ -36,7 +36,7 @@ pub(crate) enum Kind {
 
 impl Recording {
     /// Leaves the blocks that the text no longer has.
-    pub(crate) fn prune(&mut self, source: &str) {
+    pub(crate) fn prune(&mut self, source: &text::Source) {
         let mut address = String::new();
         let kept = self.blocks.iter().take_while(|block| {
             address = text::joined(&address, &block.around.address);
@@ -63,8 +63,8 @@ impl Recording {
 pub(crate) fn settle(open: &mut Open) {
     let state = open.state.clone();
     if let Some(recording) = &mut open.recording {
-        match text::program(&state.text, &recording.program) {
-            Some(_) => recording.prune(&state.text),
+        match text::program(&text::Source::now(&state), &recording.program) {
+            Some(_) => recording.prune(&text::Source::now(&state)),
             None => open.recording = None,
         }
     }
@@ -91,7 +91,7 @@ pub(crate) fn begin(
     (around, kind): (Around, Kind),
 ) -> Result<Change, Refusal> {
     let home = Home::of(Some(recorded(open)?));
-    let text = text::with_members(&open.state.text, &home, lines)?;
+    let text = text::with_members(&text::Source::now(&open.state), &home, lines)?;
     let since = open.done.len();
     let change = recording::retext(open, host, text, label)?;
     if let Some(recording) = &mut open.recording {
@@ -125,7 +125,7 @@ pub(crate) fn leave(open: &mut Open) {
 }
 
 /// The segment that a block without a name gets where drawing goes on.
-pub(crate) fn next_segment(source: &str, home: &Home) -> String {
+pub(crate) fn next_segment(source: &text::Source, home: &Home) -> String {
     let Home::Program { program, before, .. } = home else { return "#0".into() };
     let body = text::block(source, program, &text::address_of(home));
     let steps = body.map(|body| text::steps_of(&body)).unwrap_or_default();
@@ -139,7 +139,7 @@ pub(crate) fn next_segment(source: &str, home: &Home) -> String {
 /// # Errors
 /// What is wanted is no name, or taken.
 pub(crate) fn name_for(
-    source: &str,
+    source: &text::Source,
     program: &Name,
     (wanted, usual): (&str, &str),
 ) -> Result<Name, Refusal> {

@@ -36,10 +36,48 @@ pub(crate) enum Call {
     Class(String),
     /// `Line(a, b)`, `Washer(inner: d)`
     Make,
+    /// `Washer(inner: d).moved(by: place)`: the last slot is its place. In a document it is a placed thing.
+    Placed,
     /// `line.mirrored(about: axis)`: the first slot is what it is sent to.
     Message(String),
+    /// Many of a set, one after the other: the set, how each is led on to the next, how many.
+    Pattern(Pattern),
     /// The value itself, as it is given.
     Value,
+}
+
+/// How the figures of a pattern lie.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Pattern {
+    /// Around a point, all the way.
+    Polar,
+    /// In a row.
+    Row,
+}
+
+impl Pattern {
+    fn written(self, operands: &[String]) -> String {
+        let of = |at: usize| operands.get(at).map_or("", String::as_str);
+        let (what, by, count) = (bracketed(of(0)), of(1), bracketed(of(2)));
+        let one = match self {
+            Self::Polar => format!("{what}.turned(about: {by}, by: nth * 360 deg / {count})"),
+            Self::Row => {
+                let by = bracketed(by);
+                format!("{what}.moved(by: Point(nth * {by}.x, nth * {by}.y))")
+            }
+        };
+        format!("(0..{count} - 1).map(nth => {one})")
+    }
+}
+
+/// An expression as others can go on from it.
+fn bracketed(text: &str) -> String {
+    let is_path = |t: &str| t.chars().all(|c| c.is_alphanumeric() || "_.[]".contains(c));
+    // `Point(10, 0)`
+    let is_call = text.split_once('(').is_some_and(|(head, rest)| {
+        is_path(head) && rest.strip_suffix(')').is_some_and(|inner| !inner.contains(['(', ')']))
+    });
+    if is_path(text) || is_call { text.into() } else { format!("({text})") }
 }
 
 /// What a construction waits for.
@@ -95,27 +133,42 @@ impl Tool {
     pub(crate) fn written(&self, operands: &[String]) -> String {
         let (to, rest) = match &self.call {
             Call::Value => return operands.first().cloned().unwrap_or_default(),
+            Call::Pattern(pattern) => return pattern.written(operands),
             Call::Class(word) => (format!("{}.{word}", self.class), 0),
-            Call::Make => (self.class.to_string(), 0),
+            Call::Make | Call::Placed => (self.class.to_string(), 0),
             Call::Message(word) => {
                 let of = operands.first().map_or("", String::as_str);
-                let is_path = of.chars().all(|c| c.is_alphanumeric() || "_.[]".contains(c));
-                let of = if is_path { of.to_string() } else { format!("({of})") };
-                (format!("{of}.{word}"), 1)
+                (format!("{}.{word}", bracketed(of)), 1)
             }
         };
         let written = |(slot, operand): (&Slot, &String)| match &slot.label {
             Some(label) => format!("{label}: {operand}"),
             None => operand.clone(),
         };
-        let all: Vec<String> = self.slots.iter().zip(operands).skip(rest).map(written).collect();
-        format!("{to}({})", all.join(", "))
+        let mut all: Vec<String> =
+            self.slots.iter().zip(operands).skip(rest).map(written).collect();
+        let place = match self.call {
+            Call::Placed if operands.len() == self.slots.len() => all.pop(),
+            _ => None,
+        };
+        let made = format!("{to}({})", all.join(", "));
+        match (place, operands.last()) {
+            (Some(_), Some(place)) => format!("{made}.moved(by: {place})"),
+            _ => made,
+        }
+    }
+
+    /// Writes the thing of a document that it makes, by its name, of operands for all of its slots.
+    pub(crate) fn thing(&self, name: &str, operands: &[String]) -> String {
+        let value = |(slot, operand): (&Slot, &String)| format!("    {} = {operand}", slot.name);
+        let values: Vec<String> = self.slots.iter().zip(operands).map(value).collect();
+        format!("{name}: Placed of {} {{\n{}\n}}", self.class, values.join("\n"))
     }
 
     /// Where the page lists it.
     fn shelf(&self) -> String {
         match &self.call {
-            Call::Message(_) if self.class.is_empty() => "Copy".into(),
+            Call::Message(_) | Call::Pattern(_) if self.class.is_empty() => "Copy".into(),
             Call::Value => "Value".into(),
             _ => self.class.to_string(),
         }
@@ -145,7 +198,15 @@ pub(crate) fn tools(state: &State, home: &Home) -> Vec<Tool> {
         }
         let is_program = document.program(id).is_some();
         if is_program || document.figure(id).is_some() && !matches!(home, Home::Document) {
-            all.extend(constructor(document, id, is_program));
+            let is_placed = is_program && matches!(home, Home::Document);
+            let mut tool = constructor(document, id, is_program);
+            if let (Some(tool), true, Some(point)) =
+                (&mut tool, is_placed, document.class_named("Point"))
+            {
+                tool.call = Call::Placed;
+                tool.slots.push(Slot::of(document, "at", None, point));
+            }
+            all.extend(tool);
         }
         for tool in class.messages.iter().filter_map(|m| of_message(document, id, m)) {
             match all.iter_mut().find(|known| is_alike(known, &tool)) {
@@ -156,6 +217,7 @@ pub(crate) fn tools(state: &State, home: &Home) -> Vec<Tool> {
     }
     if all.iter().any(|tool| *tool.class == *"Point") {
         all.extend(moved(document));
+        all.extend([Pattern::Polar, Pattern::Row].into_iter().filter_map(|p| pattern(document, p)));
     }
     if !matches!(home, Home::Document) {
         all.extend(value(document));
@@ -210,6 +272,38 @@ fn moved(document: &Document) -> Option<Tool> {
         doc: doc.into(),
         call: Call::Message("moved".into()),
         slots: slots.into(),
+    })
+}
+
+/// Returns the tool that makes a pattern of a set, or of any figure.
+fn pattern(document: &Document, pattern: Pattern) -> Option<Tool> {
+    let (point, integer) = (document.class_named("Point")?, document.class_named("Integer")?);
+    let figure = moved(document)?.slots.into_iter().next()?;
+    let (by, label, doc) = match pattern {
+        Pattern::Polar => (
+            "about",
+            "Polar pattern",
+            "So many of a figure, or of a set, evenly around a point; the first is where it is.",
+        ),
+        Pattern::Row => (
+            "by",
+            "Pattern in a row",
+            "So many of a figure, or of a set; each lies as far from the one before as a point from the origin.",
+        ),
+    };
+    let slots = vec![
+        figure,
+        Slot::of(document, by, None, point),
+        Slot::of(document, "count", None, integer),
+    ];
+    Some(Tool {
+        id: format!(":pattern({by},count)"),
+        class: Name::new(""),
+        label: label.into(),
+        base: "pattern".into(),
+        doc: doc.into(),
+        call: Call::Pattern(pattern),
+        slots,
     })
 }
 

@@ -75,7 +75,7 @@ pub(crate) fn ask(open: &mut Open) -> Result<(), Refusal> {
 pub(crate) fn begin(open: &mut Open, host: &dyn Host, condition: &str) -> Result<Change, Refusal> {
     let condition = condition.trim();
     let home = Home::of(Some(blocks::recorded(open)?));
-    let is_then = match outcome::worth(&open.state, host, &home, condition)? {
+    let is_then = match outcome::worth(&open.state, &home, condition)? {
         Worth::Truth(truth) => truth,
         Worth::Number(n) => {
             return Err(words::refuse(format!("{condition} is {n}, where a yes or no is wanted")));
@@ -86,7 +86,7 @@ pub(crate) fn begin(open: &mut Open, host: &dyn Host, condition: &str) -> Result
             )));
         }
     };
-    let segment = blocks::next_segment(&open.state.text, &home);
+    let segment = blocks::next_segment(&text::Source::now(&open.state), &home);
     let (lines, branch) = match is_then {
         true => (format!("if {condition} {{\n}}"), "then"),
         false => (format!("if {condition} {{\n}} else {{\n}}"), "else"),
@@ -153,7 +153,7 @@ pub(crate) fn second(open: &mut Open, host: &dyn Host, is_same: bool) -> Result<
     let segment = way.pop().map_or(String::new(), |around| around.segment().to_string());
     let outside = Home::Program { program: program.clone(), example, way, before: None };
     let address = text::joined(&text::address_of(&outside), &segment);
-    let now = outcome::worth(&open.state, host, &outside, &choice.condition)?;
+    let now = outcome::worth(&open.state, &outside, &choice.condition)?;
     let is_other = now == Worth::Truth(!choice.is_then);
     if !is_same && !is_other {
         let wanted = if choice.is_then { "false" } else { "true" };
@@ -163,13 +163,13 @@ pub(crate) fn second(open: &mut Open, host: &dyn Host, is_same: bool) -> Result<
         );
         return Err(words::refuse(message));
     }
-    let source = open.state.text.clone();
+    let source = text::Source::now(&open.state);
     let gone = || words::refuse("the `if` is gone".into());
     let Some(Value::If(it)) = text::step_at(&source, &program, &address).and_then(|s| s.value)
     else {
         return Err(gone());
     };
-    let mut edited = source.clone();
+    let mut edited = source.to_string();
     if choice.is_then && it.else_branch().is_none() {
         let end = it.span().end as usize;
         let indent =
@@ -210,7 +210,8 @@ pub(crate) fn end(open: &mut Open, host: &dyn Host) -> Result<Change, Refusal> {
     let outside = Home::Program { program: program.clone(), example, way, before: None };
     let address = text::joined(&text::address_of(&outside), &segment);
     let mut edited = open.state.text.clone();
-    if let Some(Value::If(it)) = text::step_at(&edited, &program, &address).and_then(|s| s.value)
+    if let Some(Value::If(it)) =
+        text::step_at(&text::Source::of(edited.clone()), &program, &address).and_then(|s| s.value)
         && let Some(condition) = it.condition()
     {
         let span = condition.span();
@@ -231,7 +232,7 @@ pub(crate) fn end(open: &mut Open, host: &dyn Host) -> Result<Change, Refusal> {
 }
 
 /// Where the declaration of the example stands in a text.
-fn example_span(open: &Open, source: &str) -> Option<std::ops::Range<usize>> {
+pub(super) fn example_span(open: &Open, source: &str) -> Option<std::ops::Range<usize>> {
     let example = &open.recording.as_ref()?.example;
     let file = syntax::parse(base::FileId(0), source).file();
     file.members().find_map(|member| match member {
@@ -244,7 +245,8 @@ fn example_span(open: &Open, source: &str) -> Option<std::ops::Range<usize>> {
     })
 }
 
-fn example_text(open: &Open) -> Option<String> {
+/// The declaration of the example in the document's text.
+pub(super) fn example_text(open: &Open) -> Option<String> {
     let source = &open.state.text;
     example_span(open, source).map(|span| source[span].to_string())
 }

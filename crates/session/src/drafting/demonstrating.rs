@@ -20,11 +20,11 @@ impl Session {
         Ok(*self.with_reach(id, change))
     }
 
-    /// Ends the recording: what is drawn then belongs to the document.
+    /// Ends the recording: what is drawn then belongs to the document. The example has its own values again.
     ///
     /// # Errors
     /// A loop or an `if` is still demonstrated.
-    pub fn stop_recording(&mut self, id: DocumentId) -> Result<(), Refusal> {
+    pub fn stop_recording(&mut self, id: DocumentId) -> Result<Change, Refusal> {
         let open = self.document_mut(id);
         blocks::settle(open);
         if let Some(recording) = &open.recording
@@ -36,10 +36,13 @@ impl Session {
             };
             return Err(words::refuse(format!("{what} is open still: end it, or undo it, first")));
         }
+        let is_recorded = open.recording.is_some();
+        let change = if is_recorded { self.own_values(id)? } else { Change::default() };
+        let open = self.document_mut(id);
         open.recording = None;
         open.dialogue = None;
         open.picking = super::Picking::default();
-        Ok(())
+        Ok(change)
     }
 
     /// Begins a loop in the program that is recorded; what is drawn next is its first turn. Without a name it gets one.

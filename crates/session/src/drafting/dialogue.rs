@@ -4,7 +4,6 @@ use super::catalogue::{Slot, SlotKind, Tool};
 use super::scene::{self, Found};
 use super::view::{Hover, Prompt, Wants};
 use super::{Home, measure, older, outcome, typed};
-use crate::host::Host;
 use crate::state::State;
 use crate::view::{Pointer, Refusal};
 use crate::words;
@@ -152,7 +151,6 @@ impl Dialogue {
     pub(crate) fn hover(
         &self,
         state: &State,
-        host: &dyn Host,
         home: &Home,
         (pointer, level, typed): (&Pointer, usize, &str),
     ) -> Hover {
@@ -182,12 +180,8 @@ impl Dialogue {
         }
         let mut operands = self.filled.clone();
         operands.push(operand);
-        match outcome::choose(
-            state,
-            host,
-            home,
-            (&self.tool, &operands, Some(pointer.at), self.turned),
-        ) {
+        let given = (&self.tool, &operands[..], Some(pointer.at), self.turned);
+        match outcome::choose(state, home, given) {
             Ok(chosen) => {
                 let mut ghost = chosen.drawing;
                 ghost.elements.extend(chosen.curve.and_then(|curve| curve.arrow(pointer)));

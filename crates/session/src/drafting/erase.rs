@@ -38,8 +38,9 @@ fn question(state: &State, host: &dyn Host, path: &Path) -> Result<Option<Questi
     let Some((whole, thing, class)) = whole.filter(|_| thing_at(state, path).is_none()) else {
         return Ok(None);
     };
-    let program = words::class_name(state, thing);
-    let source = &state.text;
+    let program = steps::program_of(state, &whole.to_string());
+    let program = program.map_or_else(|| words::class_name(state, thing), |name| name.to_string());
+    let source = &text::Source::now(state);
     if text::program(source, &program).is_none() {
         let message =
             format!("{path} is drawn by the program {program}, which is not this document's");
@@ -94,7 +95,7 @@ fn question(state: &State, host: &dyn Host, path: &Path) -> Result<Option<Questi
 }
 
 /// Finds the step that made what a path within a thing leads to: the innermost.
-fn address(source: &str, program: &str, within: &[Step]) -> Option<String> {
+fn address(source: &text::Source, program: &str, within: &[Step]) -> Option<String> {
     let named = within.iter().filter_map(|step| match step {
         Step::Part(name) => Some(&**name),
         _ => None,

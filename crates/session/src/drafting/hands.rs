@@ -4,12 +4,12 @@ use super::catalogue::{SlotKind, Tool};
 use super::dialogue::{Dialogue, Goal, Operand};
 use super::view::{Computed, ConstructionRow, Hover, MeasureKind, OlderUse, Prompt, Turn, Wants};
 use super::{
-    Home, blocks, catalogue, choice, measure, older, outcome, recording, remove, repeat, scene,
-    steps, typed,
+    Home, blocks, catalogue, changing, choice, measure, older, outcome, recording, remove, repeat,
+    scene, steps, text, typed,
 };
 use crate::apply;
 use crate::document::Open;
-use crate::host::{Beside, Host};
+use crate::host::Host;
 use crate::session::Session;
 use crate::state::State;
 use crate::view::{Change, DocumentId, Pointer, Refusal};
@@ -22,7 +22,7 @@ pub(crate) fn home(open: &Open) -> Home {
         None => Home::Document,
         Some(recording) => {
             let mut recording = recording.clone();
-            recording.prune(&open.state.text);
+            recording.prune(&text::Source::now(&open.state));
             Home::of(Some(&recording))
         }
     }
@@ -31,10 +31,12 @@ pub(crate) fn home(open: &Open) -> Home {
 /// What is waited for.
 pub(super) fn prompt(open: &Open) -> Option<Prompt> {
     let removing = open.recording.as_ref().and_then(|recording| recording.removing.as_ref());
-    let prompt = match (removing, &open.dialogue) {
-        (Some(removing), _) => removing.prompt(),
-        (None, Some(dialogue)) => Some(dialogue.prompt()),
-        (None, None) => blocks::prompt(open),
+    let changing = open.recording.as_ref().and_then(|recording| recording.changing.as_ref());
+    let prompt = match (removing, changing, &open.dialogue) {
+        (Some(removing), _, _) => removing.prompt(),
+        (None, Some(changing), _) => Some(changing.prompt()),
+        (None, None, Some(dialogue)) => Some(dialogue.prompt()),
+        (None, None, None) => blocks::prompt(open),
     };
     if let Some(older) = &open.picking.older {
         return Some(older.prompt(prompt.unwrap_or_default()));
@@ -77,7 +79,7 @@ fn give(open: &mut Open, host: &dyn Host, operand: Operand) -> Result<Turn, Refu
         return Ok(Turn::Wants(dialogue.prompt()));
     }
     let given = (&dialogue.tool, &filled[..], dialogue.pointer, dialogue.turned);
-    let chosen = outcome::choose(&open.state, host, &home, given)?;
+    let chosen = outcome::choose(&open.state, &home, given)?;
     let dialogue = dialogue.clone();
     if let Some(goal) = dialogue.goal.clone() {
         return reach(open, host, (&home, dialogue, goal), chosen.text);
@@ -95,7 +97,7 @@ fn give(open: &mut Open, host: &dyn Host, operand: Operand) -> Result<Turn, Refu
         let change = Box::new(change);
         return Ok(Turn::Made { change, name: step, text: chosen.text, next });
     }
-    let line = recording::line(open, &home, &dialogue, &chosen.text);
+    let line = recording::line(open, &home, &dialogue, (&filled, &chosen.text));
     let change = recording::write(open, host, &home, &line)?;
     if let Some(dialogue) = &mut open.dialogue {
         dialogue.filled.clear();
@@ -114,7 +116,7 @@ pub(super) fn replaced(
     (program, step): (&str, &str),
     formula: &str,
 ) -> Result<Change, Refusal> {
-    let text = steps::with_formula(&open.state.text, (program, step), formula)?;
+    let text = steps::with_formula(&text::Source::now(&open.state), (program, step), formula)?;
     recording::retext(open, host, text, format!("replace {step}"))
 }
 
@@ -127,7 +129,7 @@ fn reach(
 ) -> Result<Turn, Refusal> {
     let at = dialogue.pointer.or_else(|| dialogue.filled.iter().rev().find_map(|o| o.at));
     let text = if dialogue.is_guide {
-        let line = recording::line(open, home, &dialogue, &made);
+        let line = recording::line(open, home, &dialogue, (&dialogue.filled, &made));
         recording::write(open, host, home, &line)?;
         line.name
     } else {
@@ -217,6 +219,9 @@ impl Session {
         open.tool = None;
         open.picking = super::Picking::default();
         open.dialogue = Some(dialogue);
+        if let Some(recording) = &mut open.recording {
+            recording.changing = None;
+        }
         Ok(prompt)
     }
 
@@ -231,9 +236,10 @@ impl Session {
         match &mut open.dialogue {
             Some(dialogue) => {
                 dialogue.pointer = Some(pointer.at);
-                dialogue.hover(&state, &beside, &home, (pointer, level, typed))
+                dialogue.hover(&state, &home, (pointer, level, typed))
             }
             None => {
+                let home = changing::home(open).unwrap_or(home);
                 let found = object_at(&state, &home, (pointer, level));
                 let mut hover = found_hover(&state, &home, found);
                 let asked = repeat::asked_drawing(open, &beside);
@@ -321,6 +327,7 @@ impl Session {
                 if let Some(recording) = &mut open.recording {
                     recording.asks_condition = false;
                     recording.removing = None;
+                    recording.changing = None;
                 }
             }
         }
@@ -391,8 +398,7 @@ impl Session {
     /// Returns what an expression comes to where things are drawn now.
     pub fn compute(&self, id: DocumentId, text: &str) -> Computed {
         let open = self.document(id);
-        let beside = Beside::of(&*self.host, &self.documents, id);
-        match outcome::worth(&open.state, &beside, &home(open), text) {
+        match outcome::worth(&open.state, &home(open), text) {
             Ok(outcome::Worth::Truth(truth)) => {
                 Computed { value: Some(if truth { "true" } else { "false" }.into()), why: None }
             }
@@ -435,6 +441,11 @@ fn back_of_block(open: &mut Open) {
         return;
     }
     if let Some(recording) = &mut open.recording
+        && recording.changing.take().is_some()
+    {
+        return;
+    }
+    if let Some(recording) = &mut open.recording
         && recording.asks_condition
     {
         recording.asks_condition = false;
@@ -460,6 +471,15 @@ fn pointed(open: &mut Open, host: &dyn Host, pointer: &Pointer) -> Result<Turn, 
     if open.recording.as_ref().is_some_and(|recording| recording.removing.is_some()) {
         let done = remove::instead(open, host, ("", Some((pointer, level))))?;
         return Ok(turn_of(open, done, String::new()));
+    }
+    if let Some(changing) = open.recording.as_ref().and_then(|r| r.changing.clone()) {
+        let prompt = changing.prompt();
+        if !prompt.is_value {
+            let change = changing::give(open, host, ("", Some((pointer, level))))?;
+            return Ok(turn_of(open, Some(change), String::new()));
+        }
+        let found = object_at(&state, &home, (pointer, level))?;
+        return Ok(Turn::Wants(Prompt { insert: Some(measured(&state, &found)?), ..prompt }));
     }
     if let Some(dialogue) = &mut open.dialogue {
         let operand = match dialogue.pick(&state, &home, (pointer, level)) {
@@ -490,17 +510,21 @@ fn pointed(open: &mut Open, host: &dyn Host, pointer: &Pointer) -> Result<Turn, 
         Wants::Otherwise => Err(words::refuse("say how the other branch is drawn first".into())),
         Wants::Substitute { .. }
         | Wants::Older { .. }
+        | Wants::Change(_)
         | Wants::Recurrence(_)
         | Wants::Ends(_)
         | Wants::Condition
         | Wants::Operand => {
-            let none = || {
-                words::refuse(format!("{} has no measure: take one by the calculator", found.text))
-            };
-            let insert = Some(measure::usual(&state, &found).ok_or_else(none)?);
-            Ok(Turn::Wants(Prompt { insert, ..wanted }))
+            Ok(Turn::Wants(Prompt { insert: Some(measured(&state, &found)?), ..wanted }))
         }
     }
+}
+
+/// The usual measure of what was found.
+fn measured(state: &State, found: &scene::Found) -> Result<String, Refusal> {
+    let none =
+        || words::refuse(format!("{} has no measure: take one by the calculator", found.text));
+    measure::usual(state, found).ok_or_else(none)
 }
 
 fn entered(open: &mut Open, host: &dyn Host, typed: &str) -> Result<Turn, Refusal> {
@@ -509,9 +533,13 @@ fn entered(open: &mut Open, host: &dyn Host, typed: &str) -> Result<Turn, Refusa
         let done = remove::instead(open, host, (typed, None))?;
         return Ok(turn_of(open, done, String::new()));
     }
+    if open.recording.as_ref().is_some_and(|recording| recording.changing.is_some()) {
+        let change = changing::give(open, host, (typed, None))?;
+        return Ok(turn_of(open, Some(change), typed.into()));
+    }
     if let Some((dialogue, slot)) = open.dialogue.as_ref().and_then(|d| Some((d, d.slot()?))) {
         let text = typed::operand(slot, typed, dialogue.last_point.as_deref())?;
-        outcome::fits(&open.state, host, &home, (&text, slot))?;
+        outcome::fits(&open.state, &home, (&text, slot))?;
         return give(open, host, Operand { text, at: None });
     }
     match blocks::prompt(open).map(|prompt| prompt.wants) {
@@ -528,7 +556,11 @@ fn entered(open: &mut Open, host: &dyn Host, typed: &str) -> Result<Turn, Refusa
             Ok(turn_of(open, Some(change), typed.into()))
         }
         Some(
-            Wants::Otherwise | Wants::Operand | Wants::Older { .. } | Wants::Substitute { .. },
+            Wants::Otherwise
+            | Wants::Operand
+            | Wants::Older { .. }
+            | Wants::Substitute { .. }
+            | Wants::Change(_),
         )
         | None => Err(words::refuse("nothing that is typed is waited for".into())),
     }

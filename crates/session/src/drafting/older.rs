@@ -102,7 +102,7 @@ fn parameter(
     let value = constructed(&state, &evaluator, &answer).ok_or_else(none)?;
     let name = free_name(&state, program, path);
     let written = format!("{name}: {class} = {value}");
-    let text = text::with_parameter(&state.text, program, &written)?;
+    let text = text::with_parameter(&text::Source::now(&state), program, &written)?;
     let since = open.done.len();
     recording::retext(open, host, text, format!("define {name}"))?;
     let members = format!("{name} = {path}");
@@ -127,13 +127,13 @@ fn along(open: &mut Open, host: &dyn Host, home: &Home, path: &str) -> Result<St
         state: &state,
         evaluator: state.evaluator(&state.values),
         program,
-        used: text::words_in(&state.text, program),
+        used: text::words_in(&text::Source::now(&state), program),
         lines: Vec::new(),
         open: Vec::new(),
     };
     let operand = taken.take(path)?;
     if !taken.lines.is_empty() {
-        let text = text::with_members(&state.text, home, &taken.lines.join("\n"))?;
+        let text = text::with_members(&text::Source::now(&state), home, &taken.lines.join("\n"))?;
         recording::retext(open, host, text, format!("take {path} along"))?;
     }
     Ok(operand)
@@ -193,7 +193,7 @@ impl Taken<'_> {
         let base = last_name(&written);
         // what was taken along before is there
         let is_there = |name: &String| {
-            let step = text::step(&self.state.text, self.program, name);
+            let step = text::step(&text::Source::now(self.state), self.program, name);
             let says = |span: base::Span| &self.state.text[span.start as usize..span.end as usize];
             step.is_some_and(|(_, value)| says(value).trim() == formula)
                 || self.lines.iter().any(|line| *line == format!("{name} = {formula}"))
@@ -260,10 +260,10 @@ fn last_name(path: &str) -> String {
 
 /// A name for something that a program does not use, and that hides nothing of the document from its example.
 fn free_name(state: &State, program: &Name, path: &str) -> String {
-    let used = text::words_in(&state.text, program);
+    let used = text::words_in(&text::Source::now(state), program);
     let is_used = |name: &String| {
         used.contains(name)
-            || steps::addresses(&state.text, program).contains(name)
+            || steps::addresses(&text::Source::now(state), program).contains(name)
             || state.structure.follow(DOCUMENT, &Path::of(&[name.as_str()])).is_ok()
             || path.split(['.', '[']).next() == Some(name.as_str())
     };

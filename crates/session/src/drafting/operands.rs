@@ -59,6 +59,24 @@ fn add(
     }
 }
 
+/// Lists what a step says that can be changed by itself: its operands; of a loop what stands before it, what it carries
+/// on (`next first`), and what ends it. Those that are read at the end of a turn come with `true`.
+pub(super) fn of_step(step: &text::StepNode) -> Vec<(Occurrence, bool)> {
+    let Some(value) = &step.value else { return Vec::new() };
+    let one = |slot: String, value: &Expr, is_within: bool| {
+        let first = value.syntax().text().to_string().trim().to_string();
+        let span = syntax::ast::span_without_doc(value.syntax());
+        (Occurrence { step: step.segment.clone(), slot, first, span }, is_within)
+    };
+    let heads = heads(value).into_iter().map(|(slot, value)| one(slot, &value, false));
+    let tails = tails(value).into_iter().map(|(slot, value)| match slot.as_str() {
+        "while" => one(slot, &value, true),
+        "until" => one(slot, &value, true),
+        _ => one(format!("next {slot}"), &value, true),
+    });
+    heads.chain(tails).collect()
+}
+
 /// The operands of a step: those of a construction, or what stands before a block.
 fn heads(value: &Value) -> Vec<(String, Expr)> {
     let named = |name: &str, value: Option<Expr>| value.map(|value| (name.to_string(), value));

@@ -1,4 +1,4 @@
-//! The outcome of a construction: every way to turn its operands is tried in a copy of the text, and the one
+//! The outcome of a construction: every way to turn its operands is tried over what is drawn now, and the one
 //! nearest to where they were picked is taken; of equal ones that with the fewest reversals.
 //!
 //! What is shown as a ghost, what is written and what is drawn then are one answer.
@@ -7,15 +7,12 @@ use super::catalogue::{Call, Slot, SlotKind, Tool};
 use super::dialogue::Operand;
 use super::scene::Curve;
 use super::{Home, text};
-use crate::host::Host;
 use crate::state::State;
 use crate::view::Refusal;
 use crate::views::values;
 use crate::words;
-use base::Severity;
 use eval::{Answer, Evaluator};
-use kernel::{ClassId, Step};
-use plan::Plans;
+use kernel::{ClassId, DOCUMENT, Path, ThingId};
 
 /// The outcome that is taken.
 #[derive(Clone, Debug)]
@@ -29,11 +26,7 @@ pub(crate) struct Chosen {
 }
 
 /// Looks at what a trial came to.
-type Look<'l> =
-    dyn for<'a> FnMut(&'a State, usize, &Evaluator<'a>, Result<Answer<'a>, eval::Fault>) + 'l;
-
-/// What answers the trials of a copy.
-const TRIAL: &str = "outcome__";
+type Look<'l> = dyn for<'a> FnMut(usize, &Evaluator<'a>, Result<Answer<'a>, eval::Fault>) + 'l;
 
 /// Chooses among the outcomes of a construction from its operands, with where the pointer is: the nearest, or one
 /// further away for each time that another was asked for.
@@ -42,7 +35,6 @@ const TRIAL: &str = "outcome__";
 /// Why there is none.
 pub(crate) fn choose(
     state: &State,
-    host: &dyn Host,
     home: &Home,
     (tool, operands, pointer, turned): (&Tool, &[Operand], Option<(f64, f64)>, usize),
 ) -> Result<Chosen, Refusal> {
@@ -51,7 +43,7 @@ pub(crate) fn choose(
     let picks: Vec<(f64, f64)> = operands.iter().filter_map(|o| o.at).chain(pointer).collect();
     let mut all: Vec<(f64, u32, Chosen)> = Vec::new();
     let mut why = None;
-    let unwritten = try_all(state, host, home, &texts, &mut |tried, i, evaluator, answer| {
+    let unwritten = try_all(state, home, &texts, &mut |i, evaluator, answer| {
         let answer = match answer {
             Ok(answer) => answer,
             Err(fault) => {
@@ -59,7 +51,7 @@ pub(crate) fn choose(
                 return;
             }
         };
-        let curve = Curve::of(evaluator, tried, &answer);
+        let curve = Curve::of(evaluator, &answer);
         let away = curve.map_or(0.0, |c| picks.iter().map(|&p| c.distance(p)).sum());
         let elements = evaluator.elements(&answer);
         let drawing = drawing::Drawing { elements, ..drawing::Drawing::default() };
@@ -90,14 +82,13 @@ pub(crate) fn choose(
 /// What it is instead, or what is wrong with its text.
 pub(crate) fn fits(
     state: &State,
-    host: &dyn Host,
     home: &Home,
     (operand, slot): (&str, &Slot),
 ) -> Result<(), Refusal> {
     let mut outcome = Err(words::refuse(format!("{operand} has no value")));
     let texts = [operand.to_string()];
-    let unwritten = try_all(state, host, home, &texts, &mut |tried, _, evaluator, answer| {
-        let document = &tried.lowered.document;
+    let unwritten = try_all(state, home, &texts, &mut |_, evaluator, answer| {
+        let document = evaluator.document;
         let is_wanted = |found: ClassId| {
             slot.classes().any(|class| {
                 document.class_named(class).is_some_and(|wanted| document.is_a(found, wanted))
@@ -135,19 +126,14 @@ pub(crate) fn fits(
 ///
 /// # Errors
 /// Why it has no value.
-pub(crate) fn worth(
-    state: &State,
-    host: &dyn Host,
-    home: &Home,
-    text: &str,
-) -> Result<Worth, Refusal> {
+pub(crate) fn worth(state: &State, home: &Home, text: &str) -> Result<Worth, Refusal> {
     let mut outcome = Err(words::refuse(format!("{text} has no value")));
     let texts = [text.to_string()];
-    let unwritten = try_all(state, host, home, &texts, &mut |tried, _, _, answer| {
+    let unwritten = try_all(state, home, &texts, &mut |_, evaluator, answer| {
         outcome = match answer {
             Err(fault) => Err(words::refuse(fault.message)),
             Ok(Answer::Bool(truth)) => Ok(Worth::Truth(truth)),
-            Ok(other) => Ok(match values::in_words(&tried.lowered.document, &other) {
+            Ok(other) => Ok(match values::in_words(evaluator.document, &other) {
                 Some(number) => Worth::Number(number),
                 None => Worth::Other(other.kind().to_string()),
             }),
@@ -173,40 +159,54 @@ pub(crate) enum Worth {
 /// Reads the value of expressions in a home; returns what is wrong with the text of them all.
 pub(crate) fn try_all(
     state: &State,
-    host: &dyn Host,
     home: &Home,
     texts: &[String],
     look: &mut Look<'_>,
 ) -> Option<String> {
-    let (home, texts) = &from_outside(state, home, texts);
-    let line = |(i, text): (usize, &String)| format!("{TRIAL}{i} => {text}");
-    let lines: Vec<String> = texts.iter().enumerate().map(line).collect();
-    let edited = match text::with_members(&state.text, home, &lines.join("\n")) {
-        Ok(edited) => edited,
+    let texts = &from_outside(state, home, texts);
+    let (class, me) = match reader(state, home) {
+        Ok(found) => found,
         Err(refusal) => return Some(refusal.message),
     };
-    let (tried, _) = State::of(edited, Some(state), host, Plans::default());
-    let evaluator = tried.evaluator(&tried.values);
-    let path = home.path();
-    let mut any = false;
-    for i in 0..texts.len() {
-        let answer = evaluator.at(&path.then(Step::Part(format!("{TRIAL}{i}").as_str().into())));
-        any |= answer.is_ok();
-        look(&tried, i, &evaluator, answer);
-    }
-    let is_new = |d: &&base::Diagnostic| {
-        d.severity == Severity::Error && !state.diagnostics.iter().any(|b| b.message == d.message)
+    let alone = lang::read_alone(&state.lowered, class, texts);
+    // what made no class besides is read with what was looked up before
+    let is_same = alone.document.classes.len() == state.lowered.document.classes.len();
+    let evaluator = match is_same {
+        true => state.evaluator(&state.values),
+        false => Evaluator::new(&alone.document, &state.structure, &state.values),
     };
-    let wrong = tried.diagnostics.iter().find(is_new).map(|d| d.message.clone());
+    let mut wrong = None;
+    let mut any = false;
+    for (i, term) in alone.terms.iter().enumerate() {
+        match term {
+            Ok(term) => {
+                any = true;
+                look(i, &evaluator, evaluator.evaluate(term, me));
+            }
+            Err(said) => {
+                let said = said.first().map(|d| d.message.clone());
+                wrong.get_or_insert(said.unwrap_or_else(|| format!("{} means nothing", texts[i])));
+            }
+        }
+    }
     wrong.filter(|_| !any)
 }
 
+/// Returns the class whose names a home reads, and its thing.
+fn reader(state: &State, home: &Home) -> Result<(ClassId, ThingId), Refusal> {
+    let document = &state.lowered.document;
+    let Home::Program { program, .. } = home else { return Ok((document.root, DOCUMENT)) };
+    let class = document.class_named(program);
+    let path = Path(home.path().0.into_iter().take(1).collect());
+    let example = state.structure.follow(DOCUMENT, &path).ok();
+    let none = || words::refuse(format!("the document has no program {program} with an example"));
+    class.zip(example).ok_or_else(none)
+}
+
 /// Says from the program what is said in the blocks that are open: their steps are `column[0].ring` there.
-fn from_outside(state: &State, home: &Home, texts: &[String]) -> (Home, Vec<String>) {
-    let Home::Program { program, example, way, .. } = home else {
-        return (home.clone(), texts.to_vec());
-    };
-    let levels = text::visible(&state.text, home);
+fn from_outside(state: &State, home: &Home, texts: &[String]) -> Vec<String> {
+    let Home::Program { way, .. } = home else { return texts.to_vec() };
+    let levels = text::visible(&text::Source::now(state), home);
     // from the innermost, whose names hide those of the blocks around it
     let mut prefixes = vec![String::new()];
     for around in way {
@@ -223,9 +223,7 @@ fn from_outside(state: &State, home: &Home, texts: &[String]) -> (Home, Vec<Stri
                 .fold(text, |text, name| text::renamed(&text, name, &format!("{prefix}{name}")))
         })
     };
-    let (program, example) = (program.clone(), example.clone());
-    let outer = Home::Program { program, example, way: Vec::new(), before: None };
-    (outer, texts.iter().map(outside).collect())
+    texts.iter().map(outside).collect()
 }
 
 /// Returns every way to write a construction, with how many operands are turned round.

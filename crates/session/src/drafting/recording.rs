@@ -1,6 +1,8 @@
 //! Recording: each figure that is drawn is a line of the program's text, and one undo step.
 
 use super::blocks::Kind;
+use super::catalogue::Call;
+use super::dialogue::Operand;
 use super::view::NewParameter;
 use super::{Dialogue, Home, Recording, outcome, text};
 use crate::apply;
@@ -25,19 +27,30 @@ pub(crate) struct Line {
 }
 
 /// Returns the line that makes a figure in a home.
-pub(crate) fn line(open: &Open, home: &Home, dialogue: &Dialogue, made: &str) -> Line {
+pub(crate) fn line(
+    open: &Open,
+    home: &Home,
+    dialogue: &Dialogue,
+    (operands, made): (&[Operand], &str),
+) -> Line {
     let state = &open.state;
     let base = &dialogue.tool.base;
     let document = &state.lowered.document;
     match home {
         Home::Document => {
             let name = free_name((state, document.root), base, &BTreeSet::new());
-            let text = format!("{name} => {made}");
+            let operands: Vec<String> = operands.iter().map(|o| o.text.clone()).collect();
+            let text = match dialogue.tool.call {
+                Call::Placed => dialogue.tool.thing(&name, &operands),
+                Call::Class(_) | Call::Make | Call::Message(_) | Call::Pattern(_) | Call::Value => {
+                    format!("{name} => {made}")
+                }
+            };
             Line { name, text }
         }
         Home::Program { program, .. } => {
             let of = document.class_named(program).unwrap_or(document.root);
-            let taken = text::words_in(&state.text, program);
+            let taken = text::words_in(&text::Source::now(state), program);
             let name = name_of_other_branch(open, home, base)
                 .unwrap_or_else(|| free_name((state, of), base, &taken));
             let guide = if dialogue.is_guide { "guide " } else { "" };
@@ -53,7 +66,7 @@ fn name_of_other_branch(open: &Open, home: &Home, base: &str) -> Option<String> 
     let Home::Program { program, way, .. } = home else { return None };
     let blocks = &open.recording.as_ref()?.blocks;
     let names = |address: &str| {
-        let body = text::block(&open.state.text, program, address);
+        let body = text::block(&text::Source::now(&open.state), program, address);
         body.map(|body| text::names_made(&text::steps_of(&body))).unwrap_or_default()
     };
     let is_alike = |name: &String| {
@@ -115,7 +128,7 @@ pub(crate) fn write(
             apply::apply(open, host, &edit)
         }
         Home::Program { .. } => {
-            let text = text::with_members(&open.state.text, home, &line.text)?;
+            let text = text::with_members(&text::Source::now(&open.state), home, &line.text)?;
             retext(open, host, text, format!("draw {}", line.name))
         }
     }
@@ -160,7 +173,7 @@ pub(crate) fn begin(open: &mut Open, host: &dyn Host, name: &str) -> Result<Chan
         return Err(words::refuse(message));
     }
     let program = Name::new(name);
-    let change = if text::program(&open.state.text, name).is_some() {
+    let change = if text::program(&text::Source::now(&open.state), name).is_some() {
         match example_of(&open.state, &program) {
             Some(_) => Change::default(),
             None => {
@@ -187,6 +200,8 @@ pub(crate) fn begin(open: &mut Open, host: &dyn Host, name: &str) -> Result<Chan
         asks_condition: false,
         replaces: None,
         removing: None,
+        changing: None,
+        own_values: None,
     });
     open.dialogue = None;
     Ok(change)
@@ -197,7 +212,11 @@ fn example_of(state: &State, program: &Name) -> Option<Name> {
     let document = &state.lowered.document;
     let class = document.class_named(program)?;
     let mut own = state.structure.parts(DOCUMENT);
-    let example = own.find(|&part| document.is_a(state.structure.things[part].class, class))?;
+    let is_placed = |class| document.find_message(class, &Name::new(lang::PLACED), None).is_some();
+    let example = own.find(|&part| {
+        let of = state.structure.things[part].class;
+        document.is_a(of, class) && !is_placed(of)
+    })?;
     state.structure.field_name(document, example).cloned()
 }
 
@@ -222,7 +241,7 @@ pub(crate) fn define(
     let place = super::typed::pair(example, ',').map(|(x, y)| format!("Point({x}, {y})"));
     let example = place.as_deref().unwrap_or(example);
     let class = match new.class.trim() {
-        "" => class_of_example(&open.state, host, example)?,
+        "" => class_of_example(&open.state, example)?,
         class => class.into(),
     };
     let prompt = match new.prompt.trim() {
@@ -238,42 +257,36 @@ pub(crate) fn define(
         }
     };
     let written = format!("{name}: {class}{range} = {example}{prompt}");
-    let text = text::with_parameter(&open.state.text, program, &written)?;
+    let text = text::with_parameter(&text::Source::now(&open.state), program, &written)?;
     retext(open, host, text, format!("define {name}"))
 }
 
 /// Returns the class that an example is of.
-fn class_of_example(state: &State, host: &dyn Host, example: &str) -> Result<String, Refusal> {
+fn class_of_example(state: &State, example: &str) -> Result<String, Refusal> {
     let mut class = Err(words::refuse(format!("`{example}` is no value of a parameter")));
     let texts = [example.to_string()];
     let is_bare = example.parse::<f64>().is_ok();
-    let wrong = outcome::try_all(
-        state,
-        host,
-        &Home::Document,
-        &texts,
-        &mut |tried, _, evaluator, answer| {
-            let document = &tried.lowered.document;
-            class = match answer {
-                Ok(Answer::Bool(_)) => Ok("Bool".into()),
-                // what a draughtsman says without a unit is a length
-                Ok(Answer::Number(..)) if is_bare => Ok("Length".into()),
-                Ok(Answer::Number(_, d)) if d == Dimension::LENGTH => Ok("Length".into()),
-                Ok(Answer::Number(_, d)) if d == Dimension::ANGLE => Ok("Angle".into()),
-                Ok(Answer::Number(_, d)) if d == Dimension::NONE => Ok("Real".into()),
-                Ok(Answer::Text(_)) => Ok("Text".into()),
-                Ok(Answer::Option(of, _)) => Ok(document.classes[of].name.to_string()),
-                Ok(other) => {
-                    let made = evaluator.class_of(&other).map(|class| document.named_class(class));
-                    let made = made.filter(|&class| document.figure(class).is_some());
-                    made.map(|class| document.classes[class].name.to_string()).ok_or_else(|| {
-                        words::refuse(format!("{example} is {}, no value", other.kind()))
-                    })
-                }
-                Err(fault) => Err(words::refuse(format!("{example}: {}", fault.message))),
-            };
-        },
-    );
+    let wrong = outcome::try_all(state, &Home::Document, &texts, &mut |_, evaluator, answer| {
+        let document = evaluator.document;
+        class = match answer {
+            Ok(Answer::Bool(_)) => Ok("Bool".into()),
+            // what a draughtsman says without a unit is a length
+            Ok(Answer::Number(..)) if is_bare => Ok("Length".into()),
+            Ok(Answer::Number(_, d)) if d == Dimension::LENGTH => Ok("Length".into()),
+            Ok(Answer::Number(_, d)) if d == Dimension::ANGLE => Ok("Angle".into()),
+            Ok(Answer::Number(_, d)) if d == Dimension::NONE => Ok("Real".into()),
+            Ok(Answer::Text(_)) => Ok("Text".into()),
+            Ok(Answer::Option(of, _)) => Ok(document.classes[of].name.to_string()),
+            Ok(other) => {
+                let made = evaluator.class_of(&other).map(|class| document.named_class(class));
+                let made = made.filter(|&class| document.figure(class).is_some());
+                made.map(|class| document.classes[class].name.to_string()).ok_or_else(|| {
+                    words::refuse(format!("{example} is {}, no value", other.kind()))
+                })
+            }
+            Err(fault) => Err(words::refuse(format!("{example}: {}", fault.message))),
+        };
+    });
     match wrong {
         Some(message) => Err(words::refuse(format!("{example}: {message}"))),
         None => class,

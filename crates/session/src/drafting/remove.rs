@@ -38,7 +38,7 @@ impl Removing {
     }
 
     /// Lists what speaks of a step that goes, once.
-    fn go_along(&mut self, source: &str, program: &str, address: &str) {
+    fn go_along(&mut self, source: &text::Source, program: &str, address: &str) {
         self.gone.push(address.to_string());
         let of = address.rsplit('.').next().unwrap_or_default().to_string();
         for user in steps::users(source, program, address) {
@@ -81,7 +81,7 @@ pub(crate) fn begin(
         return Err(words::refuse("a block is demonstrated: end it, or undo it, first".into()));
     }
     let program = recording.program.clone();
-    let source = open.state.text.clone();
+    let source = text::Source::now(&open.state);
     let none = || words::refuse(format!("{program} has no step {address}"));
     text::step_at(&source, &program, address).ok_or_else(none)?;
     let mut removing = Removing { gone: Vec::new(), asked: Vec::new() };
@@ -111,7 +111,7 @@ pub(crate) fn back(open: &mut Open) {
         Some(at) => {
             let first = removing.gone[0].clone();
             let kept: Vec<Asked> = removing.asked[..at].to_vec();
-            let source = open.state.text.clone();
+            let source = text::Source::now(&open.state);
             let mut again = Removing { gone: Vec::new(), asked: Vec::new() };
             again.go_along(&source, &program, &first);
             for answered in kept {
@@ -126,7 +126,12 @@ pub(crate) fn back(open: &mut Open) {
     }
 }
 
-fn answer_at(removing: &mut Removing, (source, program): (&str, &str), at: usize, answer: &Answer) {
+fn answer_at(
+    removing: &mut Removing,
+    (source, program): (&text::Source, &str),
+    at: usize,
+    answer: &Answer,
+) {
     let step = removing.asked[at].step.clone();
     removing.asked[at].answer = Some(answer.clone());
     if *answer == Answer::Along {
@@ -142,7 +147,7 @@ pub(crate) fn along(open: &mut Open, host: &dyn Host) -> Result<Option<Change>, 
     let (mut removing, program, _) = opened(open)?;
     let none = || words::refuse("nothing is asked".into());
     let at = removing.open_question().ok_or_else(none)?;
-    let source = open.state.text.clone();
+    let source = text::Source::now(&open.state);
     answer_at(&mut removing, (&source, &program), at, &Answer::Along);
     keep(open, Some(removing));
     finish(open, host)
@@ -161,7 +166,7 @@ pub(crate) fn instead(
     let none = || words::refuse("nothing is asked".into());
     let at = removing.open_question().ok_or_else(none)?;
     let Asked { step, of, .. } = removing.asked[at].clone();
-    let source = open.state.text.clone();
+    let source = text::Source::now(&open.state);
     let home = visit::home_of(&source, (&program, &example), &step, &[]).ok_or_else(none)?;
     let found = match picked {
         Some((pointer, level)) => {
@@ -181,7 +186,7 @@ pub(crate) fn instead(
     if found.is_empty() {
         return Err(words::refuse(format!("pick or type what {step} shall speak of instead")));
     }
-    outcome::worth(&open.state, host, &home, &found)?;
+    outcome::worth(&open.state, &home, &found)?;
     // the step must have an outcome with it
     let edited = substituted(&source, &program, (&step, &of), &found)?;
     let (tried, _) =
@@ -196,7 +201,7 @@ pub(crate) fn instead(
 
 /// Returns a text in which a step speaks of something else.
 fn substituted(
-    source: &str,
+    source: &text::Source,
     program: &str,
     (step, of): (&str, &str),
     found: &str,
@@ -221,10 +226,11 @@ fn finish(open: &mut Open, host: &dyn Host) -> Result<Option<Change>, Refusal> {
         if let Some(Answer::Instead(found)) = &asked.answer
             && !removing.gone.contains(&asked.step)
         {
-            edited = substituted(&edited, &program, (&asked.step, &asked.of), found)?;
+            let source = text::Source::of(edited);
+            edited = substituted(&source, &program, (&asked.step, &asked.of), found)?;
         }
     }
-    let edited = steps::without(&edited, &program, &removing.gone)?;
+    let edited = steps::without(&text::Source::of(edited), &program, &removing.gone)?;
     let label = format!("delete {}", removing.gone.join(", "));
     let change = recording::retext(open, host, edited, label);
     keep(open, None);

@@ -18,6 +18,7 @@ use crate::words;
 use base::{Name, Span};
 use kernel::Path;
 use std::collections::BTreeSet;
+use std::rc::Rc;
 use syntax::ast::AstNode;
 
 /// A loop whose first turn is drawn.
@@ -121,7 +122,7 @@ impl Loop {
 /// Nothing is recorded, the name is none or taken.
 pub(crate) fn begin(open: &mut Open, host: &dyn Host, name: &str) -> Result<Change, Refusal> {
     let program = blocks::recorded(open)?.program.clone();
-    let name = blocks::name_for(&open.state.text, &program, (name, "turns"))?;
+    let name = blocks::name_for(&text::Source::now(&open.state), &program, (name, "turns"))?;
     let around = Around { address: name.to_string(), name: Some(name.clone()), turn: Some(0) };
     let lines = format!("{name} = repeat {{\n}}");
     blocks::begin(
@@ -145,8 +146,8 @@ pub(crate) fn begin_each(
     let Some(first) = set.first() else {
         return Err(words::refuse("there is nothing of the program in that rectangle".into()));
     };
-    let name = blocks::name_for(&open.state.text, &program, (name, "turns"))?;
-    let element = blocks::name_for(&open.state.text, &program, ("", "element"))?;
+    let name = blocks::name_for(&text::Source::now(&open.state), &program, (name, "turns"))?;
+    let element = blocks::name_for(&text::Source::now(&open.state), &program, ("", "element"))?;
     let around = Around { address: name.to_string(), name: Some(name.clone()), turn: Some(0) };
     let lines = format!("{name} = for {element} in [{}] {{\n}}", set.join(", "));
     let it = Loop { each: Some((element.to_string(), first.clone())), ..Loop::default() };
@@ -196,7 +197,7 @@ pub(crate) fn end_turn(
     ends: Ends,
 ) -> Result<Option<Change>, Refusal> {
     let Opened { mut it, program, home, address, .. } = opened(open)?;
-    let body = text::block(&open.state.text, &program, &address);
+    let body = text::block(&text::Source::now(&open.state), &program, &address);
     let body = body.ok_or_else(|| words::refuse("the loop is gone".into()))?;
     if text::steps_of(&body).is_empty() {
         return Err(words::refuse("draw the first turn of the loop first".into()));
@@ -204,7 +205,7 @@ pub(crate) fn end_turn(
     it.ends = it.each.is_none().then_some(ends);
     it.asked = questions(&body, it.each.as_ref());
     for asked in &mut it.asked {
-        let worth = outcome::worth(&open.state, host, &home, &asked.first);
+        let worth = outcome::worth(&open.state, &home, &asked.first);
         asked.is_value = matches!(worth, Ok(Worth::Truth(_) | Worth::Number(_)));
     }
     open.dialogue = None;
@@ -243,7 +244,6 @@ pub(crate) fn answer(
     host: &dyn Host,
     (answer, at): (Option<&str>, Option<(f64, f64)>),
 ) -> Result<Option<Change>, Refusal> {
-    let state = open.state.clone();
     let loop_now = opened(open)?;
     let Some(i) = loop_now.it.asked.iter().position(|asked| asked.answer.is_none()) else {
         return Err(words::refuse("nothing is asked".into()));
@@ -259,7 +259,7 @@ pub(crate) fn answer(
     for way in ways {
         let mut tried = loop_now.it.clone();
         tried.asked[i].answer = Some(way.clone());
-        match second_turn(&state, host, (&loop_now, &tried, i), at) {
+        match second_turn(open, host, (&loop_now, &tried, i), at) {
             Ok(away) if best.as_ref().is_none_or(|(least, _)| away < *least - 1e-9) => {
                 best = Some((away, way));
             }
@@ -279,20 +279,45 @@ pub(crate) fn answer(
     is_settled.then(|| close(open, host, "")).transpose()
 }
 
+/// States in which a loop took two turns, the latest last: what was asked of them is asked again while the pointer moves.
+#[derive(Default)]
+pub(crate) struct Tried(Vec<Trial>);
+
+/// A state that was tried.
+struct Trial {
+    of: Rc<State>,
+    written: String,
+    outcome: Result<Rc<State>, String>,
+}
+
+/// So many states are kept: both ways of the latest answer, and that before it.
+const MOST_TRIED: usize = 3;
+
 /// Returns the state in which the loop takes two turns, with the answers so far.
 fn with_two_turns(
-    state: &State,
+    open: &mut Open,
     host: &dyn Host,
     (opened, it): (&Opened, &Loop),
-) -> Result<State, String> {
+) -> Result<Rc<State>, String> {
+    let state = open.state.clone();
     let head = if it.each.is_some() { None } else { Some("repeat 2 times") };
-    let written = closed(&state.text, (opened, it), (head, ""));
+    let written = closed(&text::Source::now(&state), (opened, it), (head, ""));
     let written = written.map_err(|refusal| refusal.message)?;
-    let (tried, _) = State::of(written, Some(state), host, plan::Plans::default());
-    match recording::new_error(state, &tried) {
-        Some(wrong) => Err(wrong),
-        None => Ok(tried),
+    let all = &mut open.tried.0;
+    all.retain(|trial| Rc::ptr_eq(&trial.of, &state));
+    if let Some(known) = all.iter().find(|trial| trial.written == written) {
+        return known.outcome.clone();
     }
+    let (tried, _) = State::of(written.clone(), Some(&state), host, plan::Plans::default());
+    let outcome = match recording::new_error(&state, &tried) {
+        Some(wrong) => Err(wrong),
+        None => Ok(Rc::new(tried)),
+    };
+    if all.len() == MOST_TRIED {
+        all.remove(0);
+    }
+    all.push(Trial { of: state, written, outcome: outcome.clone() });
+    outcome
 }
 
 /// The path to the second turn.
@@ -304,12 +329,12 @@ fn second_path(opened: &Opened) -> Path {
 
 /// Runs the second turn with the answers so far; says how far the step of a question lies from a place.
 fn second_turn(
-    state: &State,
+    open: &mut Open,
     host: &dyn Host,
     (opened, it, i): (&Opened, &Loop, usize),
     at: Option<(f64, f64)>,
 ) -> Result<f64, String> {
-    let tried = with_two_turns(state, host, (opened, it))?;
+    let tried = with_two_turns(open, host, (opened, it))?;
     let evaluator = tried.evaluator(&tried.values);
     let example = opened.home.path().0.first().cloned();
     let thing =
@@ -326,7 +351,7 @@ fn second_turn(
         .filter(|s| !s.starts_with('#') && !matches!(*s, "then" | "else"));
     let path = made.fold(turn, |path, name| path.then(kernel::Step::Part(name.into())));
     // what the second turn does not come to has no place
-    let curve = evaluator.at(&path).ok().and_then(|a| scene::Curve::of(&evaluator, &tried, &a));
+    let curve = evaluator.at(&path).ok().and_then(|a| scene::Curve::of(&evaluator, &a));
     Ok(curve.zip(at).map_or(0.0, |(curve, at)| curve.distance(at)))
 }
 
@@ -339,7 +364,7 @@ pub(crate) fn asked_drawing(open: &mut Open, host: &dyn Host) -> drawing::Drawin
     for name in names_in(&question.first) {
         elements.extend(scene::drawing_of(&state, &opened.home, &name).elements);
     }
-    if let Ok(tried) = with_two_turns(&state, host, (&opened, &opened.it)) {
+    if let Ok(tried) = with_two_turns(open, host, (&opened, &opened.it)) {
         let evaluator = tried.evaluator(&tried.values);
         if let Ok(answer) = evaluator.at(&second_path(&opened)) {
             elements.extend(scene::elements_of(&evaluator, &answer));
@@ -373,7 +398,7 @@ pub(crate) fn close(open: &mut Open, host: &dyn Host, condition: &str) -> Result
     }
     let before_turn = |condition: &str| {
         // before a turn its steps are not made: what is carried is meant
-        carried(&loop_now.it, &open.state.text, &loop_now.program)
+        carried(&loop_now.it, &text::Source::now(&open.state), &loop_now.program)
             .iter()
             .fold(condition.to_string(), |text, (name, first, _)| text::renamed(&text, first, name))
     };
@@ -387,7 +412,7 @@ pub(crate) fn close(open: &mut Open, host: &dyn Host, condition: &str) -> Result
         ),
         None => return Err(words::refuse("end the first turn of the loop first".into())),
     };
-    let source = open.state.text.clone();
+    let source = text::Source::now(&open.state);
     let text = closed(&source, (&loop_now, &loop_now.it), (head.as_deref(), &tail))?;
     let label = match loop_now.it.each {
         Some(_) => format!("for each {}", loop_now.name),
@@ -416,7 +441,7 @@ fn ended_in(open: &Open, opened: &Opened) -> Option<String> {
 }
 
 /// What is carried from turn to turn by the answers that differ from the first turn: name, first, next.
-fn carried(it: &Loop, source: &str, program: &Name) -> Vec<(String, String, String)> {
+fn carried(it: &Loop, source: &text::Source, program: &Name) -> Vec<(String, String, String)> {
     let mut taken: BTreeSet<String> = text::words_in(source, program);
     let mut all: Vec<(String, String, String)> = Vec::new();
     for asked in &it.asked {
@@ -439,7 +464,7 @@ fn carried(it: &Loop, source: &str, program: &Name) -> Vec<(String, String, Stri
 
 /// Returns a text in which the loop says what its answers say; without a head, that stays.
 fn closed(
-    source: &str,
+    source: &text::Source,
     (opened, it): (&Opened, &Loop),
     (head, tail): (Option<&str>, &str),
 ) -> Result<String, Refusal> {

@@ -3,6 +3,7 @@
 use super::{Home, text};
 use crate::state::State;
 use crate::view::Pointer;
+use crate::views::drawn;
 use base::number::{atan2, hypot};
 use eval::{Answer, Context, Evaluator};
 use geometry::Figure;
@@ -105,12 +106,8 @@ const PLACES: [&str; 5] = ["p1", "p2", "center", "start", "end"];
 
 impl Curve {
     /// Returns where an answer lies; nothing where it is no figure.
-    pub(crate) fn of<'a>(
-        evaluator: &Evaluator<'a>,
-        state: &'a State,
-        answer: &Answer<'a>,
-    ) -> Option<Self> {
-        let document = &state.lowered.document;
+    pub(crate) fn of<'a>(evaluator: &Evaluator<'a>, answer: &Answer<'a>) -> Option<Self> {
+        let document = evaluator.document;
         let class = evaluator.class_of(answer)?;
         document.figure(class)?;
         let figure = evaluator.figure_of(answer).ok()?;
@@ -174,6 +171,34 @@ impl Curve {
                 _ => (away(center) - radius.abs()).abs(),
             },
             Figure::Arc { start, end, .. } => away(start).min(away(end)),
+        }
+    }
+
+    /// Returns from where to where a number of it reaches: a radius from the centre to the rim, a length from end to end.
+    pub(crate) fn reach_of_number(&self, slot: &str) -> Option<[(f64, f64); 2]> {
+        match self.figure {
+            Figure::Circle { center: [x, y], radius } if slot == "radius" => {
+                let reach = radius.abs() * std::f64::consts::FRAC_1_SQRT_2;
+                Some([(x, y), (x + reach, y + reach)])
+            }
+            Figure::Straight { from, to } if slot == "length" => {
+                Some([(from[0], from[1]), (to[0], to[1])])
+            }
+            Figure::Point(_)
+            | Figure::Straight { .. }
+            | Figure::Circle { .. }
+            | Figure::Arc { .. } => None,
+        }
+    }
+
+    /// Returns where a number of it is shown that reaches from nowhere to nowhere.
+    pub(crate) fn place_of_number(&self, slot: &str) -> (f64, f64) {
+        let half = |a: [f64; 2], b: [f64; 2]| ((a[0] + b[0]) / 2.0, (a[1] + b[1]) / 2.0);
+        match self.figure {
+            Figure::Point([x, y]) | Figure::Circle { center: [x, y], .. } => (x, y),
+            Figure::Straight { from, .. } if slot == "angle" => (from[0], from[1]),
+            Figure::Straight { from, to } => half(from, to),
+            Figure::Arc { start, end, .. } => half(start, end),
         }
     }
 
@@ -253,7 +278,7 @@ pub(crate) fn scene(state: &State, home: &Home) -> Vec<Found> {
         Home::Document => all.document(),
         Home::Program { example, way, .. } => {
             let mut path = kernel::Path::of(&[example]);
-            let mut levels = text::visible(&state.text, home).into_iter();
+            let mut levels = text::visible(&text::Source::now(state), home).into_iter();
             all.level(&path, &levels.next().unwrap_or_default());
             for around in way {
                 let Some(name) = &around.name else { continue };
@@ -285,7 +310,7 @@ impl<'a> Scene<'_, 'a> {
             if document.figure(t.class).is_some() {
                 self.add((&path, &[]), &Answer::Thing(thing), false);
             } else if document.program(t.class).is_some()
-                && let Ok(Some(run)) = self.evaluator.run(thing)
+                && let Some(run) = drawn::shown(self.evaluator, thing)
             {
                 self.context((&format!("{path}."), std::slice::from_ref(&path)), &run);
             }
@@ -342,7 +367,7 @@ impl<'a> Scene<'_, 'a> {
             _ => {}
         }
         let Some(class) = self.evaluator.class_of(answer) else { return };
-        let Some(curve) = Curve::of(self.evaluator, self.state, answer) else { return };
+        let Some(curve) = Curve::of(self.evaluator, answer) else { return };
         self.found.push(Found { text: text.into(), class, curve, wholes: wholes.to_vec() });
         if !with_places || matches!(curve.figure, Figure::Point(_)) {
             return;
@@ -350,7 +375,7 @@ impl<'a> Scene<'_, 'a> {
         for name in PLACES {
             if let Ok(part) = self.evaluator.of_part(answer, name)
                 && let (Some(class), Some(curve)) =
-                    (self.evaluator.class_of(&part), Curve::of(self.evaluator, self.state, &part))
+                    (self.evaluator.class_of(&part), Curve::of(self.evaluator, &part))
             {
                 let wholes = Vec::new();
                 self.found.push(Found { text: format!("{text}.{name}"), class, curve, wholes });

@@ -24,19 +24,20 @@ pub(crate) fn view(open: &Open, home: &Home, thing: Option<&str>) -> Option<Step
     let document = &state.lowered.document;
     let path = crate::session::parse_path(&example)?;
     let thing = state.structure.follow(DOCUMENT, &path).ok()?;
-    let class = state.structure.things[thing].class;
-    let program = document.program(class)?;
-    let name = document.classes[class].name.to_string();
+    let program = document.program(state.structure.things[thing].class)?;
+    let name = program_of(state, &example)?.to_string();
     let evaluator = state.evaluator(open.values());
-    let mut rows = Rows { state, evaluator: &evaluator, source: "", rows: Vec::new() };
     // a program of a library is shown as well
-    let sources = std::iter::once(state.text.as_str());
-    let sources = sources.chain(state.lowered.files.iter().map(|(_, file)| file.text.as_ref()));
-    if let Some((source, body)) =
-        { sources }.find_map(|s| Some((s, text::program(s, &name)?.body()?)))
-    {
+    let own = text::Source::now(state);
+    let others = state.lowered.files.iter().skip(1).map(|(_, file)| text::Source::of_file(file));
+    let found = std::iter::once(own).chain(others).find_map(|source| {
+        let body = text::program(&source, &name)?.body()?;
+        Some((source, body))
+    });
+    let mut rows = Rows { state, evaluator: &evaluator, source: "", rows: Vec::new() };
+    if let Some((source, body)) = &found {
         rows.source = source;
-        rows.block(&text::steps_of(&body), "", &path, 0);
+        rows.block(&text::steps_of(body), "", &path, 0);
     }
     let parameter = |asked: &kernel::program::Asked| ParameterRow {
         name: asked.name.to_string(),
@@ -57,8 +58,19 @@ pub(crate) fn view(open: &Open, home: &Home, thing: Option<&str>) -> Option<Step
             text::joined(&text::address_of(home), &before)
         }),
         replaces: recording.and_then(|recording| recording.replaces.clone()),
+        by_others: recording.is_some_and(|recording| recording.own_values.is_some()),
         example,
     })
+}
+
+/// Returns the name of the program that draws a thing of a document.
+pub(crate) fn program_of(state: &State, thing: &str) -> Option<base::Name> {
+    let document = &state.lowered.document;
+    let path = crate::session::parse_path(thing)?;
+    let thing = state.structure.follow(DOCUMENT, &path).ok()?;
+    let line = document.primary_line(state.structure.things[thing].class);
+    let program = line.into_iter().find(|&c| document.classes[c].program.is_some())?;
+    Some(document.classes[program].name.clone())
 }
 
 struct Rows<'e, 'a> {
@@ -145,15 +157,20 @@ fn in_words(formula: &str) -> String {
 }
 
 fn value_words<'a>(state: &'a State, evaluator: &Evaluator<'a>, answer: &Answer<'a>) -> String {
-    if let Some(curve) = Curve::of(evaluator, state, answer) {
+    if let Some(curve) = Curve::of(evaluator, answer) {
         return curve.words();
     }
     match answer {
         Answer::Number(..) => values::in_words(&state.lowered.document, answer).unwrap_or_default(),
-        Answer::List(items) => match items.len() {
-            1 => "1 turn".into(),
-            n => format!("{n} turns"),
-        },
+        Answer::List(items) => {
+            let are_turns = items.iter().all(|item| matches!(item, Answer::Context(_)));
+            match (items.len(), are_turns) {
+                (1, true) => "1 turn".into(),
+                (1, false) => "1 figure".into(),
+                (n, true) => format!("{n} turns"),
+                (n, false) => format!("{n} figures"),
+            }
+        }
         Answer::Context(context) => format!("{} figures", context.result().count()),
         other => evaluator.text_of(other),
     }
@@ -202,7 +219,7 @@ fn collect(evaluator: &Evaluator<'_>, at: &Path, names: &[&str], into: &mut Vec<
 }
 
 /// Returns the steps that speak of one, or of one that does, in order: what goes when it is deleted.
-pub(crate) fn dependents(source: &str, program: &str, address: &str) -> Vec<String> {
+pub(crate) fn dependents(source: &text::Source, program: &str, address: &str) -> Vec<String> {
     let mut gone = vec![address.to_string()];
     let mut found: Vec<String> = Vec::new();
     let mut at = 0;
@@ -222,7 +239,7 @@ pub(crate) fn dependents(source: &str, program: &str, address: &str) -> Vec<Stri
 }
 
 /// Lists the addresses of all steps of a program, in the order of its text.
-pub(crate) fn addresses(source: &str, program: &str) -> Vec<String> {
+pub(crate) fn addresses(source: &text::Source, program: &str) -> Vec<String> {
     fn list(steps: &[StepNode], way: &str, into: &mut Vec<String>) {
         for step in steps {
             let address = text::joined(way, &step.segment);
@@ -240,7 +257,7 @@ pub(crate) fn addresses(source: &str, program: &str) -> Vec<String> {
 }
 
 /// Returns the steps that speak of what another makes, itself and what is in it apart.
-pub(crate) fn users(source: &str, program: &str, address: &str) -> Vec<String> {
+pub(crate) fn users(source: &text::Source, program: &str, address: &str) -> Vec<String> {
     let Some(step) = text::step_at(source, program, address) else { return Vec::new() };
     let Some(body) = text::block(source, program, "") else { return Vec::new() };
     let names = text::names_made(std::slice::from_ref(&step));
@@ -342,7 +359,7 @@ impl Search<'_> {
 /// # Errors
 /// There is no such step.
 pub(crate) fn without(
-    source: &str,
+    source: &text::Source,
     program: &str,
     addresses: &[String],
 ) -> Result<String, Refusal> {
@@ -377,7 +394,7 @@ pub(crate) fn without(
 /// # Errors
 /// There is no such step, or nothing is said.
 pub(crate) fn with_formula(
-    source: &str,
+    source: &text::Source,
     (program, address): (&str, &str),
     formula: &str,
 ) -> Result<String, Refusal> {

@@ -5,6 +5,7 @@
 //! an `else` whose only member is an `if`.
 
 use super::Home;
+use crate::state::State;
 use crate::view::Refusal;
 use crate::words;
 use base::Span;
@@ -33,9 +34,44 @@ pub(crate) struct StepNode {
     pub(crate) is_guide: bool,
 }
 
+/// A text with its tree.
+#[derive(Clone, Debug)]
+pub(crate) struct Source {
+    text: String,
+    file: ast::File,
+}
+
+impl Source {
+    /// Parses a text.
+    pub(crate) fn of(text: String) -> Self {
+        let file = syntax::parse(base::FileId(0), &text).file();
+        Self { text, file }
+    }
+
+    /// The text of a state: its tree is there already.
+    pub(crate) fn now(state: &State) -> Self {
+        match state.lowered.files.iter().next() {
+            Some((_, own)) => Self::of_file(own),
+            None => Self::of(state.text.clone()),
+        }
+    }
+
+    /// A text that was read with its tree.
+    pub(crate) fn of_file(file: &lang::File) -> Self {
+        Self { text: file.text.to_string(), file: file.parse.file() }
+    }
+}
+
+impl std::ops::Deref for Source {
+    type Target = str;
+    fn deref(&self) -> &str {
+        &self.text
+    }
+}
+
 /// Finds a program in a text.
-pub(crate) fn program(text: &str, name: &str) -> Option<ast::Program> {
-    let file = syntax::parse(base::FileId(0), text).file();
+pub(crate) fn program(text: &Source, name: &str) -> Option<ast::Program> {
+    let file = &text.file;
     let is_it = |member: Member| match member {
         Member::Program(program) => {
             let named = program.name().is_some_and(|word| word.text() == name);
@@ -115,7 +151,7 @@ impl Inside {
     }
 }
 
-fn walk(text: &str, program_name: &str, address: &str) -> Option<Inside> {
+fn walk(text: &Source, program_name: &str, address: &str) -> Option<Inside> {
     let mut at = Inside::Body(program(text, program_name)?.body()?);
     let segments: Vec<&str> = address.split('.').filter(|s| !s.is_empty()).collect();
     let mut rest = segments.iter();
@@ -127,14 +163,14 @@ fn walk(text: &str, program_name: &str, address: &str) -> Option<Inside> {
 }
 
 /// Finds a step by its address.
-pub(crate) fn step_at(text: &str, program_name: &str, address: &str) -> Option<StepNode> {
+pub(crate) fn step_at(text: &Source, program_name: &str, address: &str) -> Option<StepNode> {
     let (around, last) = address.rsplit_once('.').unwrap_or(("", address));
     let inside = walk(text, program_name, around)?;
     inside.steps().into_iter().find(|step| step.segment == last)
 }
 
 /// Finds the body of a block by its address: a loop's, `#0.then`, the program's own for nothing.
-pub(crate) fn block(text: &str, program_name: &str, address: &str) -> Option<ast::Body> {
+pub(crate) fn block(text: &Source, program_name: &str, address: &str) -> Option<ast::Body> {
     match walk(text, program_name, address)? {
         Inside::Body(body) => Some(body),
         Inside::If(_) => None,
@@ -142,7 +178,7 @@ pub(crate) fn block(text: &str, program_name: &str, address: &str) -> Option<ast
 }
 
 /// Returns the bytes of a step and those of its value.
-pub(crate) fn step(text: &str, program_name: &str, address: &str) -> Option<(Span, Span)> {
+pub(crate) fn step(text: &Source, program_name: &str, address: &str) -> Option<(Span, Span)> {
     let step = step_at(text, program_name, address)?;
     Some((step.span, step.value?.span()))
 }
@@ -194,7 +230,7 @@ pub(crate) fn carried_names(value: &Value) -> Vec<String> {
 }
 
 /// What a home sees of each block around it, from the program inwards: the names of the level.
-pub(crate) fn visible(text: &str, home: &Home) -> Vec<Vec<String>> {
+pub(crate) fn visible(text: &Source, home: &Home) -> Vec<Vec<String>> {
     let Home::Program { program: name, way, before, .. } = home else { return Vec::new() };
     let mut levels = vec![Vec::new()];
     let mut address = String::new();
@@ -245,7 +281,7 @@ pub(crate) fn address_of(home: &Home) -> String {
 ///
 /// # Errors
 /// The program, or the block of it, is not in the text.
-pub(crate) fn with_members(text: &str, home: &Home, members: &str) -> Result<String, Refusal> {
+pub(crate) fn with_members(text: &Source, home: &Home, members: &str) -> Result<String, Refusal> {
     let Home::Program { program: name, way, before, .. } = home else {
         return Ok(format!("{}\n{members}\n", text.trim_end()));
     };
@@ -311,7 +347,7 @@ pub(crate) fn with_lines(text: &str, body: &ast::Body, depth: usize, lines: &str
 }
 
 /// Returns the words that a program uses as names, labels apart.
-pub(crate) fn words_in(text: &str, program_name: &str) -> BTreeSet<String> {
+pub(crate) fn words_in(text: &Source, program_name: &str) -> BTreeSet<String> {
     let Some(program) = program(text, program_name) else { return BTreeSet::new() };
     // what is asked in words is no name
     let all = program.syntax().text().to_string();
@@ -342,7 +378,11 @@ fn is_parameter(program: &str, at: usize) -> bool {
 ///
 /// # Errors
 /// The program is not in the text.
-pub(crate) fn with_parameter(text: &str, name: &str, parameter: &str) -> Result<String, Refusal> {
+pub(crate) fn with_parameter(
+    text: &Source,
+    name: &str,
+    parameter: &str,
+) -> Result<String, Refusal> {
     let none = || words::refuse(format!("the document has no program {name}"));
     let program = program(text, name).ok_or_else(none)?;
     let Some(list) = program.params() else {

@@ -57,6 +57,8 @@ pub enum Wants {
         /// What goes.
         gone: String,
     },
+    /// Another object or value for what a step says, which is this.
+    Change(String),
     /// That the branch which is not taken is drawn: by the same values, or by others.
     Otherwise,
     /// Whether what was picked outside of the program is a parameter, or its construction is taken along.
@@ -180,6 +182,8 @@ pub struct StepsView {
     pub at: Option<String>,
     /// The step that what is drawn next takes the place of.
     pub replaces: Option<String>,
+    /// Whether it is visited by other values of its parameters than the example's own.
+    pub by_others: bool,
     /// Its parameters: name and the example's value.
     pub parameters: Vec<ParameterRow>,
     /// Its steps, in order.
@@ -218,6 +222,21 @@ pub struct StepRow {
     pub is_block: bool,
     /// Whether the example does not come to it.
     pub is_unmade: bool,
+}
+
+/// A part of what a step says that can be changed by itself.
+#[derive(Clone, PartialEq, Debug, Default)]
+pub struct StepOperand {
+    /// What it is called: `radius`, `first`, `until`, `next first`.
+    pub slot: String,
+    /// How it is written.
+    pub says: String,
+    /// What it comes to in the example, of numbers and of a yes or no.
+    pub value: Option<String>,
+    /// Where on the sheet it is shown, of a figure's numbers.
+    pub at: Option<(f64, f64)>,
+    /// From where to where it reaches there: a radius from the centre to the rim, a length from end to end.
+    pub along: Option<[(f64, f64); 2]>,
 }
 
 /// What is asked of the second turn of a loop: the same, or which object of the turn before?

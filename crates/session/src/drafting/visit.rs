@@ -7,7 +7,6 @@ use super::blocks::{self, Block, Kind};
 use super::view::Go;
 use super::{Around, Home, scene, steps, text};
 use crate::document::Open;
-use crate::host::Host;
 use crate::state::State;
 use crate::view::{Pointer, Refusal};
 use crate::words;
@@ -17,7 +16,7 @@ use syntax::ast::Value;
 
 /// The home in front of a step: the first turn of the loops around it.
 pub(crate) fn home_of(
-    source: &str,
+    source: &text::Source,
     (program, example): (&Name, &Name),
     address: &str,
     turns: &[u32],
@@ -52,14 +51,14 @@ pub(crate) fn home_of(
 ///
 /// # Errors
 /// Nothing is recorded, a block is demonstrated; there is no such place.
-pub(crate) fn go(open: &mut Open, host: &dyn Host, go: &Go) -> Result<(), Refusal> {
+pub(crate) fn go(open: &mut Open, go: &Go) -> Result<(), Refusal> {
     let recording = blocks::recorded(open)?;
     if recording.blocks.iter().any(|block| block.kind != Kind::Visited) {
         return Err(words::refuse("a block is demonstrated: end it, or undo it, first".into()));
     }
     let (program, example) = (recording.program.clone(), recording.example.clone());
     let home = Home::of(Some(recording));
-    let source = open.state.text.clone();
+    let source = text::Source::now(&open.state);
     let body_of = |home: &Home| {
         let body = text::block(&source, &program, &text::address_of(home));
         body.map(|body| text::steps_of(&body)).unwrap_or_default()
@@ -113,8 +112,7 @@ pub(crate) fn go(open: &mut Open, host: &dyn Host, go: &Go) -> Result<(), Refusa
                 || words::refuse("no block comes next: there is nothing to step into".into());
             let segment = before.clone().ok_or_else(none)?;
             let address = text::joined(&text::address_of(&home), &segment);
-            let inner =
-                inner_of(&open.state, host, (&home, &program), &address).ok_or_else(none)?;
+            let inner = inner_of(&open.state, (&home, &program), &address).ok_or_else(none)?;
             let first = home_of(&source, (&program, &example), &inner, &[]);
             first.ok_or_else(none)?
         }
@@ -132,7 +130,7 @@ pub(crate) fn go(open: &mut Open, host: &dyn Host, go: &Go) -> Result<(), Refusa
 pub(crate) fn enter(open: &mut Open, to: Home) {
     let Home::Program { way, before, .. } = to else { return };
     let Some(recording) = &mut open.recording else { return };
-    let source = open.state.text.clone();
+    let source = text::Source::now(&open.state);
     let since = open.done.len();
     let mut blocks: Vec<Block> = Vec::new();
     for around in way {
@@ -155,20 +153,15 @@ pub(crate) fn enter(open: &mut Open, to: Home) {
 }
 
 /// The address of the first step in a block; of an `if` in the branch that is taken now.
-fn inner_of(
-    state: &State,
-    host: &dyn Host,
-    (home, program): (&Home, &Name),
-    address: &str,
-) -> Option<String> {
-    let value = text::step_at(&state.text, program, address)?.value?;
+fn inner_of(state: &State, (home, program): (&Home, &Name), address: &str) -> Option<String> {
+    let value = text::step_at(&text::Source::now(state), program, address)?.value?;
     let branch = match &value {
         Value::Expr(_) => return None,
         Value::Repeat(_) | Value::While(_) | Value::For(_) => "",
         Value::If(choice) => {
             use syntax::ast::AstNode;
             let condition = choice.condition()?.syntax().text().to_string();
-            let truth = super::outcome::worth(state, host, home, condition.trim());
+            let truth = super::outcome::worth(state, home, condition.trim());
             match truth {
                 Ok(super::outcome::Worth::Truth(false)) => "else",
                 _ => "then",
@@ -196,12 +189,17 @@ fn until_picked(
     let all = scene::scene(&open.state, &whole);
     let none = || words::refuse("nothing that the program drew lies here".into());
     let found = scene::nearest(all.iter(), pointer).ok_or_else(none)?;
-    let (address, turns) = place_of(&open.state.text, program, &found.text).ok_or_else(none)?;
-    home_of(&open.state.text, (program, example), &address, &turns).ok_or_else(none)
+    let (address, turns) =
+        place_of(&text::Source::now(&open.state), program, &found.text).ok_or_else(none)?;
+    home_of(&text::Source::now(&open.state), (program, example), &address, &turns).ok_or_else(none)
 }
 
 /// The address of the step that made what a path leads to, and the turns on the way: `column[2].ring.center`.
-fn place_of(source: &str, program: &Name, path: &str) -> Option<(String, Vec<u32>)> {
+pub(crate) fn place_of(
+    source: &text::Source,
+    program: &Name,
+    path: &str,
+) -> Option<(String, Vec<u32>)> {
     let mut turns = Vec::new();
     let mut names: Vec<String> = Vec::new();
     for part in path.split('.') {
@@ -221,6 +219,19 @@ fn place_of(source: &str, program: &Name, path: &str) -> Option<(String, Vec<u32
     Some((address, turns))
 }
 
+/// Keeps what the example is of its own, where the program is visited and a thing that gets other values is that.
+pub(crate) fn keep_own(open: &mut Open, thing: &str) {
+    let own = super::choice::example_text(open);
+    let is_visited = is_inside(open);
+    if let Some(recording) = &mut open.recording
+        && is_visited
+        && *recording.example == *thing
+        && recording.own_values.is_none()
+    {
+        recording.own_values = own;
+    }
+}
+
 /// Whether something is visited: what is drawn does not go to the end of the program.
 pub(crate) fn is_inside(open: &Open) -> bool {
     open.recording.as_ref().is_some_and(|recording| {
@@ -235,7 +246,7 @@ pub(crate) fn drawn_so_far(state: &State, home: &Home) -> drawing::Drawing {
     let mut elements = Vec::new();
     let Home::Program { example, way, .. } = home else { return drawing::Drawing::default() };
     let mut path = kernel::Path::of(&[example]);
-    let mut levels = text::visible(&state.text, home).into_iter();
+    let mut levels = text::visible(&text::Source::now(state), home).into_iter();
     add(&evaluator, &path, &levels.next().unwrap_or_default(), &mut elements);
     for around in way {
         let Some(name) = &around.name else { continue };

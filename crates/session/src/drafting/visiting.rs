@@ -1,8 +1,8 @@
 //! Programs at the boundary: visited, and their steps told, replaced and deleted.
 
-use super::hands::{home, replaced, turn_of};
-use super::view::{Go, StepsView, Turn};
-use super::{recording, remove, steps, visit};
+use super::hands::{home, prompt, replaced, turn_of};
+use super::view::{Go, Prompt, StepOperand, StepsView, Turn};
+use super::{blocks, changing, choice, recording, remove, steps, text, visit};
 
 use crate::session::Session;
 use crate::view::{Change, DocumentId, Refusal};
@@ -14,14 +14,107 @@ impl Session {
     /// # Errors
     /// Nothing is recorded, a block is demonstrated; there is no such place.
     pub fn visit(&mut self, id: DocumentId, go: &Go) -> Result<(), Refusal> {
-        let (open, beside) = self.beside_others(id);
-        visit::go(open, &beside, go)?;
+        let open = self.document_mut(id);
+        visit::go(open, go)?;
         if let Some(recording) = &mut open.recording {
             recording.replaces = None;
             recording.removing = None;
+            recording.changing = None;
         }
         open.picking = super::Picking::default();
         Ok(())
+    }
+
+    /// Lets the program that is recorded be visited by other values of its parameters, as they are typed: what its branches
+    /// and turns are then can be seen and edited. The example's own come back by [`Session::own_values`], and where the
+    /// recording ends.
+    ///
+    /// # Errors
+    /// Nothing is recorded; there is no such parameter, what is typed is no value, or a constraint forbids it.
+    pub fn visit_by(
+        &mut self,
+        id: DocumentId,
+        typed: &[(String, String)],
+    ) -> Result<Change, Refusal> {
+        let open = self.document_mut(id);
+        let example = blocks::recorded(open)?.example.to_string();
+        let before = open.recording.as_ref().and_then(|recording| recording.own_values.clone());
+        visit::keep_own(open, &example);
+        let outcome = self.set_parameters(id, &example, typed);
+        if let (Err(_), Some(recording)) = (&outcome, &mut self.document_mut(id).recording) {
+            recording.own_values = before;
+        }
+        outcome
+    }
+
+    /// Gives the example of the program that is recorded its own values again.
+    ///
+    /// # Errors
+    /// Nothing is recorded.
+    pub fn own_values(&mut self, id: DocumentId) -> Result<Change, Refusal> {
+        let (open, beside) = self.beside_others(id);
+        let Some(own) = blocks::recorded(open)?.own_values.take() else {
+            return Ok(Change::default());
+        };
+        let Some(now) = choice::example_span(open, &open.state.text) else {
+            return Ok(Change::default());
+        };
+        let mut edited = open.state.text.clone();
+        edited.replace_range(now, &own);
+        if edited == open.state.text {
+            return Ok(Change::default());
+        }
+        let change = recording::retext(open, &beside, edited, "own values".into())?;
+        Ok(*self.with_reach(id, change))
+    }
+
+    /// Returns what a step of the program of a thing says that can be changed by itself: its operands; of a loop what it
+    /// begins with, carries on and ends by.
+    pub fn step_operands(&self, id: DocumentId, example: &str, step: &str) -> Vec<StepOperand> {
+        let state = &self.document(id).state;
+        let Some(program) = steps::program_of(state, example) else { return Vec::new() };
+        changing::list(state, (&program, &example.into()), step)
+    }
+
+    /// Returns the step that made what a path leads to, with the thing whose program it is of.
+    pub fn step_of(&self, id: DocumentId, path: &str) -> Option<(String, String)> {
+        let state = &self.document(id).state;
+        let (example, made) = path.split_once('.')?;
+        let program = steps::program_of(state, example)?;
+        let (step, _) = visit::place_of(&text::Source::now(state), &program, made)?;
+        Some((example.into(), step))
+    }
+
+    /// Begins to change a part of what a step says: another object or value is waited for.
+    ///
+    /// # Errors
+    /// Nothing is recorded, a block is demonstrated; the step says nothing of that name.
+    pub fn begin_change(
+        &mut self,
+        id: DocumentId,
+        (step, slot): (&str, &str),
+    ) -> Result<Option<Prompt>, Refusal> {
+        let open = self.document_mut(id);
+        changing::begin(open, (step, slot))?;
+        open.picking = super::Picking::default();
+        Ok(prompt(open))
+    }
+
+    /// Lets a step of a thing's program say something else in one place; it keeps its name, and what speaks of it.
+    ///
+    /// # Errors
+    /// The step says nothing of that name; what is typed means nothing there, or leaves a step without an outcome.
+    pub fn set_operand(
+        &mut self,
+        id: DocumentId,
+        (example, step, slot): (&str, &str, &str),
+        typed: &str,
+    ) -> Result<Change, Refusal> {
+        let (open, beside) = self.beside_others(id);
+        let none = || words::refuse(format!("{example} is not drawn by a program"));
+        let program = steps::program_of(&open.state, example).ok_or_else(none)?;
+        let change = changing::set(open, &beside, (&program, step, slot), typed)?;
+        Ok(*self.with_reach(id, change))
     }
 
     /// Returns what the program has drawn up to where it is visited; nothing where recording goes on at its end.
@@ -38,7 +131,7 @@ impl Session {
         self.visit(id, &Go::To(step.into()))?;
         let open = self.document_mut(id);
         let Some(recording) = &mut open.recording else { return Ok(()) };
-        let found = super::text::step_at(&open.state.text, &recording.program, step);
+        let found = text::step_at(&text::Source::now(&open.state), &recording.program, step);
         if !matches!(found.and_then(|s| s.value), Some(syntax::ast::Value::Expr(_))) {
             return Err(words::refuse(format!("{step} is a block: step into it, or delete it")));
         }
@@ -89,7 +182,7 @@ impl Session {
 
     /// Returns the steps that speak of a step, or of one that does: what goes when it is deleted.
     pub fn step_dependents(&self, id: DocumentId, program: &str, step: &str) -> Vec<String> {
-        steps::dependents(&self.document(id).state.text, program, step)
+        steps::dependents(&text::Source::now(&self.document(id).state), program, step)
     }
 
     /// Deletes a step, with those that speak of it.
@@ -103,9 +196,9 @@ impl Session {
         step: &str,
     ) -> Result<Change, Refusal> {
         let (open, beside) = self.beside_others(id);
-        let mut gone = steps::dependents(&open.state.text, program, step);
+        let mut gone = steps::dependents(&text::Source::now(&open.state), program, step);
         gone.push(step.into());
-        let text = steps::without(&open.state.text, program, &gone)?;
+        let text = steps::without(&text::Source::now(&open.state), program, &gone)?;
         let change = recording::retext(open, &beside, text, format!("delete {step}"))?;
         Ok(*self.with_reach(id, change))
     }
@@ -119,12 +212,12 @@ impl Session {
         id: DocumentId,
         (program, step): (&str, &str),
     ) -> Result<Change, Refusal> {
-        let source = &self.document(id).state.text;
-        let found = super::text::step_at(source, program, step).and_then(|found| found.value);
+        let source = &text::Source::now(&self.document(id).state);
+        let found = text::step_at(source, program, step).and_then(|found| found.value);
         let Some(syntax::ast::Value::Expr(_)) = found else {
             return Err(words::refuse(format!("{step} is no step that makes a curve")));
         };
-        let (_, span) = super::text::step(source, program, step).unwrap_or_default();
+        let (_, span) = text::step(source, program, step).unwrap_or_default();
         let formula = source[span.start as usize..span.end as usize].trim().to_string();
         let turned = match formula.strip_prefix("-(").and_then(|rest| rest.strip_suffix(')')) {
             Some(inner) => inner.to_string(),

@@ -6,6 +6,7 @@ use crate::document::Open;
 use crate::drafting::retext;
 use crate::session::{Session, parse_path};
 use crate::state::State;
+use crate::tools::{Tool, room};
 use crate::view::{
     Change, DocumentId, FamilyAxis, FamilyGrid, FamilyMap, FamilyRow, Refusal, RowUse,
 };
@@ -308,6 +309,7 @@ impl Session {
                     };
                     values.push((path.then(Step::Part(column.name.as_str().into())), value));
                 }
+                crate::drafting::keep_own(self.document_mut(id), thing);
                 Ok((self.apply(id, &Command::Set(values))?, thing.clone()))
             }
             RowUse::Place => {
@@ -322,8 +324,11 @@ impl Session {
                     format!("{name} = {text}")
                 };
                 let values: Vec<String> = row.written.iter().map(value).collect();
-                let members = format!("{name}: {class} {{\n    {}\n}}", values.join("\n    "));
-                let edit = Command::Edit { target: Path::default(), members };
+                let class = class.to_string();
+                let (open, beside) = self.beside_others(id);
+                let new = (class.as_str(), name.clone(), &values[..]);
+                let tool = Tool::with_values(open, &beside, new)?;
+                let edit = room::in_room(open, tool, &beside)?;
                 Ok((self.apply(id, &edit)?, name))
             }
         }

@@ -20,7 +20,14 @@ const TRIES: (usize, usize) = (6, 40);
 /// # Errors
 /// There is no such class, or it has no place.
 pub(crate) fn insertion(open: &Open, host: &dyn Host, class: &str) -> Result<Command, Refusal> {
-    let mut tool = Tool::new(open, host, class)?;
+    in_room(open, Tool::new(open, host, class)?, host)
+}
+
+/// Returns the command that inserts what a tool makes where nothing lies yet.
+///
+/// # Errors
+/// It cannot be there.
+pub(crate) fn in_room(open: &Open, mut tool: Tool, host: &dyn Host) -> Result<Command, Refusal> {
     let elements = &tool.picture.drawing.elements;
     let there: Vec<Bounds> =
         elements.iter().filter_map(|element| around(std::slice::from_ref(element))).collect();

@@ -80,6 +80,11 @@ pub(crate) fn stages(trial: &State, name: &str) -> Vec<Stage> {
     if document.is_place(class) {
         return vec![Stage::Place { part: Path::default(), place: Path::default() }];
     }
+    if document.program(class).is_some() {
+        // in the frame of what a program draws nothing is set by hand: it is placed as a whole
+        let place = Path(vec![Step::Part(Name::new("at"))]);
+        return vec![Stage::Place { part: place.clone(), place }];
+    }
     let attachers = joining::attachers(document, class);
     let by_places = attachers.iter().all(|part| place(part).as_ref() == Some(part));
     let own: Vec<Path> = structure

@@ -2,14 +2,24 @@
 
 use crate::state::State;
 use crate::view::Grip;
-use eval::{Answer, Evaluator, Standing};
+use base::Name;
+use eval::{Answer, Context, Evaluator, Standing};
 use kernel::{Document, ThingId};
 use std::fmt::Write;
+use std::rc::Rc;
 
 /// So many places of what one program draws can be gripped.
 const MOST: usize = 200;
 /// What lies at the end of a longer path is not looked into.
 const LONGEST_PATH: usize = 1000;
+
+/// Returns what the program of a thing drew, where it is shown: moved and turned, if the thing is placed.
+pub(crate) fn shown<'a>(evaluator: &Evaluator<'a>, thing: ThingId) -> Option<Rc<Context<'a>>> {
+    match evaluator.ask(thing, &Name::new(lang::PLACED)) {
+        Ok(Answer::Context(placed)) => Some(placed),
+        Ok(_) | Err(_) => evaluator.run(thing).ok()?,
+    }
+}
 
 /// Goes through what was drawn, from `path` on: what a step made, turn by turn, and the parts of that. `visit` is told
 /// what is there, what for, and the path to it, and answers whether to go into it.
@@ -65,7 +75,7 @@ pub(crate) fn entities<'a>(
     const MOST: usize = 5000;
     let document = &state.lowered.document;
     let mut found = Vec::new();
-    let Ok(Some(run)) = evaluator.run(thing) else { return found };
+    let Some(run) = shown(evaluator, thing) else { return found };
     let mut path = state.structure.path(document, thing).to_string();
     let drawn = (&Answer::Context(run), Standing::Result);
     walk(document, drawn, &mut path, &mut |answer, standing, path| {
@@ -99,7 +109,7 @@ pub(crate) fn grips(state: &State, evaluator: &Evaluator<'_>) -> Vec<Grip> {
         if document.program(structure.things[thing].class).is_none() || is_held(state, thing) {
             continue;
         }
-        let Ok(Some(run)) = evaluator.run(thing) else { continue };
+        let Some(run) = shown(evaluator, thing) else { continue };
         let most = grips.len() + MOST;
         let mut path = structure.path(document, thing).to_string();
         let drawn = (&Answer::Context(run), Standing::Result);

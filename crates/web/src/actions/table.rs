@@ -4,7 +4,7 @@ use super::{Action, Context, Group};
 use crate::dialog::Wish;
 use crate::dock::Tab;
 use crate::keyboard::focus;
-use crate::lab::{Drawer, Lab, Zoom};
+use crate::lab::{Drawer, Lab, Notice, Zoom};
 use crate::{js, route, structure, words};
 use leptos::prelude::*;
 use session::view::{RowKind, StructureRow};
@@ -136,6 +136,24 @@ pub const ACTIONS: &[Action] = &[
         keys: &["Shift+R"],
         enabled: |lab| several(lab).map(drop),
         run: Lab::recognise,
+    },
+    Action {
+        id: "hold-place",
+        group: Group::Edit,
+        contexts: &[Context::Thing],
+        label: words::HOLD_PLACE,
+        keys: &[],
+        enabled: |lab| instance(lab).map(drop),
+        run: Lab::hold_in_place,
+    },
+    Action {
+        id: "unlink",
+        group: Group::Edit,
+        contexts: &[Context::Thing],
+        label: words::UNLINK,
+        keys: &[],
+        enabled: |lab| drawn(lab).map(drop),
+        run: Lab::unlink,
     },
     Action {
         id: "class-of",
@@ -568,6 +586,18 @@ pub const ACTIONS: &[Action] = &[
         },
     },
     Action {
+        id: "go-draw",
+        group: Group::Go,
+        contexts: &[],
+        label: words::GO_DRAW,
+        keys: &["Alt+7"],
+        enabled: |lab| document(lab).map(drop),
+        run: |lab| {
+            lab.drawer.set(Drawer::Draw);
+            request_animation_frame(|| focus("input[name='program'], input[name='parameter']"));
+        },
+    },
+    Action {
         id: "go-values",
         group: Group::Go,
         contexts: &[],
@@ -749,6 +779,45 @@ fn several(lab: Lab) -> Result<Vec<String>, &'static str> {
     document(lab)?;
     let selection = lab.selection();
     if selection.is_empty() { Err(words::NOTHING_SELECTED) } else { Ok(selection) }
+}
+
+/// The thing that a program draws which is selected, or of which something is.
+fn drawn(lab: Lab) -> Result<String, &'static str> {
+    document(lab)?;
+    let path = lab.selected.get().ok_or(words::NOTHING_SELECTED)?;
+    lab.ask_of_shown(|session, id| session.instance_of(id, &path)).flatten().ok_or(words::NOT_DRAWN)
+}
+
+/// The placed thing of a program which is selected, or of which something is; and whether it is held in its place.
+fn instance(lab: Lab) -> Result<(String, bool), &'static str> {
+    let thing = drawn(lab)?;
+    let held = lab.ask_of_shown(|session, id| session.is_held_in_place(id, &thing)).flatten();
+    held.map(|held| (thing, held)).ok_or(words::NOT_PLACED)
+}
+
+impl Lab {
+    /// Holds the selected thing of a program in its place, so that drags fit the program, or lets it go.
+    fn hold_in_place(self) {
+        let Ok((thing, held)) = untrack(|| instance(self)) else { return };
+        if self.settle(self.tell(|session, id| session.hold_in_place(id, &thing, !held))) {
+            let said = if held { words::let_go(&thing) } else { words::held_in_place(&thing) };
+            self.notice.set(Some(Notice::Said(said)));
+        }
+    }
+
+    /// Makes plain figures of what a program drew.
+    fn unlink(self) {
+        let Ok(thing) = untrack(|| drawn(self)) else { return };
+        match self.tell(|session, id| session.unlink(id, &thing)) {
+            Some(Ok((change, names))) => {
+                self.settle(Some(Ok(change)));
+                self.select(names.first().cloned());
+                self.notice.set(Some(Notice::Said(words::unlinked(&thing, &names))));
+            }
+            Some(Err(refusal)) => self.notice.set(Some(Notice::Refused(refusal))),
+            None => {}
+        }
+    }
 }
 
 /// Whether a row is that of a thing of the document itself.

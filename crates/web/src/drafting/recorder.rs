@@ -1,5 +1,6 @@
 //! Begins and ends recording, defines parameters, and demonstrates blocks.
 
+use crate::keyboard::focus;
 use crate::lab::Lab;
 use crate::words;
 use leptos::prelude::*;
@@ -20,6 +21,7 @@ pub fn Recorder(
     let begin = move |e: leptos::ev::SubmitEvent| {
         e.prevent_default();
         lab.record(&name.get_untracked());
+        request_animation_frame(|| focus("input[name='parameter']"));
     };
     let open =
         Memo::new(move |_| steps.with(|s| s.as_ref().map(|s| s.open.clone())).unwrap_or_default());
@@ -99,6 +101,8 @@ fn Define(lab: Lab) -> impl IntoView {
         let parameter = new.get_untracked();
         if lab.settle(lab.tell(|session, id| session.define_parameter(id, &parameter))) {
             new.set(NewParameter::default());
+            // the keyboard goes on with the next one
+            request_animation_frame(|| focus("input[name='parameter']"));
         }
     };
     view! {

@@ -3,7 +3,7 @@
 use crate::lab::Lab;
 use crate::words;
 use leptos::prelude::*;
-use session::drafting::view::{Go, ParameterRow, StepRow, StepsView};
+use session::drafting::view::{Go, ParameterRow, StepOperand, StepRow, StepsView};
 
 /// The parameters with their values, and the steps in words.
 #[component]
@@ -16,7 +16,8 @@ pub fn Steps(
     let view = move || steps.get().unwrap_or_default();
     let parameters = move || {
         let example = view().example;
-        let one = |row| view! { <Parameter lab=lab example=example.clone() row=row /> };
+        let is_visited = view().at.is_some();
+        let one = |row| view! { <Parameter lab=lab example=example.clone() row=row is_visited=is_visited /> };
         view().parameters.into_iter().map(one).collect_view()
     };
     let rows = move || {
@@ -56,18 +57,35 @@ pub fn Steps(
             </div>
         </Show>
         {visit}
+        <Show when=move || steps.with(|s| s.as_ref().is_some_and(|s| s.by_others))>
+            <p class="line" role="status">{words::BY_OTHERS}
+                <button data-visit="own" on:click=move |_| lab.own_values()>{words::OWN_VALUES}</button>
+            </p>
+        </Show>
         <ol class="steps">{rows}</ol>
     }
 }
 
-/// A parameter: its name goes where a value is wanted, its value is typed.
+/// A parameter: its name goes where a value is wanted, its value is typed. While the program is visited that is a value
+/// of the visit.
 #[component]
-fn Parameter(lab: Lab, example: String, row: ParameterRow) -> impl IntoView {
+fn Parameter(lab: Lab, example: String, row: ParameterRow, is_visited: bool) -> impl IntoView {
     let name = StoredValue::new(row.name.clone());
     let path = StoredValue::new(format!("{example}.{}", row.name));
     let wrong = RwSignal::new(None::<String>);
     let typed = move |e: leptos::ev::Event| {
-        match lab.set_typed(&path.get_value(), &event_target_value(&e)) {
+        let typed = event_target_value(&e);
+        let outcome = match is_visited {
+            false => lab.set_typed(&path.get_value(), &typed),
+            true => match lab.tell(|s, id| s.visit_by(id, &[(name.get_value(), typed)])) {
+                Some(Err(refusal)) => Err(refusal),
+                done => {
+                    lab.settle(done);
+                    Ok(())
+                }
+            },
+        };
+        match outcome {
             Ok(()) => wrong.set(None),
             Err(refusal) => wrong.set(Some(crate::field::reason(&refusal))),
         }
@@ -132,6 +150,9 @@ fn Row(lab: Lab, steps: StepsView, row: StepRow) -> impl IntoView {
                 <button class="bare" data-step-replace="" title=words::REPLACE_STEP aria-label=words::REPLACE_STEP on:click=replace>"✎"</button>
             })}
             <button class="bare" data-step-delete="" title=words::DELETE_STEP aria-label=words::DELETE_STEP on:click=ask>"×"</button>
+            {move || is_lit.get().then(|| own.with_value(|(steps, row)| view! {
+                <Operands lab=lab steps=steps.clone() step=row.path.clone() />
+            }))}
             {move || asks.get().map(|along| view! {
                 <p class="along" role="alertdialog">
                     {words::deleted_along(&along)}
@@ -141,4 +162,30 @@ fn Row(lab: Lab, steps: StepsView, row: StepRow) -> impl IntoView {
             })}
         </li>
     }
+}
+
+/// What a step says that can be changed by itself.
+#[component]
+fn Operands(lab: Lab, steps: StepsView, step: String) -> impl IntoView {
+    let own = StoredValue::new((steps, step));
+    let operands = Memo::new(move |_| {
+        lab.values.track();
+        let ask = |(steps, step): &(StepsView, String)| {
+            lab.ask_of_shown(|s, id| s.step_operands(id, &steps.example, step))
+        };
+        own.with_value(ask).unwrap_or_default()
+    });
+    let one = move |operand: StepOperand| {
+        let slot = operand.slot.clone();
+        let change = move |_| {
+            own.with_value(|(steps, step)| lab.change_operand(steps, (step, &slot)));
+        };
+        view! {
+            <button class="bare" data-step-operand=operand.slot.clone() title=words::CHANGE_OPERAND on:click=change>
+                {operand.slot.clone()}" "<code>{operand.says.clone()}</code>
+                {operand.value.filter(|value| *value != operand.says).map(|value| view! { <span class="quiet">" = "{value}</span> })}
+            </button>
+        }
+    };
+    view! { <div class="operands">{move || operands.get().into_iter().map(one).collect_view()}</div> }
 }

@@ -3,7 +3,7 @@
 use super::Maker;
 use crate::state::State;
 use crate::view::RowKind;
-use crate::views::values;
+use crate::views::{drawn, values};
 use eval::{Answer, Context, Standing};
 use kernel::{ClassId, Message, OriginId, ThingId};
 
@@ -27,7 +27,7 @@ impl<'m> Maker<'m> {
     pub(super) fn add_drawn(&mut self, thing: ThingId, depth: u32) {
         let state = self.state;
         let evaluator = state.evaluator(self.values);
-        let Ok(Some(run)) = evaluator.run(thing) else { return };
+        let Some(run) = drawn::shown(&evaluator, thing) else { return };
         let path = state.structure.path(&state.lowered.document, thing).to_string();
         let most = self.work.rows.len() + MOST_ROWS;
         self.steps(&run, &path, depth, most);

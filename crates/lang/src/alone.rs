@@ -1,0 +1,147 @@
+//! Expressions alone: read as if each stood in a class as the answer of a message, without lowering the text anew.
+//!
+//! In: what a text meant, a class, expressions. Out: their terms, over a document that has whatever classes these
+//! made besides. A hand that hovers asks so many times a second.
+
+use crate::kinds::Kind;
+use crate::lower::{ByName, Lowered, Lowerer, OWN};
+use crate::scope::Scope;
+use crate::visible::Visible;
+use base::{Diagnostic, FileId, Name, Severity};
+use kernel::{ClassId, Document, Path, Term};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// What the names of a text mean, once it is lowered.
+#[derive(Clone, Debug)]
+pub(crate) struct Names {
+    pub(crate) visible: Visible,
+    pub(crate) object: ClassId,
+    pub(crate) messages: ByName<usize>,
+    pub(crate) message_kinds: BTreeMap<(ClassId, Name), Option<Kind>>,
+    pub(crate) primary_names: BTreeSet<Name>,
+    pub(crate) constants: BTreeSet<(ClassId, Name)>,
+    pub(crate) broken: BTreeSet<(ClassId, Name)>,
+    pub(crate) file_things: BTreeMap<FileId, Path>,
+    pub(crate) choices: Vec<ClassId>,
+    pub(crate) made: BTreeMap<(&'static str, ClassId), ClassId>,
+    pub(crate) counted: BTreeMap<(ClassId, u32), ClassId>,
+}
+
+/// Expressions that were read alone.
+#[derive(Debug)]
+pub struct Alone {
+    /// The document of the text, with what the expressions made besides.
+    pub document: Document,
+    /// What each says; or what is wrong with it, with places in the expression's own text.
+    pub terms: Vec<Result<Term, Vec<Diagnostic>>>,
+}
+
+/// Reads expressions as if each were the answer of a message of a class that the document's own text declares, or of
+/// the document. Cost: a copy of the document and of its names; the text is not looked at.
+pub fn read_alone(lowered: &Lowered, class: ClassId, texts: &[String]) -> Alone {
+    let load = |_: &str| None;
+    let mut l = Lowerer::empty(&load, None);
+    let names = Names::clone(&lowered.names);
+    l.document = lowered.document.clone();
+    l.parts = lowered.parts.clone();
+    l.files = lowered.files.clone();
+    l.visible = names.visible;
+    l.object = names.object;
+    l.messages = names.messages;
+    l.message_kinds = names.message_kinds;
+    l.primary_names = names.primary_names;
+    l.constants = names.constants;
+    l.broken = names.broken;
+    l.file_things = names.file_things;
+    l.choices = names.choices;
+    l.made = names.made;
+    l.counted = names.counted;
+    let terms = texts.iter().map(|text| l.read_alone(class, text)).collect();
+    Alone { document: l.document, terms }
+}
+
+impl Lowerer<'_> {
+    fn read_alone(&mut self, class: ClassId, text: &str) -> Result<Term, Vec<Diagnostic>> {
+        let parse = syntax::parse_expression(OWN, text);
+        let is_error = |d: &&Diagnostic| d.severity == Severity::Error;
+        let wrong: Vec<_> = parse.diagnostics().iter().filter(is_error).cloned().collect();
+        let answer = parse.file().expression().filter(|_| wrong.is_empty()).ok_or(wrong)?;
+        let term = self.expr(&Scope::of(OWN, class), &answer);
+        self.said.clear();
+        let wrong = std::mem::take(&mut self.diagnostics);
+        term.map(|(term, _)| term).ok_or(wrong)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::read_alone;
+    use crate::lower::{OWN, lower};
+
+    const TEXT: &str = "class Spot { x: Real = 1  y: Real = 2  sum => x + y
+    place: Spot => Spot(x: y, y: x) }
+program Row(count: Integer in 1..9 = 3, from: Spot = (0, 0)) {
+    first = Spot(x: 4, y: from.y)
+    turns = repeat count times with at = first {
+        spot = at.place
+        next at = -1 * spot.x
+    }
+    if count > 2 { more = 3 } else { more = 4 }
+}
+choice Side { left, right }
+side: Side = right
+constant deep = 7
+row: Row
+spots: List of 3 Spot
+";
+
+    #[test]
+    fn an_expression_alone_is_what_a_message_of_it_says() {
+        let of_row =
+            ["first.sum", "turns.last.spot", "more * count", "turns.count", "Spot(x: 3, y: more)"];
+        let of_document = [
+            "row.first",
+            "side",
+            "deep + 2",
+            "spots.map(s => s.sum)",
+            "[spots[0], row.from]",
+            "(1, 2)",
+        ];
+        let load = |_: &str| None;
+        let lowered = lower(TEXT, &load, None);
+        for (name, written, inside) in [("Row", &of_row[..], true), ("", &of_document[..], false)] {
+            for text in written {
+                let class = match inside {
+                    true => lowered.document.class_named(name).expect("it is declared"),
+                    false => lowered.document.root,
+                };
+                let line = format!("alone => {text}\n");
+                let edited = match inside {
+                    true => TEXT.replace("    if count", &format!("    {line}    if count")),
+                    false => format!("{TEXT}{line}"),
+                };
+                let anew = lower(&edited, &load, None);
+                let message = anew.document.classes[class].messages.iter();
+                let message = message.clone().find(|m| *m.name == *"alone");
+                let alone = read_alone(&lowered, class, &[(*text).into()]);
+                let term = alone.terms[0].as_ref().ok();
+                assert_eq!(term, message.map(|m| &m.answer), "{text}: {:?}", alone.terms);
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_wrong_with_an_expression_alone_is_said_of_it() {
+        let lowered = lower(TEXT, &|_| None, None);
+        let root = lowered.document.root;
+        let texts = ["row.frist", "1 +", "deep + 1", "row.first.sum + side"].map(String::from);
+        let alone = read_alone(&lowered, root, &texts);
+        let said: Vec<_> = { alone.terms.iter() }
+            .map(|term| {
+                term.as_ref().err().and_then(|d| Some((d.first()?.code, d.first()?.place.file)))
+            })
+            .collect();
+        assert_eq!(said[0], Some(("unknown-part", OWN)));
+        assert!(said[1].is_some() && said[2].is_none() && said[3].is_some(), "{said:?}");
+    }
+}

@@ -1,0 +1,227 @@
+//! What a step says, changed one by one: an operand of a construction, what a loop begins with, carries on and ends by,
+//! a condition. Another object is picked or typed for it; the step keeps its name, and what speaks of it.
+
+use super::operands::{self, Occurrence};
+use super::scene::{self, Curve};
+use super::view::{Prompt, StepOperand, Wants};
+use super::{Around, Home, blocks, outcome, recording, text, visit};
+use crate::document::Open;
+use crate::host::Host;
+use crate::state::State;
+use crate::view::{Change, Pointer, Refusal};
+use crate::views::values;
+use crate::words;
+use base::Name;
+use eval::Answer;
+use kernel::{Path, Step};
+use syntax::ast::Value;
+
+/// A part of what a step says that is about to be changed.
+#[derive(Clone, PartialEq, Debug)]
+pub(crate) struct Changing {
+    /// The step, by its address.
+    step: String,
+    /// What of it.
+    slot: String,
+    /// What it is now.
+    says: String,
+    /// Whether it is a number or a yes or no.
+    is_value: bool,
+}
+
+impl Changing {
+    /// What is waited for.
+    pub(crate) fn prompt(&self) -> Prompt {
+        let Self { step, slot, says, is_value } = self;
+        let how =
+            if *is_value { "type another value, or measure one" } else { "pick another object" };
+        Prompt {
+            label: format!("{slot} of {step}"),
+            words: format!("is {says}: {how}"),
+            is_value: *is_value,
+            takes_sets: !is_value,
+            wants: Wants::Change(says.clone()),
+            ..Prompt::default()
+        }
+    }
+}
+
+/// Where what a step says is read: before it, or at the end of a turn of it.
+fn home_of(
+    source: &text::Source,
+    (program, example): (&Name, &Name),
+    address: &str,
+    is_within: bool,
+) -> Option<Home> {
+    let outer = visit::home_of(source, (program, example), address, &[])?;
+    let Home::Program { mut way, before, .. } = outer.clone() else { return None };
+    if !is_within {
+        return Some(outer);
+    }
+    let name = text::step_at(source, program, address)?.name.as_deref().map(Name::new);
+    way.push(Around { address: before?, name, turn: Some(0) });
+    Some(Home::Program { program: program.clone(), example: example.clone(), way, before: None })
+}
+
+/// Finds a part of what a step says.
+fn find(
+    source: &text::Source,
+    program: &str,
+    (address, slot): (&str, &str),
+) -> Option<(Occurrence, bool)> {
+    let step = text::step_at(source, program, address)?;
+    operands::of_step(&step).into_iter().find(|(found, _)| found.slot == slot)
+}
+
+/// Lists what a step of a thing's program says that can be changed; of numbers with the place where they are shown.
+pub(crate) fn list(
+    state: &State,
+    (program, example): (&Name, &Name),
+    address: &str,
+) -> Vec<StepOperand> {
+    let Some(step) = text::step_at(&text::Source::now(state), program, address) else {
+        return Vec::new();
+    };
+    let curve = curve_of(state, example, address);
+    let one = |(found, is_within): (Occurrence, bool)| {
+        let home = home_of(&text::Source::now(state), (program, example), address, is_within);
+        let value = home.and_then(|home| in_words(state, &home, &found.first));
+        let is_number = value.is_some() && matches!(step.value, Some(Value::Expr(_)));
+        let curve = curve.filter(|_| is_number);
+        let along = curve.and_then(|curve| curve.reach_of_number(&found.slot));
+        let at = match along {
+            Some([a, b]) => Some(((a.0 + b.0) / 2.0, (a.1 + b.1) / 2.0)),
+            None => curve.map(|curve| curve.place_of_number(&found.slot)),
+        };
+        StepOperand { slot: found.slot, says: found.first, value, at, along }
+    };
+    operands::of_step(&step).into_iter().map(one).collect()
+}
+
+/// What an expression comes to, if it is a number or a yes or no.
+fn in_words(state: &State, home: &Home, says: &str) -> Option<String> {
+    let mut found = None;
+    outcome::try_all(state, home, &[says.to_string()], &mut |_, evaluator, answer| {
+        found = match answer {
+            Ok(Answer::Bool(truth)) => Some(truth.to_string()),
+            Ok(answer @ (Answer::Number(..) | Answer::Option(..))) => {
+                values::in_words(evaluator.document, &answer)
+            }
+            Ok(_) | Err(_) => None,
+        };
+    });
+    found
+}
+
+/// Where a step's figure lies in the example, in the first turn of the loops around it.
+fn curve_of(state: &State, example: &Name, address: &str) -> Option<Curve> {
+    let evaluator = state.evaluator(&state.values);
+    let is_name = |s: &&str| !s.starts_with('#') && !matches!(*s, "then" | "else");
+    let mut path = Path::of(&[example]);
+    for name in address.split('.').filter(is_name) {
+        if matches!(evaluator.at(&path), Ok(Answer::List(_))) {
+            path = path.then(Step::Index(0));
+        }
+        path = path.then(Step::Part(name.into()));
+    }
+    Curve::of(&evaluator, &evaluator.at(&path).ok()?)
+}
+
+/// Begins to change a part of what a step says.
+///
+/// # Errors
+/// Nothing is recorded, a block is demonstrated; the step says nothing of that name.
+pub(crate) fn begin(open: &mut Open, (address, slot): (&str, &str)) -> Result<(), Refusal> {
+    let recording = blocks::recorded(open)?;
+    if recording.blocks.iter().any(|block| block.kind != blocks::Kind::Visited) {
+        return Err(words::refuse("a block is demonstrated: end it, or undo it, first".into()));
+    }
+    let (program, example) = (recording.program.clone(), recording.example.clone());
+    let state = open.state.clone();
+    let none = || words::refuse(format!("{address} says nothing called {slot}"));
+    let (found, is_within) =
+        find(&text::Source::now(&state), &program, (address, slot)).ok_or_else(none)?;
+    let home = home_of(&text::Source::now(&state), (&program, &example), address, is_within)
+        .ok_or_else(none)?;
+    let is_value = in_words(&state, &home, &found.first).is_some();
+    open.dialogue = None;
+    if let Some(recording) = &mut open.recording {
+        recording.removing = None;
+        let (step, slot) = (address.to_string(), slot.to_string());
+        recording.changing = Some(Changing { step, slot, says: found.first, is_value });
+    }
+    Ok(())
+}
+
+/// Where the step that is changed reads its names.
+pub(crate) fn home(open: &Open) -> Option<Home> {
+    let recording = open.recording.as_ref()?;
+    let Changing { step, slot, .. } = recording.changing.as_ref()?;
+    let source = text::Source::now(&open.state);
+    let (_, is_within) = find(&source, &recording.program, (step, slot))?;
+    home_of(&source, (&recording.program, &recording.example), step, is_within)
+}
+
+/// Gives what is changed another object or value: as it is typed, or as a pointer finds it.
+///
+/// # Errors
+/// Nothing is changed; nothing that can be meant lies there; the step has no outcome with it.
+pub(crate) fn give(
+    open: &mut Open,
+    host: &dyn Host,
+    (typed, picked): (&str, Option<(&Pointer, usize)>),
+) -> Result<Change, Refusal> {
+    let recording = blocks::recorded(open)?;
+    let program = recording.program.clone();
+    let none = || words::refuse("nothing is changed".into());
+    let Changing { step, slot, .. } = recording.changing.clone().ok_or_else(none)?;
+    let typed = match picked {
+        None => typed.trim().to_string(),
+        Some((pointer, level)) => {
+            let all = scene::scene(&open.state, &home(open).ok_or_else(none)?);
+            let nothing = || words::refuse(format!("nothing that {step} can speak of lies here"));
+            let found = scene::nearest(all.iter(), pointer).ok_or_else(nothing)?;
+            found.at_level(level)
+        }
+    };
+    let change = set(open, host, (&program, &step, &slot), &typed)?;
+    if let Some(recording) = &mut open.recording {
+        recording.changing = None;
+    }
+    Ok(change)
+}
+
+/// Lets a step say something else in one place, as one step.
+///
+/// # Errors
+/// The step says nothing of that name; what is typed means nothing there; the program is not drawn to its end with it,
+/// though it was.
+pub(crate) fn set(
+    open: &mut Open,
+    host: &dyn Host,
+    (program, address, slot): (&Name, &str, &str),
+    typed: &str,
+) -> Result<Change, Refusal> {
+    let typed = typed.trim();
+    if typed.is_empty() {
+        return Err(words::refuse(format!("what {slot} of {address} shall be is wanted")));
+    }
+    let none = || words::refuse(format!("{address} says nothing called {slot}"));
+    let source = text::Source::now(&open.state);
+    let (found, _) = find(&source, program, (address, slot)).ok_or_else(none)?;
+    let (start, end) = (found.span.start as usize, found.span.end as usize);
+    let edited = format!("{}{typed}{}", &source[..start], &source[end..]);
+    let ended = |state: &State| {
+        let said = state.diagnostics.iter().filter(|d| d.code == "run-ended");
+        said.map(|d| d.message.clone()).collect::<Vec<_>>()
+    };
+    let before = ended(&open.state);
+    let change = recording::retext(open, host, edited, format!("{slot} of {address}"))?;
+    let after = ended(&open.state);
+    if let Some(why) = after.into_iter().find(|_| before.is_empty()) {
+        open.travel(crate::document::Direction::Back);
+        open.undone.pop();
+        return Err(words::refuse(why));
+    }
+    Ok(change)
+}

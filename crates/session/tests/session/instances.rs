@@ -1,0 +1,228 @@
+//! Things of programs: placed where there is room, held in their place, unlinked; and what their steps say, changed.
+
+use crate::desk::Desk;
+use session::drafting::view::{Go, StepOperand, Turn, Wants};
+use session::view::{Pointer, RowUse};
+
+const WASHER: &str = "\
+use geometry
+
+program Washer(inner: Length = 4, outer: Length = 10) {
+    hole = Circle(center: Point(0, 0), radius: inner / 2)
+    rim = Circle.concentric(with: hole, radius: outer / 2)
+}
+
+family Sold of Washer {
+    rows: (\"M5\", 5, 10)  (\"M8\", 8, 16)
+}
+
+washer: Washer
+";
+
+fn number(desk: &Desk, path: &str) -> f64 {
+    let rows = desk.session.values(desk.id);
+    let row = rows.iter().find(|row| row.path == path);
+    let number = row.and_then(|row| row.number);
+    number.unwrap_or_else(|| panic!("{path} has a number: {:?}", row))
+}
+
+/// Where circles lie on the sheet, by their paths: centre and radius.
+fn circle(desk: &Desk, path: &str) -> [f64; 3] {
+    ["center.x", "center.y", "radius"].map(|part| number(desk, &format!("{path}.{part}")))
+}
+
+#[test]
+fn rows_are_placed_beside_one_another() {
+    let mut desk = Desk::of(WASHER);
+    let grid = desk.session.family_grid(desk.id, "Sold", None).expect("there is one");
+    let mut things = Vec::new();
+    for row in &grid.rows {
+        let used = desk.session.use_family_row(desk.id, ("Sold", row), &RowUse::Place);
+        things.push(used.expect("there is room").1);
+    }
+    assert_eq!(things, ["m5", "m8"]);
+    assert!(desk.text().contains("m8: Placed of Washer {"), "{}", desk.text());
+    let of = ["washer", "m5", "m8"].map(|thing| circle(&desk, &format!("{thing}.rim")));
+    assert_eq!(of.map(|[_, _, radius]| radius), [5.0, 5.0, 8.0]);
+    for (i, a) in of.iter().enumerate() {
+        for b in &of[..i] {
+            let apart = ((a[0] - b[0]).powi(2) + (a[1] - b[1]).powi(2)).sqrt();
+            assert!(apart > a[2] + b[2], "{of:?}");
+        }
+    }
+    // the tile of the bin does the same, and one undo takes it back
+    let before = desk.text();
+    let insert = desk.session.insertion(desk.id, "Washer").expect("there is room");
+    desk.apply(&insert).expect("it is a part");
+    assert!(desk.text().contains("washer2: Placed of Washer"), "{}", desk.text());
+    desk.undo();
+    assert_eq!(desk.text(), before);
+}
+
+#[test]
+fn a_program_asks_for_its_values_and_its_place() {
+    let mut desk = Desk::of(WASHER);
+    let prompt = desk.session.begin(desk.id, "Washer").expect("it is in scope");
+    let slots: Vec<&str> = prompt.operands.iter().map(|(name, _)| name.as_str()).collect();
+    assert_eq!(slots, ["inner", "outer", "at"]);
+    for typed in ["6", "12", "100,50"] {
+        desk.session.enter(desk.id, typed).expect("it fits");
+    }
+    assert_eq!(circle(&desk, "washer2.rim"), [100.0, 50.0, 6.0]);
+    assert!(desk.text().contains("washer2: Placed of Washer {"), "{}", desk.text());
+}
+
+#[test]
+fn what_is_placed_is_dragged_and_held_in_its_place_it_is_fitted() {
+    let mut desk = Desk::of(
+        &WASHER.replace("washer: Washer\n", "washer: Placed of Washer { at = (20, 0) }\n"),
+    );
+    desk.drag("washer.rim.center", &[(30.0, 5.0)]);
+    assert_eq!(circle(&desk, "washer.rim"), [30.0, 5.0, 5.0]);
+    assert_eq!(desk.session.is_held_in_place(desk.id, "washer"), Some(false));
+    desk.session.hold_in_place(desk.id, "washer", true).expect("it is placed");
+    assert_eq!(desk.session.is_held_in_place(desk.id, "washer"), Some(true));
+    desk.drag("washer.rim.radius", &[(7.0, 0.0)]);
+    assert_eq!(circle(&desk, "washer.rim"), [30.0, 5.0, 7.0]);
+    assert_eq!(number(&desk, "washer.outer"), 14.0);
+    let before = desk.text();
+    desk.session.hold_in_place(desk.id, "washer", false).expect("it is placed");
+    desk.undo();
+    assert_eq!(desk.text(), before);
+    let refused = desk.session.hold_in_place(desk.id, "nothing", true).expect_err("it is none");
+    assert_eq!(refused.message, "nothing is no placed thing of a program");
+}
+
+#[test]
+fn what_is_unlinked_is_plain_figures_where_it_was() {
+    let text = WASHER
+        .replace("washer: Washer\n", "washer: Placed of Washer { at = (20, 0)  scale = 2 }\n");
+    let mut desk = Desk::of(&text);
+    let (_, names) = desk.session.unlink(desk.id, "washer").expect("circles are plain");
+    assert_eq!(names, ["washer_hole", "washer_rim"]);
+    assert_eq!(circle(&desk, "washer_rim"), [20.0, 0.0, 10.0]);
+    assert!(!desk.text().contains("Placed"), "{}", desk.text());
+    desk.undo();
+    assert_eq!(desk.text(), text);
+    // what something else speaks of stays
+    let mut desk = Desk::of(&format!("{text}gap: Length => washer.rim.radius\n"));
+    let before = desk.text();
+    let refused = desk.session.unlink(desk.id, "washer").expect_err("gap speaks of it");
+    assert!(refused.message.contains("washer") || !refused.diagnostics.is_empty(), "{refused:?}");
+    assert_eq!(desk.text(), before);
+}
+
+const RINGS: &str = "\
+use geometry
+
+program Rings(radius: Length = 40, minimum: Length = 2) {
+    floor = Axis.horizontal(y: 0)
+    wall = Axis.vertical(x: 0)
+    turns = repeat with under = floor, size = radius {
+        ring = Circle.tangent(under, wall, radius: size)
+        hole = Circle.concentric(with: ring, radius: ring.radius / 2)
+        dot = Circle.concentric(with: ring, radius: 1)
+        next under = -ring, size = ring.radius / 2
+    } until ring.radius < minimum
+    if minimum > 3 {
+        mark = Circle(center: Point(0, 0), radius: minimum)
+    } else {
+        mark = Point(0, 0)
+    }
+}
+
+rings: Rings
+";
+
+fn operand(desk: &Desk, step: &str, slot: &str) -> StepOperand {
+    let all = desk.session.step_operands(desk.id, "rings", step);
+    let found = all.iter().find(|operand| operand.slot == slot).cloned();
+    found.unwrap_or_else(|| panic!("{slot} of {step}: {all:?}"))
+}
+
+#[test]
+fn a_steps_numbers_stand_where_they_belong_and_are_changed() {
+    let mut desk = Desk::of(RINGS);
+    let radius = operand(&desk, "turns.ring", "radius");
+    assert_eq!((radius.says.as_str(), radius.value.as_deref()), ("size", Some("40")));
+    // from the centre of the first ring, (-40, 40), to its rim
+    let [from, to] = radius.along.expect("it is a radius");
+    assert_eq!(from, (-40.0, 40.0));
+    assert!(((to.0 + 40.0).hypot(to.1 - 40.0) - 40.0).abs() < 1e-9);
+    let before = desk.text();
+    desk.session
+        .set_operand(desk.id, ("rings", "turns.hole", "radius"), "ring.radius / 4")
+        .expect("it is a number");
+    assert!(desk.text().contains("with: ring, radius: ring.radius / 4"), "{}", desk.text());
+    desk.undo();
+    assert_eq!(desk.text(), before);
+    for typed in ["", "ring.radius /", "under", "nothing"] {
+        let step = ("rings", "turns.hole", "radius");
+        let refused = desk.session.set_operand(desk.id, step, typed);
+        refused.expect_err("it is no number");
+        assert_eq!(desk.text(), before);
+    }
+    let found = desk.session.step_of(desk.id, "rings.turns[2].hole");
+    assert_eq!(found, Some(("rings".into(), "turns.hole".into())));
+}
+
+#[test]
+fn answers_and_conditions_of_a_loop_are_opened_again() {
+    let mut desk = Desk::of(RINGS);
+    let slots: Vec<String> = { desk.session.step_operands(desk.id, "rings", "turns").into_iter() }
+        .map(|operand| format!("{}: {}", operand.slot, operand.says))
+        .collect();
+    let wanted = [
+        "under: floor",
+        "size: radius",
+        "until: ring.radius < minimum",
+        "next under: -ring",
+        "next size: ring.radius / 2",
+    ];
+    assert_eq!(slots, wanted);
+    assert_eq!(desk.session.comes_to(desk.id, "rings.turns").as_deref(), Some("6 turns"));
+    desk.session.record(desk.id, "Rings").expect("it is recorded again");
+    let prompt = desk.session.begin_change(desk.id, ("turns", "until")).expect("it is one");
+    assert!(prompt.is_some_and(|p| p.is_value && p.wants == Wants::Change("ring.radius < minimum".into())));
+    let refused = desk.session.enter(desk.id, "ring.radius <").expect_err("it is no condition");
+    assert!(!refused.message.is_empty());
+    desk.session.enter(desk.id, "ring.radius < 2 * minimum").expect("it is one");
+    assert_eq!(desk.session.comes_to(desk.id, "rings.turns").as_deref(), Some("5 turns"));
+    // a recurrence answer is picked on the drawing: from the hole of the turn before
+    desk.session.begin_change(desk.id, ("turns", "next size")).expect("it is one");
+    desk.session.enter(desk.id, "hole.radius / 2").expect("it is a number");
+    assert!(desk.text().contains("size = hole.radius / 2"), "{}", desk.text());
+    desk.undo();
+    desk.undo();
+    assert_eq!(desk.text(), RINGS);
+    // an object with which a turn has no outcome is refused, another one taken
+    desk.session.begin_change(desk.id, ("turns.ring", "second")).expect("it is one");
+    let at = |x, y| Pointer { at: (x, y), reach: 2.0, ..Pointer::default() };
+    let refused = desk.session.point(desk.id, &at(30.0, 0.0)).expect_err("both are the floor");
+    assert!(refused.message.contains("the lines are parallel"), "{}", refused.message);
+    assert_eq!(desk.text(), RINGS);
+    desk.session.begin_change(desk.id, ("turns.dot", "with")).expect("it is one");
+    let turn = desk.session.point(desk.id, &at(-60.0, 40.0)).expect("the hole lies there");
+    assert!(matches!(turn, Turn::Made { .. }), "{turn:?}");
+    assert!(desk.text().contains("Circle.concentric(with: hole, radius: 1)"), "{}", desk.text());
+}
+
+#[test]
+fn a_branch_that_is_not_taken_is_visited_by_other_values() {
+    let mut desk = Desk::of(RINGS);
+    desk.session.record(desk.id, "Rings").expect("it is recorded again");
+    desk.session.visit(desk.id, &Go::To("#0".into())).expect("it is a step");
+    let typed = [("minimum".to_string(), "5".to_string())];
+    desk.session.visit_by(desk.id, &typed).expect("it is a value");
+    desk.session.visit(desk.id, &Go::In).expect("a block comes next");
+    let steps = desk.session.steps(desk.id, None).expect("it is recorded");
+    assert_eq!(steps.at.as_deref(), Some("#0.then.mark"));
+    assert!(steps.by_others);
+    desk.session
+        .set_operand(desk.id, ("rings", "#0.then.mark", "radius"), "2 * minimum")
+        .expect("it is a number");
+    desk.session.visit_by(desk.id, &[("minimum".into(), "none".into())]).expect_err("it is none");
+    desk.session.stop_recording(desk.id).expect("nothing is open");
+    assert!(desk.text().ends_with("rings: Rings\n"), "{}", desk.text());
+    assert!(desk.text().contains("radius: 2 * minimum"), "{}", desk.text());
+}
