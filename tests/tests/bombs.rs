@@ -330,6 +330,11 @@ fn what_is_long_costs_as_much_as_it_is_long() {
             Holds,
         ),
         (
+            "many different numbers",
+            "xs: List of 150 Integer in 1..150\nconstraint allDifferent(xs)\n".into(),
+            Holds,
+        ),
+        (
             "checks",
             "x: Real = 1\n".to_string()
                 + &lines(500, |i| format!("check \"c{i}\" {{ set x to {i}\n expect x = {i} }}")),

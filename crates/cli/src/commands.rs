@@ -256,14 +256,20 @@ pub(crate) fn run(path: &Path, which: Rows, form: Form) -> Result<Report, OpenEr
     let status = opened.session.status(opened.id);
     let _ = writeln!(words, "{}", status.message);
     let good = status.satisfied && diagnostics.iter().all(|d| d.severity != "error");
-    let json = json!({
-        "path": path,
-        "values": rows,
-        "arbitrary": arbitrary,
-        "status": status,
-        "diagnostics": diagnostics,
-    });
-    Ok(report(form, good, words, &json))
+    // of large documents it would take more room than these themselves
+    let json = || {
+        json!({
+            "path": path,
+            "values": rows,
+            "arbitrary": arbitrary,
+            "status": status,
+            "diagnostics": diagnostics,
+        })
+    };
+    Ok(match form {
+        Form::Words => Report { text: words, aside: String::new(), good },
+        Form::Json => report(form, good, words, &json()),
+    })
 }
 
 /// Marks how a value comes about.

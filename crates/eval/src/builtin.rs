@@ -179,11 +179,11 @@ impl<'a> Evaluator<'a> {
             }
             NumberMessage::Shown => {
                 let (x, _) = self.number(to)?;
-                let class = match arguments.first() {
-                    Some(Answer::Text(class)) => &**class,
+                let text = |at: usize| match arguments.get(at) {
+                    Some(Answer::Text(text)) => &**text,
                     _ => "",
                 };
-                let quantity = Quantity { dimension, class, written: "" };
+                let quantity = Quantity { dimension, class: text(0), written: text(1) };
                 Ok(Answer::text(&kernel::show_quantity(x, quantity, self.document).with_unit()))
             }
             NumberMessage::Sqrt => made(Unary::Sqrt, measure::power(dimension, 0.5)),

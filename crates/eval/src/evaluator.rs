@@ -28,6 +28,8 @@ const MOST_TERMS: u64 = 10_000_000;
 /// How many terms the rule of a constraint may evaluate: one that opens into more than a million is not
 /// solved anyway.
 const MOST_TERMS_OF_RULE: u64 = 2_000_000;
+/// What a text asks of the numbers in it.
+const SHOWN: &str = "shown";
 /// How many elements a range may have.
 const LONGEST_RANGE: f64 = 1_000_000.0;
 
@@ -231,9 +233,12 @@ impl<'a> Evaluator<'a> {
                 let arguments = self.arguments(arguments, frame)?;
                 self.send_to_class(class, name, arguments, frame.nearest)
             }
-            Term::Send { to, name, arguments, search } => {
-                let to = self.term(to, frame)?;
-                let arguments = self.arguments(arguments, frame)?;
+            Term::Send { to: of, name, arguments, search } => {
+                let to = self.term(of, frame)?;
+                let mut arguments = self.arguments(arguments, frame)?;
+                if name == SHOWN && matches!(to, Answer::Number(..)) {
+                    self.say_unit(of, frame, &mut arguments);
+                }
                 self.send(&to, name, arguments, *search, frame.nearest)
             }
             Term::Call { name, arguments } => {

@@ -1,7 +1,7 @@
 //! What written methods and given values put into slots.
 
 use crate::answer::{Answer, Frame};
-use crate::evaluator::{Evaluator, Result};
+use crate::evaluator::{Evaluator, Given, Result};
 use crate::fault::Fault;
 use crate::measure;
 use kernel::{
@@ -146,6 +146,21 @@ impl<'a> Evaluator<'a> {
             }
         }
         with(rule, frame)
+    }
+
+    /// Lets a number that is shown in a text be shown in the unit in which it is given, where it is a part that is.
+    #[inline(never)]
+    pub(crate) fn say_unit(&self, of: &'a Term, frame: &Frame<'a>, arguments: &mut Vec<Given<'a>>) {
+        if !matches!(of, Term::Send { .. } | Term::Index(..)) {
+            return;
+        }
+        let slot = self.target(of, frame).ok().and_then(|part| self.structure.slot_of(part));
+        let given = slot.and_then(|slot| self.structure.given(slot));
+        let Some(unit) = given.and_then(|g| self.document.units.get(&g.origin)) else { return };
+        if arguments.is_empty() {
+            arguments.push((None, Answer::text("")));
+        }
+        arguments.push((None, Answer::text(unit)));
     }
 
     /// Finds the part that a term names, stored and not computed.

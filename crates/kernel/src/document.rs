@@ -7,7 +7,7 @@ use crate::term::{OriginId, Search};
 use base::number::Toward;
 use base::{IdVec, Name};
 use geometry::Made;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 
 /// Which way `y` runs on the sheet.
@@ -37,6 +37,8 @@ pub struct Document {
     /// True if its text writes lengths with their units and names no unit of the sheet: then bare lengths are metres
     /// to people, too.
     pub writes_lengths: bool,
+    /// The units of given numbers as they are written, by where that is; bare numbers have none.
+    pub units: BTreeMap<OriginId, Name>,
 }
 
 /// Which way a place or a number goes from where two branches meet, and its values do not say it.

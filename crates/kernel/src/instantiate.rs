@@ -40,6 +40,8 @@ pub struct Fault {
     pub kind: FaultKind,
     /// What was found and what was wanted.
     pub message: String,
+    /// The class that it is the fault of, where it is that of one.
+    pub class: Option<ClassId>,
 }
 
 /// The kinds of faults of a structure.
@@ -212,6 +214,6 @@ impl<'d> Maker<'d> {
         layout.get_or_insert_with(|| Rc::new(Layout::new(document, class))).clone()
     }
     fn fault(&mut self, origin: OriginId, kind: FaultKind, message: String) {
-        self.faults.push(Fault { origin, kind, message });
+        self.faults.push(Fault { origin, kind, message, class: None });
     }
 }

@@ -1,5 +1,6 @@
 //! Calls: messages, functions of the language, constructors; their arguments checked.
 
+use crate::hints::instead_of_abstract;
 use crate::kinds::{Kind, measured, wanted_in_words, with_article};
 use crate::lower::Lowerer;
 use crate::names::owners;
@@ -492,7 +493,9 @@ impl Lowerer<'_> {
     ) -> Option<(Term, Kind)> {
         if self.document.classes[class].is_abstract {
             let message = format!("{} is abstract: it has no things of its own", word.text());
-            self.error("abstract-part", scope.file, word.span(), message);
+            let place = Place { file: scope.file, span: word.span() };
+            let d = Diagnostic::error("abstract-part", place, message);
+            self.report(d.hint(instead_of_abstract(&self.document, class)));
             return None;
         }
         let names = self.field_names(class);

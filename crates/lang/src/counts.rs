@@ -9,6 +9,7 @@
 mod deciding;
 mod outside;
 
+use crate::hints::{is_a_unit, unit_before_equals};
 use crate::lower::{Lowerer, OWN};
 use crate::scope::Scope;
 use base::{Diagnostic, FileId, Name, Place, Span};
@@ -57,6 +58,9 @@ impl Counts {
         }
     }
 }
+
+/// The code of a value that is to say how many parts there are and cannot.
+const NOT_A_COUNT: &str = "not-a-count";
 
 impl Lowerer<'_> {
     /// Finds out what the classes of all files say of counts; superclasses with a count become those
@@ -442,7 +446,7 @@ impl Lowerer<'_> {
             let (is, says) = (is.join(", "), says.join("  "));
             let span = given.first().map_or_else(Span::default, |(_, value)| value.span());
             let message = format!("a new {what} has {is}, and as many parts as that says");
-            let d = Diagnostic::error("not-a-count", Place { file: scope.file, span }, message);
+            let d = Diagnostic::error(NOT_A_COUNT, Place { file: scope.file, span }, message);
             let hint =
                 format!("declare a class that has others: `class Other is {what} {{ {says} }}`");
             self.report(d.hint(hint));
@@ -493,7 +497,18 @@ impl Lowerer<'_> {
                 )
             }
         };
-        self.error("not-a-count", scope.file, value.span(), message);
+        let d =
+            Diagnostic::error(NOT_A_COUNT, Place { file: scope.file, span: value.span() }, message);
+        self.report(match unit_before_equals(value) {
+            Some(unit) => d.hint(is_a_unit(&unit)),
+            None => d,
+        });
+    }
+
+    /// Returns true for a value of a count of which it was said that it is none.
+    pub(crate) fn is_said_to_be_no_count(&self, scope: &Scope, value: &Expr) -> bool {
+        let place = Place { file: scope.file, span: value.span() };
+        self.said.contains(&(place, NOT_A_COUNT))
     }
 
     /// Returns a count that things of two classes have different numbers for, if there is one.
@@ -555,7 +570,7 @@ impl Lowerer<'_> {
         let given = self.files[scope.file].text.get(value.span().range()).unwrap_or_default();
         let hint =
             self.said_where_declared(&Path(owner.to_vec()), class, &format!("{name} = {given}"));
-        self.report(Diagnostic::error("not-a-count", place, message).hint(hint));
+        self.report(Diagnostic::error(NOT_A_COUNT, place, message).hint(hint));
         true
     }
 }

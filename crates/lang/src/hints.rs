@@ -6,8 +6,8 @@ use crate::members::is_constant;
 use crate::names::LONGEST_WORD;
 use crate::scope::Scope;
 use base::{Diagnostic, Place};
-use kernel::Message;
-use syntax::ast::{self, AstNode, Expr};
+use kernel::{Class, ClassId, Document, Message};
+use syntax::ast::{self, AstNode, BinaryOp, Expr};
 
 /// How many names a hint lists.
 const MOST_LISTED: usize = 12;
@@ -222,6 +222,22 @@ impl Lowerer<'_> {
     }
 }
 
+/// Says which classes there are in the place of one that has no things of its own.
+pub(crate) fn instead_of_abstract(document: &Document, class: ClassId) -> String {
+    let is_below = |&(id, c): &(ClassId, &Class)| {
+        let is_named = !c.is_of_one && !c.name.as_str().is_empty();
+        is_named && !c.is_abstract && document.is_a(id, class)
+    };
+    let below = document.classes.iter().filter(is_below).map(|(_, c)| c.name.as_str());
+    let names: Vec<&str> = below.take(MOST_LISTED + 1).collect();
+    match names.as_slice() {
+        [] => "declare a class that `is` it, and a part of that class".into(),
+        [only] => format!("there is {only}"),
+        all if all.len() > MOST_LISTED => format!("there are {}, …", all[..MOST_LISTED].join(", ")),
+        all => format!("there are {}", all.join(", ")),
+    }
+}
+
 /// Returns what to write for a word that other languages have and this one has not.
 pub(crate) fn called_otherwise(word: &str) -> Option<&'static str> {
     Some(match word {
@@ -252,4 +268,18 @@ fn written(asked: &str, message: &Message) -> String {
         true => format!("{asked}.{}", message.word()),
         false => format!("{asked}.{}({})", message.word(), labels.join(", ")),
     }
+}
+
+/// Returns the unit in `5 h = 6`, which somebody may have meant for the name of the next part.
+pub(crate) fn unit_before_equals(value: &Expr) -> Option<String> {
+    let Expr::Binary(comparison) = value else { return None };
+    match (comparison.op()?, comparison.left()?) {
+        (BinaryOp::Equal, Expr::Number(number)) => Some(number.unit()?.text().to_owned()),
+        _ => None,
+    }
+}
+
+/// Says what to do where a unit was meant for the name of the next part.
+pub(crate) fn is_a_unit(unit: &str) -> String {
+    format!("`{unit}` is a unit here: write `;` before it")
 }

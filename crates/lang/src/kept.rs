@@ -170,6 +170,9 @@ impl<'l> Lowerer<'l> {
                 let moved = |at: u32| (i64::from(at) + run.shift) as u32;
                 let span = Span::new(moved(place.span.start), moved(place.span.end));
                 let origin = self.origin(OWN, span);
+                if let Some(unit) = before.document.units.get(&given.origin) {
+                    self.document.units.insert(origin, unit.clone());
+                }
                 let given = match given.origin == origin {
                     true => given.clone(),
                     false => Rc::new(Given { origin, ..Given::clone(given) }),

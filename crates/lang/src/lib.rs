@@ -21,7 +21,7 @@
 //! `rules`, `switches`, `kept`, `names`, `hints`, `paths`, `refine`, `terms`, `components`, `calls`, `kin`, `kinds`,
 //! `settle`, `restore`,
 //! `alone`, `checks`, `lessons`, `views`,
-//! `numbers`, `mixed`, `write`, `uses`,
+//! `numbers`, `operations`, `mixed`, `write`, `uses`,
 //! `edits`, `references`, `mentions`.
 mod alone;
 mod bindings;
@@ -49,6 +49,7 @@ mod mentions;
 mod mixed;
 mod names;
 mod numbers;
+mod operations;
 mod origins;
 mod paths;
 mod placed;
@@ -76,7 +77,7 @@ pub use edits::{Restructuring, edits_for, for_every, is_count, of_constraint, wr
 pub use families::{Family, Row as FamilyRow};
 pub use files::File;
 pub use lessons::{Goal, Lesson, LessonStep, Task};
-pub use lower::{Lowered, lower, lower_written, mentions};
+pub use lower::{Lowered, lower, lower_asking, lower_written, mentions};
 pub use mentions::{Meant, Mention};
 pub use numbers::{Wanted, read_literal, show_limit};
 pub use origins::Origins;

@@ -9,6 +9,7 @@ use crate::checks::{self, Check};
 use crate::counts::Counts;
 use crate::families::Family;
 use crate::files::File;
+use crate::hints::instead_of_abstract;
 use crate::kept::Added;
 use crate::kin::Kin;
 use crate::kinds::Kind;
@@ -72,7 +73,7 @@ pub struct Lowered {
     pub(crate) patches: Vec<Patch>,
     /// Every part that a class declares, by its name: its index among the class's parts.
     pub(crate) parts: ByName<usize>,
-    /// Where the document's own text declares classes.
+    /// Where the document's own text declares classes, one after the other.
     pub(crate) class_spans: Vec<Span>,
     /// What its names mean, for expressions that are read alone.
     pub(crate) names: Rc<Names>,
@@ -103,6 +104,16 @@ pub fn lower_written(
     before: &Lowered,
 ) -> Lowered {
     lower_in(text, load, (Some(before), Some(counting_of(&before.document))))
+}
+
+/// Finds out what a text means that asks something of the document `before`, which it repeats. It counts as that does;
+/// nothing with an error is read as it was before.
+pub fn lower_asking(
+    text: &str,
+    load: &dyn Fn(&str) -> Option<String>,
+    before: &Lowered,
+) -> Lowered {
+    lower_text(text, load, (Some(before), Some(counting_of(&before.document))))
 }
 
 fn lower_in(
@@ -337,6 +348,7 @@ impl<'l> Lowerer<'l> {
                 scale: Scale::default(),
                 unit: None,
                 writes_lengths: false,
+                units: BTreeMap::new(),
             },
             visible: Visible::default(),
             origins: Origins::default(),
@@ -489,8 +501,13 @@ impl Lowered {
     }
     /// Turns faults of the structure into diagnostics at the members that they come from.
     pub fn fault_diagnostics(&self, faults: &[Fault]) -> Vec<Diagnostic> {
-        let diagnostic =
-            |f: &Fault| Diagnostic::error(f.kind.code(), self.place(f.origin), f.message.clone());
+        let mut instead: BTreeMap<ClassId, String> = BTreeMap::new();
+        let diagnostic = |f: &Fault| {
+            let d = Diagnostic::error(f.kind.code(), self.place(f.origin), f.message.clone());
+            let Some(class) = f.class else { return d };
+            let hint = instead.entry(class);
+            d.hint(&**hint.or_insert_with(|| instead_of_abstract(&self.document, class)))
+        };
         faults.iter().map(diagnostic).collect()
     }
     /// Returns where a member stands; one that is read as it was before, where it stood.
@@ -527,8 +544,9 @@ impl Lowered {
     /// Returns true if a given value was written for a thing of the document, not for a class.
     pub fn is_own_given(&self, origin: OriginId) -> bool {
         let place = self.origins.place(origin);
-        let in_class = |s: &Span| s.start <= place.span.start && place.span.end <= s.end;
-        place.file == OWN && !self.class_spans.iter().any(in_class)
+        let before = self.class_spans.partition_point(|s| s.start <= place.span.start);
+        let class = before.checked_sub(1).map(|last| self.class_spans[last]);
+        place.file == OWN && class.is_none_or(|class| class.end < place.span.end)
     }
     /// Returns true if the document uses a text of this name, itself or by what it uses.
     pub fn uses(&self, name: &str) -> bool {
@@ -541,17 +559,19 @@ impl Lowered {
     /// Finds the class of this name that the document's own text declares.
     pub(crate) fn own_class(&self, name: &str) -> Option<ClassId> {
         let class = self.document.class_named(name)?;
-        let place = self.origins.place(self.document.classes[class].origin);
-        (place.file == OWN && self.class_spans.contains(&place.span)).then_some(class)
+        self.is_declared_here(&self.document.classes[class]).then_some(class)
     }
     /// Returns the classes that the document's own text declares.
     pub fn own_classes(&self) -> impl Iterator<Item = ClassId> {
         let is_own = |(id, class): (ClassId, &kernel::Class)| {
-            let place = self.origins.place(class.origin);
-            let declared = place.file == OWN && self.class_spans.contains(&place.span);
-            (declared && !self.is_class_of_one(id)).then_some(id)
+            (self.is_declared_here(class) && !self.is_class_of_one(id)).then_some(id)
         };
         self.document.classes.iter().filter_map(is_own)
+    }
+    /// Returns true if the document's own text declares a class.
+    fn is_declared_here(&self, class: &kernel::Class) -> bool {
+        let place = self.origins.place(class.origin);
+        place.file == OWN && self.class_spans.binary_search(&place.span).is_ok()
     }
     /// Returns true if a class is that of a single part.
     pub fn is_class_of_one(&self, class: ClassId) -> bool {

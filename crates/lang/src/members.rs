@@ -279,7 +279,9 @@ impl Lowerer<'_> {
     }
 
     fn declare_part(&mut self, scope: &Scope, part: &ast::Part) {
-        let Some(ty) = part.class() else { return };
+        let Some(ty) = part.class() else {
+            return self.broken.extend(part.names().map(|w| (scope.class(), w.name())));
+        };
         if part.is_constant() && part.value().is_none() {
             let place = Place { file: scope.file, span: span_without_doc(part.syntax()) };
             let d = Diagnostic::error("constant-without-value", place, "a constant has a value");

@@ -3,7 +3,7 @@
 use crate::kinds::dimension_in_words;
 use crate::lower::OWN;
 use base::number::{RULE_TOLERANCE, rounded, shortest};
-use base::{Diagnostic, Place, Span};
+use base::{Diagnostic, Name, Place, Span};
 use expr::dimension::Dimension;
 use expr::units;
 use kernel::quantity::{from_bare, from_si, is_of_the_sheet, spelling_for, to_bare, to_si};
@@ -137,7 +137,7 @@ pub fn read_literal(
             Some(Primitive::Bool) => d.hint("write `true` or `false`"),
             Some(Primitive::Choice(of)) => {
                 let options: Vec<&str> =
-                    document.classes[of].options.iter().map(base::Name::as_str).collect();
+                    document.classes[of].options.iter().map(Name::as_str).collect();
                 d.hint(format!("it has {}", options.join(", ")))
             }
             Some(Primitive::Integer) => d.hint("a whole number is wanted"),
@@ -250,6 +250,15 @@ fn quantity(expr: &Expr, document: &Document) -> Option<(f64, Option<Dimension>)
                 _ => constant(&|_| None, expr).map(|x| (x, None)),
             }
         }
+        _ => None,
+    }
+}
+
+/// Returns the unit of a number as it is written; nothing for a bare number, and for any other expression.
+pub(crate) fn unit_of(value: &Expr) -> Option<Name> {
+    match value {
+        Expr::Number(number) => Some(Name::new(number.unit()?.text())),
+        Expr::Unary(negated) => unit_of(&negated.operand()?),
         _ => None,
     }
 }

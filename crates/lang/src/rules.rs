@@ -1,5 +1,6 @@
 //! Rules: everything that speaks of parts, lowered once all parts are declared.
 
+use crate::hints::{is_a_unit, unit_before_equals};
 use crate::kinds::{Kind, measured};
 use crate::lower::Lowerer;
 use crate::members::{Definition, Pending};
@@ -156,6 +157,9 @@ impl Lowerer<'_> {
             path = path.join(&rest);
             class = kind;
         }
+        if self.is_said_to_be_no_count(scope, value) {
+            return;
+        }
         let wanted = class.map_or(Kind::Unknown, |c| Kind::of_class(&self.document, c));
         let before = self.diagnostics.len();
         let found = self.expr_wanting(scope, value, &wanted);
@@ -177,9 +181,10 @@ impl Lowerer<'_> {
             let message = format!("{path} is {is}, and is given {given}");
             let place = Place { file: scope.file, span: value.span() };
             let d = Diagnostic::error(code_for(&kind, &wanted), place, message);
-            let unit = unit_before_equals(value)
-                .map(|unit| format!("`{unit}` is a unit here: write `;` before it"));
-            let hint = unit.or_else(|| self.meant_further_out(scope, value, &wanted));
+            let unit = unit_before_equals(value);
+            let hint = unit
+                .map(|unit| is_a_unit(&unit))
+                .or_else(|| self.meant_further_out(scope, value, &wanted));
             let d = match hint {
                 Some(hint) => d.hint(hint),
                 None => self.with_value_hint(d, (&kind, &wanted), value),
@@ -197,6 +202,9 @@ impl Lowerer<'_> {
             return;
         }
         let origin = self.origin(scope.file, value.span());
+        if let Some(unit) = crate::numbers::unit_of(value) {
+            self.document.units.insert(origin, unit);
+        }
         self.bind_value(scope, (&path, class), (value, &term), origin);
         self.document.classes[scope.class()].givens.push(Rc::new(Given {
             path,
@@ -703,14 +711,5 @@ fn strength(s: ast::Strength) -> Strength {
         ast::Strength::Strong => Strength::Strong,
         ast::Strength::Medium => Strength::Medium,
         ast::Strength::Weak => Strength::Weak,
-    }
-}
-
-/// Returns the unit in `5 h = 6`, which somebody may have meant for the name of the next part.
-fn unit_before_equals(value: &Expr) -> Option<String> {
-    let Expr::Binary(comparison) = value else { return None };
-    match (comparison.op()?, comparison.left()?) {
-        (BinaryOp::Equal, Expr::Number(number)) => Some(number.unit()?.text().to_owned()),
-        _ => None,
     }
 }

@@ -148,6 +148,10 @@ impl<'a> Opening<'a> {
             Term::Index(list, index) => {
                 let list = self.meaning(list, frame)?;
                 let count = self.count(&list)?;
+                let at = self.meaning(index, frame)?;
+                if self.constant(&at).is_none() {
+                    return self.chosen(&list, count, &at);
+                }
                 let index = self.whole(index, frame)?;
                 match usize::try_from(index).ok().filter(|&i| i < count) {
                     Some(i) => self.item(&list, i),
@@ -304,8 +308,27 @@ impl<'a> Opening<'a> {
         match self.constant(&meaning) {
             Some(x) if x == x.trunc() && x.abs() < 1e15 => Ok(x as i64),
             Some(_) => Err(Trouble::wrong("an index is a whole number")),
-            None => Err(Trouble::not_yet("an index that depends on values is not planned yet")),
+            None => Err(Trouble::not_yet("a count that depends on values is not planned yet")),
         }
+    }
+
+    /// Returns the element that a number chooses: one after the other, each where the number is its place. Beyond them
+    /// there is none, which of numbers is a division by zero.
+    fn chosen(&mut self, list: &Meaning<'a>, count: usize, at: &Meaning<'a>) -> Answer<'a> {
+        let items = (0..count).map(|i| self.item(list, i)).collect::<Result<Vec<_>, _>>()?;
+        let is_plain = |item: &Meaning<'a>| matches!(item, Meaning::Number(_) | Meaning::Opaque(_));
+        if items.is_empty() || !matches!(at, Meaning::Number(_)) || !items.iter().all(is_plain) {
+            let message = "an index of things that depends on values is not planned yet";
+            return Err(Trouble::not_yet(message));
+        }
+        let (one, zero) = (self.number(1.0), self.number(0.0));
+        let mut chosen = self.binary(BinaryOperator::Divide, &one, &zero)?;
+        for (i, item) in items.iter().enumerate().rev() {
+            let place = self.number(i as f64);
+            let is_here = self.binary(BinaryOperator::Equal, at, &place)?;
+            chosen = self.select(&is_here, item, &chosen)?;
+        }
+        Ok(chosen)
     }
 
     /// Returns the number that a meaning is, if it is one whatever the values are.

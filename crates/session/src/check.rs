@@ -15,15 +15,27 @@ use base::{LineIndex, Name};
 use eval::Answer;
 use kernel::{Command, DOCUMENT, Literal, Path, Term};
 use lang::{Check, Expectation, PlanKind, Statement, StatementKind};
+use plan::Plans;
 use std::collections::BTreeSet;
 use std::ops::Range;
+use std::rc::Rc;
 
 /// Runs every check of a document.
 pub(crate) fn run_all(state: &State, host: &dyn Host) -> Vec<CheckReport> {
     let document = lang::without_checks(&state.text);
     let lines = LineIndex::new(&state.text);
     let of = Checked { state, document: &document, lines: &lines };
-    state.lowered.checks.iter().map(|check| run(of, check, host)).collect()
+    let mut begun = Begun::default();
+    state.lowered.checks.iter().map(|check| run(of, check, host, &mut begun)).collect()
+}
+
+/// What is known of the copies that checks began with.
+#[derive(Default)]
+struct Begun {
+    /// The state of a copy that no check has added members to.
+    plain: Option<Rc<State>>,
+    /// The plans of all checks so far.
+    plans: Plans,
 }
 
 /// The document whose checks are run.
@@ -56,16 +68,21 @@ struct Run<'h> {
     /// What the latest `try` was refused with.
     refusal: Option<Refusal>,
     /// The state before the latest edit.
-    before: Option<std::rc::Rc<State>>,
+    before: Option<Rc<State>>,
     shortfalls: Vec<Shortfall>,
 }
 
-fn run(of: Checked<'_>, check: &Check, host: &dyn Host) -> CheckReport {
+fn run(of: Checked<'_>, check: &Check, host: &dyn Host, begun: &mut Begun) -> CheckReport {
     let members: Vec<&str> = check.members.iter().map(|m| &**m).collect();
     let end = of.document.len() as u32;
     let text = format!("{}\n{}\n", of.document, members.join("\n"));
+    let known = begun.plain.as_deref().filter(|_| members.is_empty());
+    let open = Open::again("check", text, known, host, std::mem::take(&mut begun.plans));
+    if members.is_empty() && begun.plain.is_none() {
+        begun.plain = Some(open.state.clone());
+    }
     let mut run = Run {
-        open: Open::of("check", text, host),
+        open,
         host,
         of,
         check,
@@ -87,6 +104,7 @@ fn run(of: Checked<'_>, check: &Check, host: &dyn Host) -> CheckReport {
             break;
         }
     }
+    begun.plans = run.open.planner.take_plans();
     CheckReport {
         title: check.title.clone(),
         line: of.line(check.span.start),
@@ -120,7 +138,7 @@ impl Run<'_> {
         wholes.dedup();
         let source = |span: &base::Span| self.of.state.text.get(span.range()).unwrap_or_default();
         let sources: Vec<&str> = wholes.iter().map(source).collect();
-        let (mut all, message) = meant(&self.open.state.text, self.host, &sources);
+        let (mut all, message) = meant(&self.open.state, self.host, &sources);
         all.drain(..noted.min(all.len()));
         // a loop is read as a whole: what stands before these in it is left out
         if let Some(first) = statements.first() {
@@ -432,12 +450,13 @@ fn mentions(refusal: &Refusal, word: &str) -> bool {
 
 /// Finds out what statements mean in a document, and what is wrong with the first that means nothing.
 pub(crate) fn meant(
-    document: &str,
+    state: &State,
     host: &dyn Host,
     sources: &[&str],
 ) -> (Vec<Statement>, Option<String>) {
+    let document = &state.text;
     let text = format!("{document}\ncheck \"\" {{\n{}\n}}\n", sources.join("\n"));
-    let lowered = lang::lower(&text, &|name| host.read(name), None);
+    let lowered = lang::lower_asking(&text, &|name| host.read(name), &state.lowered);
     let own = lowered
         .diagnostics
         .iter()

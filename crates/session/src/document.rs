@@ -72,7 +72,17 @@ pub(crate) enum Direction {
 impl Open {
     /// Opens a text.
     pub(crate) fn of(name: &str, text: String, host: &dyn Host) -> Self {
-        Self::new(name.into(), State::of(text, None, host, Plans::default()))
+        Self::again(name, text, None, host, Plans::default())
+    }
+    /// Opens a text, of which a state may be known already, with the plans of those before.
+    pub(crate) fn again(
+        name: &str,
+        text: String,
+        known: Option<&State>,
+        host: &dyn Host,
+        plans: Plans,
+    ) -> Self {
+        Self::new(name.into(), State::of(text, known, host, plans))
     }
     /// Makes a document of its state.
     pub(crate) fn new(name: String, (state, mut planner): (State, Planner)) -> Self {

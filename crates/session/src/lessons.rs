@@ -194,7 +194,7 @@ fn missing(
     if sources.is_empty() {
         return missing;
     }
-    let (statements, message) = meant(&open.state.text, host, &sources);
+    let (statements, message) = meant(&open.state, host, &sources);
     for (at, source) in sources.iter().enumerate() {
         let said = source.strip_prefix("expect ").unwrap_or(source).trim();
         let found = match statements.get(at).map(|s| &s.kind) {
@@ -254,7 +254,7 @@ fn solve(
             last = apply::apply(open, host, command)?;
             continue;
         }
-        let (meaning, message) = meant(&open.state.text, host, &[source]);
+        let (meaning, message) = meant(&open.state, host, &[source]);
         let kind = meaning.into_iter().next().map(|s| s.kind);
         let kind = kind.filter(|kind| *kind != StatementKind::Unclear).ok_or_else(|| {
             words::refuse(message.unwrap_or_else(|| format!("{source} means nothing here")))

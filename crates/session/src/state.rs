@@ -165,7 +165,8 @@ pub(crate) struct Planned {
 /// The third stage: the values.
 pub(crate) struct Solved {
     of: Planned,
-    given: eval::Given,
+    given: Values,
+    given_faults: Vec<eval::Fault>,
     values: Values,
     double_roots: Vec<SlotId>,
 }
@@ -214,20 +215,22 @@ impl Planned {
     pub(crate) fn solved(mut self) -> Solved {
         let Structured { lowered, structure, .. } = &self.of;
         let model = Model { document: &lowered.document, structure };
-        let mut given = eval::Given::of(&lowered.document, structure);
+        let (given, given_faults) = eval::given_values(&lowered.document, structure);
         let mut values = Values::new(structure.slots.len());
-        let double_roots = opened(model, &mut self.planner, &mut given, &mut values);
+        let mut texts = Texts::knowing(&lowered.document, structure, &given);
+        let double_roots = self.planner.open(model, &mut values, &mut texts).double_roots;
         crate::placing::place_layout(structure, &self.planner, &mut values);
-        Solved { of: self, given, values, double_roots }
+        Solved { of: self, given, given_faults, values, double_roots }
     }
 }
 
 impl Solved {
     /// Says what is wrong with it.
     pub(crate) fn told(self, host: &dyn Host) -> (State, Planner) {
-        let Self { of: Planned { of, planner, unplanned }, given, values, double_roots } = self;
+        let Self { of, given, given_faults, values, double_roots } = self;
+        let Planned { of, planner, unplanned } = of;
         let Structured { text, lowered, structure, faults } = of;
-        let gave_way = gave_way(&structure, &given.values, &values);
+        let gave_way = gave_way(&structure, &given, &values);
         let mut diagnostics = lowered.diagnostics.clone();
         diagnostics.extend(lowered.fault_diagnostics(&faults));
         // that a reference names nothing is said at its place, and not at all that goes through it
@@ -235,7 +238,7 @@ impl Solved {
         let through = unplanned
             .iter()
             .map(|f| Diagnostic::error(f.kind.code(), lowered.place(f.origin), f.message.clone()))
-            .chain(given_diagnostics(&lowered, given.faults()))
+            .chain(given_diagnostics(&lowered, &given_faults))
             .filter(|d| !(lost && d.code == LOST));
         diagnostics.extend(through);
         diagnostics.extend(ended_diagnostics(&lowered, &structure, &values));
@@ -263,33 +266,6 @@ impl Solved {
             state.diagnostics.sort_by_key(|d| (d.place.file, d.place.span.start));
         }
         (state, planner)
-    }
-}
-
-/// Opens a document: solves it, and again while values that are given in terms of what is computed are
-/// others than what it was solved with. Returns where two solutions coincide.
-fn opened(
-    model: Model<'_>,
-    planner: &mut Planner,
-    given: &mut eval::Given,
-    values: &mut Values,
-) -> Vec<SlotId> {
-    let (document, structure) = (model.document, model.structure);
-    let mut round = 0;
-    loop {
-        let mut texts = Texts::knowing(document, structure, &given.values);
-        let double_roots = planner.open(model, values, &mut texts).double_roots;
-        let others = match round <= given.rounds() {
-            true => given.read_again(document, structure, values),
-            false => Vec::new(),
-        };
-        if others.is_empty() {
-            return double_roots;
-        }
-        if round == given.rounds() {
-            given.give_up(structure, &others);
-        }
-        round += 1;
     }
 }
 
@@ -329,15 +305,12 @@ fn ended_diagnostics(lowered: &Lowered, structure: &Structure, values: &Values) 
 }
 
 /// Says where given values have none; a class's, once for all its things.
-fn given_diagnostics<'f>(
-    lowered: &Lowered,
-    faults: impl Iterator<Item = &'f eval::Fault>,
-) -> Vec<Diagnostic> {
+fn given_diagnostics(lowered: &Lowered, faults: &[eval::Fault]) -> Vec<Diagnostic> {
     let mut said = BTreeSet::new();
     let diagnostic = |fault: &eval::Fault| {
         let place = lowered.place(fault.origin?);
         let is_new = said.insert((place, fault.message.clone()));
         is_new.then(|| Diagnostic::error(fault.kind.code(), place, fault.message.clone()))
     };
-    faults.filter_map(diagnostic).collect()
+    faults.iter().filter_map(diagnostic).collect()
 }

@@ -4,7 +4,7 @@ use crate::document::Open;
 use crate::state::State;
 use crate::view::{Freedom, Refusal};
 use crate::views;
-use base::Diagnostic;
+use base::{Diagnostic, Place};
 use expr::Dimension;
 use indexmap::IndexSet;
 use kernel::{
@@ -233,6 +233,16 @@ pub(crate) fn fault(state: &State, source: Source, values: &Values) -> Option<St
     let Source::Constraint(index) = source else { return None };
     let instance = state.structure.constraints[index as usize];
     state.evaluator(values).test(instance).err().map(|fault| fault.message)
+}
+
+/// Returns where in the text the operation stands that leaves the rule of a constraint without a value.
+pub(crate) fn place_of_fault(state: &State, source: Source, values: &Values) -> Option<Place> {
+    let Source::Constraint(index) = source else { return None };
+    let instance = state.structure.constraints[index as usize];
+    let class = &state.lowered.document.classes[instance.class];
+    let member = state.lowered.place(class.constraints[instance.index as usize].origin);
+    let culprit = state.evaluator(values).culprit(instance)?;
+    state.lowered.operation(member, &culprit.operation, (culprit.before, culprit.all))
 }
 
 /// Says why a constraint does not hold: that a side has no value, or by how much they differ.

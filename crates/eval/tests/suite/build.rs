@@ -50,6 +50,7 @@ impl Build {
             scale: Default::default(),
             unit: None,
             writes_lengths: false,
+            units: std::collections::BTreeMap::new(),
         };
         let mut b = Self {
             document,

@@ -2,7 +2,7 @@
 
 use super::body::{Body, ROOT};
 use super::givens::{Binding, ShareOf, own_bindings, put, shares};
-use super::{FaultKind, MOST_COPIES, MOST_THINGS, Maker, rules};
+use super::{Fault, FaultKind, MOST_COPIES, MOST_THINGS, Maker, rules};
 use crate::class::{ClassId, ClassKind, Count};
 use crate::document::{Document, PartRef, PartRole};
 use crate::structure::ThingId;
@@ -27,7 +27,8 @@ fn fill<'d>(
     if document.classes[class].is_abstract {
         let name = &document.classes[class].name;
         let message = format!("{name} is abstract: it has no things of its own");
-        maker.fault(origin, FaultKind::AbstractPart, message);
+        let kind = FaultKind::AbstractPart;
+        maker.faults.push(Fault { origin, kind, message, class: Some(class) });
     }
     let below = match document.classes[class].kind {
         ClassKind::Primitive(_) | ClassKind::Reference(_) | ClassKind::Set(_) => 0,

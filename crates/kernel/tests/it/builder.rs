@@ -87,6 +87,7 @@ impl Builder {
             scale: Default::default(),
             unit: None,
             writes_lengths: false,
+            units: std::collections::BTreeMap::new(),
         }
     }
 }

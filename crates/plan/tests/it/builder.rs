@@ -47,6 +47,7 @@ impl Builder {
             scale: Default::default(),
             unit: None,
             writes_lengths: false,
+            units: std::collections::BTreeMap::new(),
         };
         let mut builder = Self { document };
         assert_eq!(builder.class("Point", &[("x", LENGTH), ("y", LENGTH)]), POINT);

@@ -5,6 +5,7 @@ use crate::session::parse_path;
 use crate::texts::Texts;
 use crate::view::{Analysis, Choice, ContradictionView, MotionView, RedundantView, Velocity};
 use crate::words;
+use base::Place;
 use kernel::{Command, Literal, Primitive, SlotId, ThingId, Values};
 use plan::{
     Certainty, Combination, Contradiction, Motion, MotionKind, Redundant, RedundantKind, Repair,
@@ -182,7 +183,11 @@ pub(crate) fn contradiction(open: &Open, c: &Contradiction) -> ContradictionView
         }
         (Certainty::NoSolution { starts }, count) => {
             let together = if count == 1 { "" } else { " together" };
-            let why = no_value(open, c).map_or(String::new(), |why| format!(": {why}"));
+            let why = no_value(open, c).and_then(|no_value| {
+                let name = words::source_name(state, no_value.source)?;
+                Some(format!(": {name} has no value: {}", no_value.fault))
+            });
+            let why = why.unwrap_or_default();
             (true, format!("no solution of {list}{together} was found, from {starts} starts{why}"))
         }
         (Certainty::Holds, _) => {
@@ -262,15 +267,29 @@ fn left(open: &Open, numbers: &[(SlotId, f64)]) -> Values {
     values
 }
 
-/// Says which constraint has no value where the others hold: it divides by zero, or the like.
-fn no_value(open: &Open, c: &Contradiction) -> Option<String> {
+/// A constraint that has no value where the others hold: it divides by zero, or the like.
+struct NoValue {
+    source: plan::Source,
+    /// Why it has none.
+    fault: String,
+    /// Where the others hold.
+    values: Values,
+}
+
+fn no_value(open: &Open, c: &Contradiction) -> Option<NoValue> {
     let faulty = |repair: &Repair| {
-        let Repair::LeaveOut { source, numbers } = repair else { return None };
-        let name = words::source_name(&open.state, *source)?;
-        let fault = words::fault(&open.state, *source, &left(open, numbers))?;
-        Some(format!("{name} has no value: {fault}"))
+        let Repair::LeaveOut { source, ref numbers } = *repair else { return None };
+        let values = left(open, numbers);
+        let fault = words::fault(&open.state, source, &values)?;
+        Some(NoValue { source, fault, values })
     };
     c.repairs.iter().find_map(faulty)
+}
+
+/// Returns where the operation stands that leaves a constraint of a contradiction without a value.
+pub(super) fn place_without_value(open: &Open, c: &Contradiction) -> Option<Place> {
+    let NoValue { source, values, .. } = no_value(open, c)?;
+    words::place_of_fault(&open.state, source, &values)
 }
 
 /// Names what constraints of a contradiction only read, as `reads` says or since no method computes it.

@@ -3,7 +3,7 @@
 //! In: an open document. Out: diagnostics as an editor shows them: of every contradiction the whole set,
 //! each constraint at its line; of what has no value why; what nothing holds though it is loaded.
 
-use super::analysis::contradiction;
+use super::analysis::{contradiction, place_without_value};
 use crate::document::Open;
 use crate::state::State;
 use crate::texts::Texts;
@@ -77,7 +77,9 @@ fn of_contradiction(
         Some(together) => format!("{}; {together}", said.message),
         None => said.message,
     };
-    let mut d = Diagnostic::error(code, first.0, message);
+    let own = |place: &Place| place.file == FileId(0);
+    let operation = place_without_value(open, c).filter(own);
+    let mut d = Diagnostic::error(code, operation.unwrap_or(first.0), message);
     let mut known = BTreeSet::from([first.clone()]);
     // where the first stands is marked already
     let alone = others.is_empty() && first.0.file == FileId(0);
@@ -99,6 +101,8 @@ fn of_unmet(state: &State, source: Source) -> Option<Diagnostic> {
     let name = words::source_in_words(state, source)?;
     let (place, _) = place_of(state, source)?;
     let why = words::shortfall(state, source, &state.values);
+    let operation = words::place_of_fault(state, source, &state.values);
+    let place = operation.filter(|operation| operation.file == place.file).unwrap_or(place);
     let why = why.map_or(String::new(), |why| format!(": {why}"));
     Some(Diagnostic::error("unmet", place, format!("{name} does not hold{why}")))
 }

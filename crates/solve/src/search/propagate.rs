@@ -244,15 +244,7 @@ impl<'a> Field<'a> {
     fn different(&mut self, cells: &[Shifted]) -> Result<(), Dead> {
         loop {
             let before = self.shrunk.len();
-            for (i, c) in cells.iter().enumerate() {
-                let Some(value) = self.of(c.cell).known() else { continue };
-                for (j, other) in cells.iter().enumerate() {
-                    if i != j {
-                        let domain = self.of(other.cell).without(value + c.by - other.by);
-                        self.put(other.cell, domain)?;
-                    }
-                }
-            }
+            self.take_known(cells)?;
             if self.shrunk.len() == before {
                 self.used_up(cells)?;
                 self.single_takers(cells)?;
@@ -260,6 +252,29 @@ impl<'a> Field<'a> {
             if self.shrunk.len() == before {
                 return Ok(());
             }
+        }
+    }
+
+    /// What is known of some cells is taken from the others, unless two know the same.
+    fn take_known(&mut self, cells: &[Shifted]) -> Result<(), Dead> {
+        let mut known: Vec<i64> = Vec::new();
+        let mut open: Vec<Shifted> = Vec::new();
+        for c in cells {
+            match self.of(c.cell).known() {
+                Some(value) => known.push(value + c.by),
+                None => open.push(*c),
+            }
+        }
+        for value in &known {
+            for c in &open {
+                let domain = self.of(c.cell).without(value - c.by);
+                self.put(c.cell, domain)?;
+            }
+        }
+        known.sort_unstable();
+        match known.windows(2).any(|pair| pair[0] == pair[1]) {
+            true => Err(Dead),
+            false => Ok(()),
         }
     }
 

@@ -205,6 +205,7 @@ fn constant(p: &mut Parser<'_>) {
     p.start_documented(Part);
     p.bump_keyword();
     if p.expect(Ident, "expected-name", "the constant's name") {
+        mistakes::constant_without_class(p);
         rest_of_part(p);
     }
     p.finish();
@@ -465,6 +466,9 @@ pub(super) fn unknown(p: &mut Parser<'_>) {
         p.report("reserved-word", message, Some("give it another name".into()));
         p.skip_line();
         return;
+    }
+    if mistakes::comma_between(p) {
+        return p.bump();
     }
     if mistakes::of_member(p) {
         p.skip_line();

@@ -55,6 +55,21 @@ fn decimal_comma(p: &mut Parser<'_>) -> bool {
     is_one
 }
 
+/// `{ load = 900 N, arm = 1.2 m }`: returns true where the comma was reported.
+pub(super) fn comma_between(p: &mut Parser<'_>) -> bool {
+    let is_one = p.at(Comma) && p.nth(1) == Ident && p.names_itself(2);
+    if is_one {
+        let at = p.pos();
+        let said = (
+            "comma-between",
+            format!("found `,` before `{}`, wanted no sign or `;`", p.word(1)),
+            "members of a body stand one after the other: write `;`".to_string(),
+        );
+        p.report_mistake((at, at), said, Some((p.span_at(at), ";".into())));
+    }
+    is_one
+}
+
 /// `x mm`
 pub(super) fn unit_after_name(p: &mut Parser<'_>) -> bool {
     let is_one = p.at(Ident)
@@ -327,6 +342,44 @@ pub(super) fn range_in_words(p: &mut Parser<'_>) -> bool {
         p.report_mistake((at, at + 1), said, Some((span, format!("{from}..{to}"))));
     }
     is_one
+}
+
+/// `for i in 0..2 for j in 0..2 { … }`: a loop whose members stand in no braces. Returns true where it was reported.
+pub(super) fn loop_without_braces(p: &mut Parser<'_>, first: usize) -> bool {
+    let is_one = p.at(Ident) && is_keyword(p.word(0)) && !p.names_itself(1);
+    if is_one {
+        let at = p.pos();
+        let (head, word) = (p.text_between(first, at - 1), p.word(0));
+        let said = (
+            "expected-body",
+            format!("found `{word}`, wanted a body in `{{ }}`"),
+            format!("what a loop repeats stands in braces: `{head} {{ {word} … }}`"),
+        );
+        p.report_mistake((at, at), said, None);
+    }
+    is_one
+}
+
+/// `constant R = 8.31`: a constant without its class.
+pub(super) fn constant_without_class(p: &mut Parser<'_>) {
+    if !p.at(Eq) || p.begins_line(0) {
+        return;
+    }
+    let (at, name) = (p.pos(), p.text_between(p.pos() - 1, p.pos() - 1));
+    let value = p.text_between(at + 1, p.line_end());
+    let unit = (p.nth(1) == Number && p.nth(2) == Unit).then(|| p.word(2));
+    let dimension = unit.and_then(expr::units::unit).map(|unit| unit.dimension);
+    let class = match (p.nth(1), dimension) {
+        (Text, _) => "Text",
+        (_, Some(dimension)) => dimension.named().unwrap_or("Real"),
+        (_, None) => "Real",
+    };
+    let said = (
+        "expected-class",
+        "found `=`, wanted `:` and the constant's class".to_string(),
+        format!("write `constant {name}: {class} = {value}`"),
+    );
+    p.report_mistake((at, at), said, Some((p.span_at(at - 1), format!("{name}: {class}"))));
 }
 
 /// `anchor x = 3`

@@ -6,8 +6,8 @@ use super::statements::text_body;
 use super::types::{class_name, parameters};
 use super::{Scope, body};
 use crate::kind::SyntaxKind::{
-    Binding, Check, Colon, Comma, Eq, Family, For, Ident, LBrace, LParen, Lesson, Next, Number,
-    Program, RParen, Repeat, Rows, Table, Text, TupleExpr, While, With,
+    Binding, Body, Check, Colon, Comma, Eq, Family, For, Ident, LBrace, LParen, Lesson, Next,
+    Number, Program, RParen, Repeat, Rows, Table, Text, TupleExpr, While, With,
 };
 use crate::parser::Parser;
 
@@ -90,6 +90,7 @@ pub(super) fn block_value(p: &mut Parser<'_>) -> bool {
 
 /// `for a, b in links.neighbours with … { … }`
 fn for_rest(p: &mut Parser<'_>, scope: Scope) {
+    let first = p.pos();
     p.bump_keyword();
     loop {
         if !p.eat(Ident) {
@@ -103,6 +104,14 @@ fn for_rest(p: &mut Parser<'_>, scope: Scope) {
     super::members::into(p, "in", expression);
     super::mistakes::range_in_words(p);
     with(p);
+    if super::mistakes::loop_without_braces(p, first) {
+        p.nested(|p| {
+            p.start(Body);
+            let _ = member(p, scope) || super::members::member(p);
+            p.finish();
+        });
+        return;
+    }
     body(p, scope);
 }
 
