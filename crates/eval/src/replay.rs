@@ -373,7 +373,7 @@ impl Again for Answer<'_> {
 /// Numbers, each with what it is called.
 #[derive(Clone, PartialEq, Debug, Default)]
 pub struct Measures {
-    names: Rc<[String]>,
+    names: Arc<[String]>,
     numbers: Vec<f64>,
 }
 

@@ -251,7 +251,8 @@ pub fn form<'l>(word: &str, labels: impl IntoIterator<Item = &'l str>) -> Name {
     Name::new(&format!("{word}({})", labels.join(",")))
 }
 
-/// A message: its answer is an expression. Without parameters it is a virtual part.
+/// A message: its answer is an expression. Without parameters it is a virtual part, which stands among the values
+/// unless it is asked with parentheses.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Message {
     /// Its name.
@@ -264,6 +265,8 @@ pub struct Message {
     pub class: Option<ClassId>,
     /// The answer.
     pub answer: Term,
+    /// True if it was declared with parentheses, with or without parameters between them.
+    pub is_asked: bool,
     /// True if it gives way to any other definition.
     pub is_default: bool,
     /// True if superclasses' answers are combined where the class has none of its own.

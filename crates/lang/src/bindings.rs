@@ -4,13 +4,15 @@
 //! value counts the structure has the constraint, and no given value.
 
 use crate::connections::is_bare_path;
+use crate::hints::further_out;
 use crate::lower::Lowerer;
 use crate::scope::Scope;
-use base::Name;
+use base::{Diagnostic, Name, Place};
 use kernel::{
     Argument, BinaryOperator, Binding, ClassId, ClassKind, Constraint, Document, Method, OriginId,
-    Path, Step, Strength, Term,
+    Path, Primitive, Step, Strength, Term,
 };
+use std::collections::BTreeSet;
 use syntax::ast::{AstNode, Expr, span_without_doc};
 
 /// So many texts of a list are bound each by itself, for which the list is computed anew.
@@ -149,6 +151,46 @@ impl Lowerer<'_> {
         }
     }
 
+    /// Reports a part that is given an expression of itself, `radius = 2 * radius`.
+    pub(crate) fn is_given_by_itself(
+        &mut self,
+        scope: &Scope,
+        path: &Path,
+        term: &Term,
+        (target, value): (Option<&Expr>, &Expr),
+    ) -> bool {
+        let own = Term::at(Term::Me, path);
+        let mut waiting = vec![term];
+        let speaks_of_it = loop {
+            match waiting.pop() {
+                None | Some(Term::Copy(_)) => break false,
+                Some(term) if *term == own => break true,
+                Some(term) => waiting.extend(term.operands()),
+            }
+        };
+        if !speaks_of_it || path.is_empty() || self.is_reference(scope.class(), path) {
+            return false;
+        }
+        let written = |e: &Expr| e.syntax().text().to_string().trim().to_string();
+        let of = target.map_or_else(|| path.to_string(), written);
+        let place = Place { file: scope.file, span: value.span() };
+        let d = Diagnostic::error("given-by-itself", place, format!("{of} is given by itself"));
+        let hint = self.further_out(scope, &path.0[0]).unwrap_or_else(|| match written(value) {
+            value if value == of => format!("say what it is: `{of} = …`, or leave it out"),
+            value => format!("what is true of it is a constraint: `constraint {of} = {value}`"),
+        });
+        self.report(d.hint(hint));
+        true
+    }
+
+    /// Returns what tells a part from one of the same name further out, where there is one.
+    fn further_out(&self, scope: &Scope, step: &Step) -> Option<String> {
+        let Step::Part(name) = step else { return None };
+        let mut outer = scope.classes.iter().skip(1);
+        let depth = 1 + outer.position(|&class| self.class_of_part(class, name).is_some())?;
+        Some(further_out(name, depth))
+    }
+
     /// Returns true for the whole number that says how many parts its thing has.
     fn is_count(&self, scope: &Scope, path: &Path) -> bool {
         let Some((Step::Part(name), owner)) = path.0.split_last() else { return false };
@@ -170,18 +212,43 @@ impl Lowerer<'_> {
 
 /// Returns true for the classes of numbers, texts, and of things and lists that are made of such.
 fn can_be_bound(document: &Document, class: ClassId) -> bool {
-    let of = &document.classes[class];
-    let parts = || {
-        let mut fields = document.layout(class).into_iter();
-        !has_counts(document, class)
-            && fields.all(|f| can_be_bound(document, document.field_class(f)))
-    };
-    match of.kind {
-        ClassKind::Primitive(_) => true,
-        ClassKind::Composite => parts(),
-        ClassKind::List(element) => can_be_bound(document, element),
-        ClassKind::Set(_) | ClassKind::Reference(_) => false,
+    is_made_of(document, class, |_| true, |class| !has_counts(document, class))
+}
+
+/// Returns true for the classes of real and whole numbers, and of things and lists that are made of such alone.
+fn is_of_numbers(document: &Document, class: ClassId) -> bool {
+    let is_number =
+        |p: Primitive| p.is_number() && !matches!(p, Primitive::Bool | Primitive::Choice(_));
+    is_made_of(document, class, is_number, |_| true)
+}
+
+/// Returns true for a class that is made of such primitives and such classes of things alone, a class with parts of its
+/// own kind once.
+fn is_made_of(
+    document: &Document,
+    class: ClassId,
+    is_primitive: impl Fn(Primitive) -> bool,
+    is_thing: impl Fn(ClassId) -> bool,
+) -> bool {
+    let (mut seen, mut open) = (BTreeSet::new(), vec![class]);
+    while let Some(class) = open.pop() {
+        if !seen.insert(class) {
+            continue;
+        }
+        match document.classes[class].kind {
+            ClassKind::Primitive(p) if is_primitive(p) => {}
+            ClassKind::Composite if is_thing(class) => {
+                let fields = document.layout(class).into_iter();
+                open.extend(fields.map(|field| document.field_class(field)));
+            }
+            ClassKind::List(element) => open.push(element),
+            ClassKind::Primitive(_)
+            | ClassKind::Composite
+            | ClassKind::Set(_)
+            | ClassKind::Reference(_) => return false,
+        }
     }
+    true
 }
 
 /// Returns true for a class whose things have as many parts as a number says.
@@ -190,21 +257,6 @@ fn has_counts(document: &Document, class: ClassId) -> bool {
         let c = &document.classes[c];
         !c.counts.is_empty() || c.general.is_some()
     })
-}
-
-/// Returns true for the classes of real and whole numbers, and of things and lists that are made of such alone.
-fn is_of_numbers(document: &Document, class: ClassId) -> bool {
-    match document.classes[class].kind {
-        ClassKind::Primitive(p) => {
-            p.is_number() && !matches!(p, kernel::Primitive::Bool | kernel::Primitive::Choice(_))
-        }
-        ClassKind::Composite => {
-            let mut fields = document.layout(class).into_iter();
-            fields.all(|field| is_of_numbers(document, document.field_class(field)))
-        }
-        ClassKind::List(element) => is_of_numbers(document, element),
-        ClassKind::Set(_) | ClassKind::Reference(_) => false,
-    }
 }
 
 /// Returns true for a value that depends on parts; a copy has the values of its original, and shares nothing.

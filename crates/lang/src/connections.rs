@@ -14,7 +14,7 @@ use syntax::ast::{AstNode, Expr};
 /// Returns true for an expression that is the path of a part, as far as its form tells.
 pub(crate) fn is_bare_path(value: &Expr) -> bool {
     match value {
-        Expr::Name(_) => true,
+        Expr::Name(_) | Expr::Owner(_) => true,
         Expr::Paren(inner) => inner.inner().is_some_and(|e| is_bare_path(&e)),
         Expr::Field(field) => {
             field.args().is_none() && field.receiver().is_some_and(|e| is_bare_path(&e))

@@ -5,7 +5,7 @@ use crate::lower::Lowerer;
 use crate::members::is_constant;
 use crate::names::LONGEST_WORD;
 use crate::scope::Scope;
-use base::{Diagnostic, Place};
+use base::{Diagnostic, Name, Place};
 use kernel::{Class, ClassId, Document, Message};
 use syntax::ast::{self, AstNode, BinaryOp, Expr};
 
@@ -52,7 +52,7 @@ impl Lowerer<'_> {
         let written = written.lines().next().unwrap_or_default();
         self.diagnostics[before + at] = match near {
             Some(near) => plain.meant(&near),
-            None if !is_constant(value)
+            None if !(is_constant(value) || self.document.classes[class].is_of_one)
                 || class == self.document.root
                 || of_one && names.is_empty() =>
             {
@@ -80,15 +80,11 @@ impl Lowerer<'_> {
     ) -> Option<String> {
         let Expr::Name(name) = value else { return None };
         let name = name.name()?.name();
-        let mut outwards = String::new();
         for (at, &class) in scope.classes.iter().enumerate() {
             let kind = self.kind_of_part(class, &name);
             if at > 0 && kind.is_some_and(|kind| kind.fits(wanted, &self.document)) {
-                return Some(format!(
-                    "`{name}` is a part of the thing itself here: `{outwards}{name}` is that of what it belongs to"
-                ));
+                return Some(further_out(&name, at));
             }
-            outwards.push_str("owner.");
         }
         None
     }
@@ -282,4 +278,12 @@ pub(crate) fn unit_before_equals(value: &Expr) -> Option<String> {
 /// Says what to do where a unit was meant for the name of the next part.
 pub(crate) fn is_a_unit(unit: &str) -> String {
     format!("`{unit}` is a unit here: write `;` before it")
+}
+
+/// Says how the part of this name is written that what the thing belongs to has, so many things out.
+pub(crate) fn further_out(name: &Name, depth: usize) -> String {
+    let outwards = "owner.".repeat(depth);
+    format!(
+        "`{name}` is a part of the thing itself here: `{outwards}{name}` is that of what it belongs to"
+    )
 }

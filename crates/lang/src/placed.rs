@@ -318,6 +318,7 @@ impl Lowerer<'_> {
             parameters: Vec::new(),
             class: None,
             answer,
+            is_asked: false,
             is_default: false,
             is_combining: false,
             origin,

@@ -196,7 +196,8 @@ impl Lowerer<'_> {
         }
         self.refer_by_position(scope.file, value, &wanted);
         let term = measured(&self.document, term, &kind, &wanted);
-        if self.misfits(scope, &path, class, &term, value)
+        if self.is_given_by_itself(scope, &path, &term, (target, value))
+            || self.misfits(scope, &path, class, &term, value)
             || self.other_count(scope, &path, &term, value)
         {
             return;

@@ -140,6 +140,7 @@ impl Lowerer<'_> {
             parameters,
             class: answers,
             answer: Term::Me,
+            is_asked: true,
             is_default: false,
             is_combining: false,
             origin: self.origin(scope.file, span),

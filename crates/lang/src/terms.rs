@@ -242,12 +242,7 @@ impl Lowerer<'_> {
         let message = format!("{spelling} is no unit that is known here");
         let d = Diagnostic::error("unknown-unit", place, message);
         // a unit after it or an operator's words: each of its factors by itself
-        let mut meant = expr::units::meant(spelling);
-        // where the letter of a prefix is written as it should be, the others are not meant
-        let begins = |unit: &String| unit.chars().next() == spelling.chars().next();
-        if spelling.len() > 1 && meant.iter().filter(|unit| begins(unit)).count() == 1 {
-            meant.retain(begins);
-        }
+        let meant = expr::units::meant(spelling);
         self.report(match meant.as_slice() {
             [] if find(FUNCTIONS, spelling).is_some_and(|f| f.parameters.is_empty()) => {
                 let fix = format!("write * {spelling}");

@@ -145,19 +145,7 @@ impl<'a> Opening<'a> {
                 let to = self.whole(to, frame)?;
                 Ok(Meaning::List((from..=to).map(|i| self.number(i as f64)).collect()))
             }
-            Term::Index(list, index) => {
-                let list = self.meaning(list, frame)?;
-                let count = self.count(&list)?;
-                let at = self.meaning(index, frame)?;
-                if self.constant(&at).is_none() {
-                    return self.chosen(&list, count, &at);
-                }
-                let index = self.whole(index, frame)?;
-                match usize::try_from(index).ok().filter(|&i| i < count) {
-                    Some(i) => self.item(&list, i),
-                    None => Err(self.missing_element(&list, count, index)),
-                }
-            }
+            Term::Index(list, index) => self.indexed(list, index, frame),
             Term::Unary(operator, operand) => {
                 let operand = self.meaning(operand, frame)?;
                 let operator = match operator {
@@ -204,6 +192,21 @@ impl<'a> Opening<'a> {
                 let of = self.meaning(of, frame)?;
                 self.of_constraint(&of, name, *aspect)
             }
+        }
+    }
+
+    /// Answers an element of a list; where the index follows from numbers, whichever it says.
+    fn indexed(&mut self, list: &'a Term, index: &'a Term, frame: &Frame<'a>) -> Answer<'a> {
+        let list = self.meaning(list, frame)?;
+        let count = self.count(&list)?;
+        let at = self.meaning(index, frame)?;
+        if self.constant(&at).is_none() {
+            return self.chosen(&list, count, &at);
+        }
+        let index = self.whole(index, frame)?;
+        match usize::try_from(index).ok().filter(|&i| i < count) {
+            Some(i) => self.item(&list, i),
+            None => Err(self.missing_element(&list, count, index)),
         }
     }
 

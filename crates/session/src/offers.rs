@@ -49,7 +49,7 @@ pub(crate) fn offers(state: &State, paths: &[Path]) -> Vec<Offer> {
     let of_places = things.iter().all(|one| offerer.is_place(one.class));
     offers.extend(offerer.joint(paths).filter(|_| of_places));
     offers.extend(offerer.levels());
-    offers.extend(offerer.alone());
+    offers.extend(offerer.alone(&offers));
     offers.extend(offerer.pairs());
     offers.extend(offerer.equals());
     offers.extend(offerer.middles());
@@ -117,11 +117,12 @@ impl Offerer<'_> {
         Some((end(a)?, end(b)?)).filter(|_| has_length)
     }
 
-    /// What may be true of one thing alone.
-    fn alone(&self) -> Vec<Offer> {
+    /// What may be true of one thing alone, and is not offered yet.
+    fn alone(&self, offered: &[Offer]) -> Vec<Offer> {
         let [one] = self.things else { return Vec::new() };
         let said = self.truths(one.class, 0).into_iter();
         said.map(|m| Self::rule(&words_of(&m.name), &[format!("{}.{}", one.path, m.name)]))
+            .filter(|offer| offered.iter().all(|other| other.label != offer.label))
             .collect()
     }
 

@@ -85,6 +85,7 @@ impl Tool {
             values => format!(" {{\n    {}\n}}", values.join("\n    ")),
         };
         let text = trial_text(&state.text, &format!("{name}: {written}{class}{body}"));
+        let within = open.pane.as_ref().map(|pane| pane.part(&Path::default())).unwrap_or_default();
         let trial = Box::new(Open::of(&open.name, text, host));
         let stages = stages(&trial.state, &name);
         let goes_on = document.class_named("Line").is_some_and(|line| document.is_a(known, line));

@@ -14,6 +14,9 @@ use kernel::{
 use plan::{Acting, ActingKind, Decided, EditReport, NotDecided, RefusalReason, Source};
 use std::collections::BTreeSet;
 
+/// A computed coordinate is rounding where it is a smaller part than this of the largest of its place.
+const ROUNDING: f64 = 1e-12;
+
 /// Makes a refusal of one sentence.
 pub(crate) fn refuse(message: String) -> Refusal {
     Refusal { message, ..Refusal::default() }
@@ -483,7 +486,14 @@ pub(crate) fn show_slot(state: &State, slot: SlotId, values: &Values) -> Shown {
         (Primitive::Real(_), Value::Number(x)) => {
             let written = written_for(state, slot);
             let quantity = quantity_of(state, slot, &written);
-            kernel::show_quantity(x, quantity, &state.lowered.document)
+            let document = &state.lowered.document;
+            let shown = kernel::show_quantity(x, quantity, document);
+            if !is_rounding(state, slot, values) {
+                return shown;
+            }
+            let nothing = kernel::show_quantity(0.0, quantity, document);
+            let exact = kernel::in_unit(x, quantity.dimension, &nothing.unit, document);
+            Shown { exact: base::number::shortest(exact), ..nothing }
         }
         (Primitive::Bool, Value::Number(x)) => plain((x != 0.0).to_string()),
         (Primitive::Choice(of), Value::Number(x)) => {
@@ -493,6 +503,17 @@ pub(crate) fn show_slot(state: &State, slot: SlotId, values: &Values) -> Shown {
         (_, Value::Number(x)) => plain(base::number::shortest(x)),
         (_, Value::Text(t)) => plain(t.to_string()),
     }
+}
+
+/// Returns true for a computed coordinate that is no more than rounding beside the others of its place, as the sine of
+/// half a turn is.
+fn is_rounding(state: &State, slot: SlotId, values: &Values) -> bool {
+    let s = &state.structure.slots[slot];
+    let x = values.numbers[slot].abs();
+    let Some(place) = s.place.filter(|_| s.given.is_none() && x > 0.0) else { return false };
+    let all = state.structure.slots_under(place);
+    let largest = all.into_iter().map(|slot| values.numbers[slot].abs()).fold(0.0, f64::max);
+    x < ROUNDING * largest
 }
 
 /// Returns what has no unit, as it is.

@@ -73,7 +73,7 @@ pub fn Why(
             }
             Told::Part(_) | Told::Over => {}
             Told::Stopped => {
-                drop(state.try_set(Looking::Ended(String::from(words::ANALYSIS_STOPPED))))
+                drop(state.try_set(Looking::Ended(String::from(words::ANALYSIS_STOPPED))));
             }
             Told::Failed(why) => drop(state.try_set(Looking::Ended(words::job_failed(&why)))),
         });

@@ -192,6 +192,9 @@ pub async fn place(visit: &Visit, class: &str, places: &[(f64, f64)]) {
         visit.script(&format!("{tile}.dispatchEvent({event})")).await;
     }
     visit.until(&format!("{tile}.getAttribute('aria-pressed') === 'true'")).await;
+    // the tool is in the hand when the page has been painted with it
+    let painted = "requestAnimationFrame(() => requestAnimationFrame(() => setTimeout(() => done(true), 50)))";
+    visit.script(&format!("return new Promise(done => {painted})")).await;
     for &at in places {
         point(visit, at, MOUSE_BUTTON_LEFT).await;
     }

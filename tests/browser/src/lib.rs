@@ -255,6 +255,8 @@ fn capabilities(folder: &Path) -> serde_json::Map<String, Value> {
         "--headless=new",
         "--no-sandbox",
         "--disable-gpu",
+        "--disable-gpu-rasterization",
+        "--disable-software-rasterizer",
         "--disable-dev-shm-usage",
         "--no-first-run",
         "--disable-background-networking",

@@ -16,7 +16,7 @@ use std::sync::Arc;
 pub(crate) struct Form {
     nodes: Vec<Node>,
     /// What numbers are called, where they are all that it is made of.
-    names: Rc<[String]>,
+    names: Arc<[String]>,
 }
 
 #[derive(Debug)]
@@ -52,7 +52,7 @@ impl Form {
     }
 
     /// Reads numbers that are marked, with what they are called.
-    pub(crate) fn of_numbers(names: Rc<[String]>, numbers: &[f64]) -> Self {
+    pub(crate) fn of_numbers(names: Arc<[String]>, numbers: &[f64]) -> Self {
         let node = |&x: &f64| match place_of(x) {
             Some(place) => Node::Number(place, Dimension::NONE),
             None => Node::Fixed(x, Dimension::NONE),
@@ -61,7 +61,7 @@ impl Form {
     }
 
     /// Makes the numbers of those in registers, with what they are called.
-    pub(crate) fn numbers(&self, registers: &[f64]) -> (Rc<[String]>, Vec<f64>) {
+    pub(crate) fn numbers(&self, registers: &[f64]) -> (Arc<[String]>, Vec<f64>) {
         let number = |node: &Node| match node {
             Node::Number(place, _) => registers[*place as usize],
             Node::Fixed(x, _) => *x,

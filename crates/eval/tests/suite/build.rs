@@ -141,6 +141,7 @@ impl Build {
             parameters: parameters.iter().map(parameter).collect(),
             class: None,
             answer,
+            is_asked: false,
             is_default: false,
             is_combining: false,
             origin: self.origin(),

@@ -122,6 +122,7 @@ impl Builder {
             parameters,
             class: None,
             answer,
+            is_asked: false,
             is_default: false,
             is_combining: false,
             origin: OriginId(0),

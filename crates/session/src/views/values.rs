@@ -441,13 +441,16 @@ fn virtual_parts(document: &Document, class: ClassId) -> Rc<[Answers]> {
     let mut found: IndexMap<&Name, (&str, bool)> = IndexMap::new();
     let line: Vec<ClassId> = document.primary_line(class).into_iter().rev().collect();
     let messages = || line.iter().flat_map(|&class| &document.classes[class].messages);
+    // a part takes the place of a message that a class above answers
+    let is_stored = |name: &Name| {
+        line.iter().any(|&class| document.classes[class].parts.iter().any(|p| p.name == *name))
+    };
     for &class in &line {
         if document.classes[class].supers.is_empty() {
             continue;
         }
         let messages = document.classes[class].messages.iter();
-        for message in
-            messages.filter(|m| m.parameters.is_empty() && !m.is_of_class() && !is_view(&m.name))
+        for message in messages.filter(|m| !m.is_asked && !is_view(&m.name) && !is_stored(&m.name))
         {
             let (doc, is_drawn) = found.entry(&message.name).or_default();
             if !message.doc.is_empty() {

@@ -23,7 +23,7 @@ fn number(desk: &Desk, path: &str) -> f64 {
     let rows = desk.session.values(desk.id);
     let row = rows.iter().find(|row| row.path == path);
     let number = row.and_then(|row| row.number);
-    number.unwrap_or_else(|| panic!("{path} has a number: {:?}", row))
+    number.unwrap_or_else(|| panic!("{path} has a number: {row:?}"))
 }
 
 /// Where circles lie on the sheet, by their paths: centre and radius.
@@ -46,7 +46,7 @@ fn rows_are_placed_beside_one_another() {
     assert_eq!(of.map(|[_, _, radius]| radius), [5.0, 5.0, 8.0]);
     for (i, a) in of.iter().enumerate() {
         for b in &of[..i] {
-            let apart = ((a[0] - b[0]).powi(2) + (a[1] - b[1]).powi(2)).sqrt();
+            let apart = base::number::hypot(a[0] - b[0], a[1] - b[1]);
             assert!(apart > a[2] + b[2], "{of:?}");
         }
     }
@@ -148,7 +148,7 @@ fn a_steps_numbers_stand_where_they_belong_and_are_changed() {
     // from the centre of the first ring, (-40, 40), to its rim
     let [from, to] = radius.along.expect("it is a radius");
     assert_eq!(from, (-40.0, 40.0));
-    assert!(((to.0 + 40.0).hypot(to.1 - 40.0) - 40.0).abs() < 1e-9);
+    assert!((base::number::hypot(to.0 + 40.0, to.1 - 40.0) - 40.0).abs() < 1e-9);
     let before = desk.text();
     desk.session
         .set_operand(desk.id, ("rings", "turns.hole", "radius"), "ring.radius / 4")

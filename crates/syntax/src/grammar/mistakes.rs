@@ -2,7 +2,7 @@
 
 use super::members::is_keyword;
 use crate::kind::SyntaxKind::{
-    Arrow, Colon, Comma, Eof, Eq, EqEq, FatArrow, Greater, GreaterEq, Ident, LBrace, LBracket,
+    Arrow, Colon, Comma, Dot, Eof, Eq, EqEq, FatArrow, Greater, GreaterEq, Ident, LBrace, LBracket,
     LParen, Less, LessEq, LetKw, Minus, NotEq, Number, RBrace, RBracket, RParen, Text, Unit,
 };
 use crate::parser::Parser;
@@ -57,7 +57,11 @@ fn decimal_comma(p: &mut Parser<'_>) -> bool {
 
 /// `{ load = 900 N, arm = 1.2 m }`: returns true where the comma was reported.
 pub(super) fn comma_between(p: &mut Parser<'_>) -> bool {
-    let is_one = p.at(Comma) && p.nth(1) == Ident && p.names_itself(2);
+    let mut end = 2;
+    while p.nth(end) == Dot && p.nth(end + 1) == Ident {
+        end += 2;
+    }
+    let is_one = p.at(Comma) && p.nth(1) == Ident && matches!(p.nth(end), Eq | Colon);
     if is_one {
         let at = p.pos();
         let said = (
@@ -474,6 +478,11 @@ pub(super) fn value_for_class(p: &Parser<'_>) -> Option<String> {
     let name = p.pos().checked_sub(2).map(|i| p.text_between(i, i)).unwrap_or_default();
     let value = p.word(0);
     match p.current() {
+        // `holes: 6 Circle`, `holes: 6 of Circle`
+        Number if p.nth(1) == Ident && !p.line_ended(1) => {
+            let class = if p.word(1) == "of" { p.word(2) } else { p.word(1) };
+            Some(format!("a list is written `{name}: List of {value} {class}`"))
+        }
         Number => Some(format!(
             "write `{name} = {value}` for a value, `{name}: Real = {value}` for a new part"
         )),

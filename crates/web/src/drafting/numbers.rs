@@ -86,7 +86,8 @@ fn Number(lab: Lab, of: Of, nth: usize, number: StepOperand) -> impl IntoView {
     let own = StoredValue::new((of, number.slot));
     Effect::new(move |_| {
         if let Some(field) = field.get() {
-            // The keyboard types it.
+            // the keyboard types over what it says
+            field.set_value(&says.get_value());
             let _ = field.focus();
             field.select();
         }

@@ -40,7 +40,7 @@ impl Lab {
         let done = self.apply_as_meant(command);
         if done && matches!(command, Command::Text(_)) {
             self.tell(|session, id| session.label_last(id, label));
-            let status = self.ask_of_shown(|session, id| session.status(id));
+            let status = self.ask_of_shown(Session::status);
             self.status.set(status.unwrap_or_default());
         }
         done

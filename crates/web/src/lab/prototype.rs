@@ -3,8 +3,8 @@
 use super::{Lab, Notice, Zoom};
 use crate::words;
 use leptos::prelude::*;
-use session::Path;
 use session::view::DocumentId;
+use session::{Path, Session};
 
 /// The class whose prototype is shown.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -63,7 +63,7 @@ impl Lab {
     /// After a change: the class may have another name now, or be gone.
     pub(super) fn follow_prototype(self) {
         let Some(shown) = self.prototype.get_untracked() else { return };
-        match self.ask_of_shown(|session, id| session.prototype_shown(id)).flatten() {
+        match self.ask_of_shown(Session::prototype_shown).flatten() {
             Some(class) if class == shown.class => {}
             Some(class) => self.prototype.set(Some(Shown { class, ..shown })),
             None => self.leave_class(),
