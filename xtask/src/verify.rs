@@ -78,10 +78,15 @@ pub(crate) fn run(wish: &Wish) -> ExitCode {
         say!("{}", last_line(Count { passed: 0, failed: lacking }, wish.browser));
         return ExitCode::from(2);
     }
-    let mut count = native(wish.length);
-    if wish.browser == Browser::Test {
-        count.add(page());
-    }
+    // the page is linked by one thread in a target folder of its own: beside it, the tests run
+    let mut count = std::thread::scope(|scope| {
+        let page = (wish.browser == Browser::Test).then(|| scope.spawn(page));
+        let mut count = native(wish.length);
+        if let Some(page) = page {
+            count.add(page.join().unwrap_or(Count { passed: 0, failed: 1 }));
+        }
+        count
+    });
     let thinglab = bundle::build_command(Effort::Quick);
     count.add(Count::one(thinglab.is_ok()));
     match thinglab {
@@ -103,20 +108,32 @@ fn last_line(count: Count, browser: Browser) -> String {
 }
 
 fn native(length: Length) -> Count {
-    let mut count = Count::default();
-    count.add(step("format", &mut tools::cargo(&["fmt", "--all", "--check"])));
+    let mut count = step("format", &mut tools::cargo(&["fmt", "--all", "--check"]));
+    // rooms are compiled one after the other: two such chains keep two cores busy
+    std::thread::scope(|scope| {
+        let read = scope.spawn(lints_and_documentation);
+        count.add(tests("tests", &[], &[], length));
+        count.add(read.join().unwrap_or(Count { passed: 0, failed: 1 }));
+    });
+    count
+}
+
+/// What reads the code alone, in a target folder of its own, so that the tests need not wait for it.
+fn lints_and_documentation() -> Count {
+    let apart = crate::top().join("target/lints");
     let mut lints = tools::cargo(&["clippy", "--quiet", "--workspace", "--all-targets"]);
-    count.add(step("lints", lints.args(["--", "--deny", "warnings"])));
+    lints.args(["--", "--deny", "warnings"]).env("CARGO_TARGET_DIR", &apart);
+    let mut count = step("lints", &mut lints);
     let mut documentation = tools::cargo(&["doc", "--quiet", "--no-deps"]);
-    count.add(step("documentation", documentation.env("RUSTDOCFLAGS", "--deny warnings")));
-    count.add(tests("tests", &[], &[], length));
+    documentation.env("RUSTDOCFLAGS", "--deny warnings").env("CARGO_TARGET_DIR", &apart);
+    count.add(step("documentation", &mut documentation));
     count
 }
 
 /// The page's bundle, as people get it.
 fn page() -> Count {
-    say!("== bundle");
     let built = bundle::build(&tools::wasm_compiler().expect("required above"), Effort::Full);
+    say!("== bundle");
     if let Err(why) = &built {
         say!("{why}");
     }
