@@ -127,16 +127,19 @@ fn Entry(
     }
 }
 
-/// What has the words that are wanted in its label; then what has them in its own name; then what has all
-/// their letters in order: an action in its label, a document, whose title may be long, in its path.
+/// What has the words that are wanted in its label; then what has them in its own name; then what has each of
+/// them somewhere; then what has all their letters in order, the shortest first: an action in its label, a
+/// document, whose title may be long, in its path.
 fn matching(wanted: &str, listed: &[Listed]) -> Vec<Choice> {
     let wanted = wanted.trim().to_lowercase();
     let rank = |label: &str, name: &str, short: &str| {
-        let has = |text: &str| text.to_lowercase().contains(&wanted);
+        let (label, name, short) =
+            (label.to_lowercase(), name.to_lowercase(), short.to_lowercase());
         match () {
-            () if has(label) => Some(0),
-            () if has(name) => Some(1),
-            () => scattered(&short.to_lowercase(), &wanted).then_some(2),
+            () if label.contains(&wanted) => Some((0, 0)),
+            () if name.contains(&wanted) => Some((1, 0)),
+            () if wanted.split_whitespace().all(|word| label.contains(word)) => Some((2, 0)),
+            () => scattered(&short, &wanted).then_some((3, short.len())),
         }
     };
     let action =
@@ -144,8 +147,7 @@ fn matching(wanted: &str, listed: &[Listed]) -> Vec<Choice> {
     let document =
         |one: &Listed| (rank(&one.title, &one.path, &one.path), Choice::Open(one.clone()));
     let all = ACTIONS.iter().map(action).chain(listed.iter().map(document));
-    let mut found: Vec<(i32, Choice)> =
-        all.filter_map(|(rank, choice)| Some((rank?, choice))).collect();
+    let mut found: Vec<_> = all.filter_map(|(rank, choice)| Some((rank?, choice))).collect();
     found.sort_by_key(|(rank, _)| *rank);
     found.into_iter().map(|(_, choice)| choice).collect()
 }
@@ -176,6 +178,7 @@ mod tests {
         };
         assert_eq!(first("zoom in"), "zoom-in");
         assert_eq!(first("undo"), "undo");
+        assert_eq!(first("load bridge"), "gallery/bridge.thing");
         assert_eq!(first("under load"), "gallery/bridge.thing");
         assert_eq!(first("ftp"), "fit");
         assert_eq!(first("recog"), "recognise");
