@@ -17,7 +17,9 @@ use crate::{say, top};
 pub(crate) enum Effort {
     /// What people get: the rooms compiled as one.
     Full,
-    /// For trying a change: compiled room by room, a large page that runs slower.
+    /// For the browser tests: compiled room by room, a large page that runs slower.
+    Tests,
+    /// For trying a change: as for the tests, and what is compiled is kept in pieces.
     Quick,
 }
 
@@ -26,6 +28,7 @@ impl Effort {
     fn page_profile(self) -> &'static str {
         match self {
             Effort::Full => "wasm-release",
+            Effort::Tests => "wasm-tests",
             Effort::Quick => "wasm-quick",
         }
     }
@@ -70,7 +73,7 @@ pub(crate) fn module(
     {
         say!("page: making its module");
         let mut bindgen = tools::cargo(&["run", "--package", "bindgen", "--"]);
-        if effort == Effort::Quick {
+        if effort != Effort::Full {
             bindgen.arg("--quick");
         }
         bindgen.arg(&made).arg(&module).args(&compressed);
@@ -91,7 +94,7 @@ pub(crate) fn build_command(effort: Effort) -> Result<PathBuf, String> {
             command.arg("--release");
             "release"
         }
-        Effort::Quick => "debug",
+        Effort::Tests | Effort::Quick => "debug",
     };
     command.env("THINGLAB_DIST", top().join("dist"));
     run("thinglab did not compile", quiet(&mut command))?;
@@ -113,10 +116,6 @@ fn compile_command(package: &str, compiler: &WasmCompiler, effort: Effort) -> Co
     command.args(["--package", package, "--bin", package, "--profile", effort.page_profile()]);
     command.args(["--target", "wasm32-unknown-unknown", "--target-dir"]).arg(target());
     quiet(&mut command);
-    if effort == Effort::Full {
-        // leptos gives each view a type of its own; erased, they share their code
-        command.env("RUSTFLAGS", "--cfg erase_components");
-    }
     command
 }
 

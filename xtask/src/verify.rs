@@ -78,9 +78,13 @@ pub(crate) fn run(wish: &Wish) -> ExitCode {
         say!("{}", last_line(Count { passed: 0, failed: lacking }, wish.browser));
         return ExitCode::from(2);
     }
-    // the page is linked by one thread in a target folder of its own: beside it, the tests run
+    let effort = match wish.length {
+        Length::Usual => Effort::Tests,
+        Length::Long => Effort::Full,
+    };
+    // rooms are compiled one after the other: two such chains keep two cores busy
     let mut count = std::thread::scope(|scope| {
-        let page = (wish.browser == Browser::Test).then(|| scope.spawn(page));
+        let page = (wish.browser == Browser::Test).then(|| scope.spawn(|| page(effort)));
         let mut count = native(wish.length);
         if let Some(page) = page {
             count.add(page.join().unwrap_or(Count { passed: 0, failed: 1 }));
@@ -109,30 +113,18 @@ fn last_line(count: Count, browser: Browser) -> String {
 
 fn native(length: Length) -> Count {
     let mut count = step("format", &mut tools::cargo(&["fmt", "--all", "--check"]));
-    // rooms are compiled one after the other: two such chains keep two cores busy
-    std::thread::scope(|scope| {
-        let read = scope.spawn(lints_and_documentation);
-        count.add(tests("tests", &[], &[], length));
-        count.add(read.join().unwrap_or(Count { passed: 0, failed: 1 }));
-    });
-    count
-}
-
-/// What reads the code alone, in a target folder of its own, so that the tests need not wait for it.
-fn lints_and_documentation() -> Count {
-    let apart = crate::top().join("target/lints");
     let mut lints = tools::cargo(&["clippy", "--quiet", "--workspace", "--all-targets"]);
-    lints.args(["--", "--deny", "warnings"]).env("CARGO_TARGET_DIR", &apart);
-    let mut count = step("lints", &mut lints);
+    count.add(step("lints", lints.args(["--", "--deny", "warnings"])));
     let mut documentation = tools::cargo(&["doc", "--quiet", "--no-deps"]);
-    documentation.env("RUSTDOCFLAGS", "--deny warnings").env("CARGO_TARGET_DIR", &apart);
+    documentation.env("RUSTDOCFLAGS", "--deny warnings");
     count.add(step("documentation", &mut documentation));
+    count.add(tests("tests", &[], &[], length));
     count
 }
 
-/// The page's bundle, as people get it.
-fn page() -> Count {
-    let built = bundle::build(&tools::wasm_compiler().expect("required above"), Effort::Full);
+/// The page's bundle.
+fn page(effort: Effort) -> Count {
+    let built = bundle::build(&tools::wasm_compiler().expect("required above"), effort);
     say!("== bundle");
     if let Err(why) = &built {
         say!("{why}");
