@@ -5,6 +5,7 @@
 //!
 //! Reading order: [`element`], [`metrics`], [`curve`], [`spline`], [`mod@bounds`], [`svg`], [`dxf`].
 pub mod bounds;
+pub mod color;
 pub mod curve;
 pub mod dxf;
 pub mod element;
@@ -13,6 +14,7 @@ pub mod spline;
 pub mod svg;
 
 pub use bounds::{Bounds, bounds, bounds_of};
+pub use color::{color_of, components};
 pub use element::{
     Anchoring, Color, Corner, Dimension, DimensionKind, Drawing, Element, Layer, Line, Placement,
     Point, Shape, Style, Tag, Vertical,

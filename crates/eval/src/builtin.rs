@@ -82,6 +82,10 @@ impl<'a> Evaluator<'a> {
             Function::Max => self.least(&self.several(&arguments)?, Binary::Max),
             Function::Pi => Ok(Answer::plain(std::f64::consts::PI)),
             Function::AllDifferent => self.all_different(&self.several(&arguments)?),
+            Function::Rgb => {
+                let part = |at: usize| Ok(self.number(&arguments[at])?.0);
+                Ok(Answer::text(&drawing::color_of([part(0)?, part(1)?, part(2)?])))
+            }
             Function::Dot
             | Function::Segment
             | Function::Polyline
@@ -228,6 +232,15 @@ impl<'a> Evaluator<'a> {
                 finite(metrics::text_height(text, size), dimension)
             }
             TextMessage::Text => Ok(Answer::text(text)),
+            TextMessage::Red | TextMessage::Green | TextMessage::Blue => {
+                let unknown = || Fault::no_answer(format!("`{text}` is no colour"));
+                let [red, green, blue] = drawing::components(text).ok_or_else(unknown)?;
+                Ok(Answer::plain(match message {
+                    TextMessage::Red => red,
+                    TextMessage::Green => green,
+                    _ => blue,
+                }))
+            }
         }
     }
 
@@ -247,12 +260,7 @@ impl<'a> Evaluator<'a> {
         };
         match builtin.function {
             ListMessage::Sum => {
-                let (mut terms, mut dimension) = (Vec::new(), Dimension::NONE);
-                for item in items.iter() {
-                    let (x, d) = self.operand(item)?;
-                    dimension = measure::common(dimension, d)?;
-                    terms.push(x);
-                }
+                let (terms, dimension) = self.numbers_of(&items)?;
                 let add = |x, y| self.binary_number(Binary::Add, x, y);
                 finite(joined(terms, add).unwrap_or(0.0), dimension)
             }
@@ -289,6 +297,28 @@ impl<'a> Evaluator<'a> {
                 }
                 Ok(Answer::Bool(false))
             }
+            ListMessage::Mean => {
+                let (numbers, dimension) = self.numbers_of(&items)?;
+                self.mean(&numbers, dimension).unwrap_or_else(|| Err(empty()))
+            }
+            ListMessage::Median => {
+                let (mut numbers, dimension) = self.numbers_of(&items)?;
+                numbers.sort_by(|x, y| self.order_of(*x, *y));
+                let (below, above) = (numbers.len().saturating_sub(1) / 2, numbers.len() / 2);
+                let middle = numbers.get(below..=above).unwrap_or_default();
+                self.mean(middle, dimension).unwrap_or_else(|| Err(empty()))
+            }
+            ListMessage::Product => {
+                let (numbers, _) = self.numbers_of(&items)?;
+                let times = |x, y| self.binary_number(Binary::Multiply, x, y);
+                finite(joined(numbers, times).unwrap_or(1.0), Dimension::NONE)
+            }
+            ListMessage::Sorted => {
+                let (mut numbers, dimension) = self.numbers_of(&items)?;
+                numbers.sort_by(|x, y| self.order_of(*x, *y));
+                let answers = numbers.into_iter().map(|x| Answer::Number(x, dimension));
+                Ok(Answer::List(answers.collect()))
+            }
             ListMessage::Min => self.least(&items, Binary::Min),
             ListMessage::Max => self.least(&items, Binary::Max),
             ListMessage::Zip => {
@@ -309,6 +339,25 @@ impl<'a> Evaluator<'a> {
             }
             ListMessage::Reversed => Ok(Answer::List(items.iter().rev().cloned().collect())),
         }
+    }
+
+    /// Reads numbers of one dimension.
+    fn numbers_of(&self, items: &[Answer<'a>]) -> Result<(Vec<f64>, Dimension)> {
+        let (mut numbers, mut dimension) = (Vec::new(), Dimension::NONE);
+        for item in items {
+            let (x, d) = self.operand(item)?;
+            dimension = measure::common(dimension, d)?;
+            numbers.push(x);
+        }
+        Ok((numbers, dimension))
+    }
+
+    /// Returns the mean of some numbers; nothing where there are none.
+    fn mean(&self, numbers: &[f64], dimension: Dimension) -> Option<Result<Answer<'a>>> {
+        let add = |x, y| self.binary_number(Binary::Add, x, y);
+        let sum = joined(numbers.to_vec(), add)?;
+        let mean = self.binary_number(Binary::Divide, sum, numbers.len() as f64);
+        Some(finite(mean, dimension))
     }
 
     fn send_thing(

@@ -112,6 +112,7 @@ impl<'a> Evaluator<'a> {
             | Function::Min
             | Function::Max
             | Function::Pi
+            | Function::Rgb
             | Function::AllDifferent => {
                 return Err(Fault::wrong("a number where a picture is wanted"));
             }

@@ -48,7 +48,7 @@ impl<'a> Evaluator<'a> {
             return Ok(Verdict::of(true));
         }
         let frame = Frame::of(constraint.owner);
-        self.judge_within(&written.rule, written.within.as_ref(), &frame)
+        self.judge_within(&written.rule, written.within.as_deref(), &frame)
             .map_err(|f| f.within(written.origin))
     }
 
@@ -118,7 +118,7 @@ impl<'a> Evaluator<'a> {
         let constraint =
             &self.document.classes[instance.class].constraints[instance.index as usize];
         let frame = Frame::of(instance.owner);
-        let (rule, within) = (&constraint.rule, constraint.within.as_ref());
+        let (rule, within) = (&constraint.rule, constraint.within.as_deref());
         let verdict = || self.deeper(|| self.judge_within(rule, within, &frame));
         match aspect {
             Aspect::Error => {

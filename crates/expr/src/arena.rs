@@ -519,9 +519,9 @@ impl Arena {
 #[derive(Clone, PartialEq, Eq, Hash, Debug)]
 pub struct Excerpt {
     /// Every node, operands before users.
-    pub nodes: Vec<Node>,
+    pub nodes: Box<[Node]>,
     /// The expressions that were asked for, as places among the nodes.
-    pub roots: Vec<ExprId>,
+    pub roots: Box<[ExprId]>,
 }
 
 /// Where nodes stand in an order of reachable nodes.

@@ -61,6 +61,12 @@ pub const NAMED_UNITS: &[NamedUnit] = &[
     lone("ly", "light year", scaled(Dimension::LENGTH, 9_460_730_472_580_800.0, 0)),
     lone("ha", "hectare", decimal(Dimension::AREA, 4)),
     si("L", "litre", decimal(Dimension::VOLUME, -3)),
+    // alone `l` is a name like any other: `{ d = 8  l = 40 }`
+    lone("hl", "hectolitre", decimal(Dimension::VOLUME, -1)),
+    lone("dl", "decilitre", decimal(Dimension::VOLUME, -4)),
+    lone("cl", "centilitre", decimal(Dimension::VOLUME, -5)),
+    lone("ml", "millilitre", decimal(Dimension::VOLUME, -6)),
+    lone("ul", "microlitre", decimal(Dimension::VOLUME, -9)),
     lone("gal", "gallon", scaled(Dimension::VOLUME, 3_785_411_784.0, -12)),
     si("rad", "radian", decimal(Dimension::ANGLE, 0)),
     lone("deg", "degree", scaled(Dimension::ANGLE, PI / 180.0, 0)),
@@ -274,7 +280,7 @@ pub fn meant(word: &str) -> Vec<String> {
 }
 
 /// What people say for a unit and no table of them knows.
-const COLLOQUIAL: [(&str, &str); 15] = [
+const COLLOQUIAL: [(&str, &str); 18] = [
     ("sec", "s"),
     ("secs", "s"),
     ("hr", "h"),
@@ -290,6 +296,9 @@ const COLLOQUIAL: [(&str, &str); 15] = [
     ("percent", "%"),
     ("cc", "cm^3"),
     ("l", "L"),
+    ("sqm", "m^2"),
+    ("cbm", "m^3"),
+    ("mps", "m/s"),
 ];
 
 /// Returns the words for a unit: its name and its plural, with American spellings.

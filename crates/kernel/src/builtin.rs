@@ -28,6 +28,8 @@ pub enum Kind {
     Place,
     /// A list or set.
     List,
+    /// A list or set of plain numbers.
+    Plains,
     /// Numbers of one dimension: each an argument, or all in one list.
     Numbers,
     /// What the list holds.
@@ -203,6 +205,7 @@ table! {
     Max "max" Any [many("x", Kind::Numbers)] Same "The largest of some numbers, or of a list.";
     Pi "pi" Any [] Plain "Half the circumference of a circle of radius 1.";
     AllDifferent "allDifferent" Any [many("x", Kind::Any)] Bool "Whether no two of some values, or of a list, are equal.";
+    Rgb "rgb" Any [one("red", Kind::Plain), one("green", Kind::Plain), one("blue", Kind::Plain)] Color "The colour of so much red, green and blue, each from 0 to 1.";
     Dot "dot" Any [one("x", Kind::Any), perhaps("y", Kind::Length)] Picture "A dot at a place, or at x and y.";
     Segment "segment" Any [one("from", Kind::Place), one("to", Kind::Place)] Picture "A straight segment.";
     Polyline "polyline" Any [many("corner", Kind::Any)] Picture "Segments from place to place, or through a list of places.";
@@ -242,6 +245,9 @@ table! {
     Width "width" Text [one("size", Kind::Length)] Same "How wide its longest line is where the letters have this size.";
     Height "height" Text [one("size", Kind::Length)] Same "How high its lines are where the letters have this size.";
     Text "text" Text [] Text "The text itself.";
+    Red "red" Text [] Plain "How much red is in the colour that the text says, from 0 to 1.";
+    Green "green" Text [] Plain "How much green is in the colour that the text says, from 0 to 1.";
+    Blue "blue" Text [] Plain "How much blue is in the colour that the text says, from 0 to 1.";
 }
 
 table! {
@@ -256,6 +262,10 @@ table! {
     Last "last" List [] Element "Its last element.";
     All "all" List [one("function", Kind::Function)] Bool "Whether a function is true for every element.";
     Any "any" List [one("function", Kind::Function)] Bool "Whether a function is true for some element.";
+    Mean "mean" List [] Element "The sum of its numbers by how many they are.";
+    Median "median" List [] Element "The middle one of its numbers by size; of an even count the mean of the middle two.";
+    Product "product" Plains [] Plain "The product of its numbers; 1 where it is empty.";
+    Sorted "sorted" List [] List "Its numbers, the smallest first.";
     Min "min" List [] Element "The smallest of its numbers.";
     Max "max" List [] Element "The largest of its numbers.";
     Zip "zip" List [one("other", Kind::List)] List "Pairs of its elements and those of another list, as long as both last.";

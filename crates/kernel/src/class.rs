@@ -310,7 +310,7 @@ pub struct Constraint {
     /// Its name, if it has one.
     pub name: Option<Name>,
     /// What `///` says of it.
-    pub doc: String,
+    pub doc: Box<str>,
     /// What shall be true.
     pub rule: Term,
     /// How strongly.
@@ -322,7 +322,7 @@ pub struct Constraint {
     /// Parts that the constraint never writes.
     pub reads: Vec<Path>,
     /// How far its sides may differ, where that was written.
-    pub within: Option<Term>,
+    pub within: Option<Box<Term>>,
     /// Where it was written.
     pub origin: OriginId,
 }

@@ -111,7 +111,7 @@ impl Lowerer<'_> {
         };
         let constraint = Constraint {
             name: None,
-            doc: String::new(),
+            doc: Box::default(),
             rule: Term::Binary(BinaryOperator::Equal, part, Box::new(term.clone())),
             strength: Strength::Required,
             methods: if is_of_several { Vec::new() } else { vec![method] },

@@ -237,7 +237,13 @@ impl Lowerer<'_> {
                 labels.join(", "),
                 args.len()
             );
-            self.error("wrong-arity", scope.file, word.span(), said);
+            let place = Place { file: scope.file, span: word.span() };
+            let d = Diagnostic::error("wrong-arity", place, said);
+            let asked = self.as_asked(definer, name);
+            self.report(match asked {
+                Some(hint) => d.hint(hint),
+                None => d,
+            });
             return None;
         }
         let arguments = self.bound(scope, word.text(), &wanted, args)?;
@@ -371,7 +377,7 @@ impl Lowerer<'_> {
             first = Some(first.map_or(arg.kind.clone(), |known| known.joined(arg.kind)));
         }
         let first = first.unwrap_or(Kind::Unknown);
-        let is_list_message = b.receiver == Builtin::List;
+        let is_list_message = matches!(b.receiver, Builtin::List | Builtin::Plains);
         let element =
             if let Kind::List(element) = &first { (**element).clone() } else { first.clone() };
         let kind = self.builtin_kind(b.result, if is_list_message { &first } else { &element });
@@ -393,6 +399,7 @@ impl Lowerer<'_> {
             Builtin::Bool => Kind::Bool,
             Builtin::Text | Builtin::Color => Kind::Text,
             Builtin::List => Kind::List(Box::new(Kind::Unknown)),
+            Builtin::Plains => Kind::List(Box::new(Kind::PLAIN)),
             Builtin::Element => match first {
                 Kind::List(element) => (**element).clone(),
                 _ => Kind::Unknown,
@@ -615,6 +622,7 @@ fn wanted_number(wanted: Builtin) -> Kind {
         | Builtin::Color
         | Builtin::Place
         | Builtin::List
+        | Builtin::Plains
         | Builtin::Element
         | Builtin::Answer
         | Builtin::Function

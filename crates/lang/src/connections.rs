@@ -7,6 +7,7 @@ use crate::kinds::Kind;
 use crate::lower::Lowerer;
 use crate::members::Pending;
 use crate::scope::Scope;
+use base::Place;
 use kernel::{ClassId, ClassKind, Given, Merge, Path, Step};
 use std::rc::Rc;
 use syntax::ast::{AstNode, Expr};
@@ -39,6 +40,8 @@ impl Lowerer<'_> {
         let given = self
             .expr(scope, value)
             .map(|(value, _)| Rc::new(Given { path: part.clone(), value, origin }));
+        let place = Place { file: scope.file, span: value.span() };
+        self.warn_of_ends(scope, &[part.clone(), of.clone()], place, "");
         let class = &mut self.document.classes[scope.class()];
         class.connections.extend(given);
         class.merges.push(Merge { name: None, paths: vec![of, part], origin });
@@ -56,7 +59,7 @@ impl Lowerer<'_> {
         let mut part = prefix;
         let mut class = self.class_at(scope.class(), &part);
         if let Some(target) = target {
-            let mut own = scope.clone();
+            let mut own = Scope { outwards: None, ..scope.clone() };
             own.classes = vec![class.filter(|_| !part.is_empty()).unwrap_or(scope.class())];
             let (rest, of) = self.path(&own, target)?;
             (part, class) = (part.join(&rest), of);

@@ -5,8 +5,8 @@ use crate::lower::Lowerer;
 use crate::members::is_constant;
 use crate::names::LONGEST_WORD;
 use crate::scope::Scope;
-use base::{Diagnostic, Name, Place};
-use kernel::{Class, ClassId, Document, Message};
+use base::{Diagnostic, Name, Place, Span};
+use kernel::{Class, ClassId, Document, Message, Path};
 use syntax::ast::{self, AstNode, BinaryOp, Expr};
 
 /// How many names a hint lists.
@@ -38,6 +38,7 @@ impl Lowerer<'_> {
         target: &Expr,
         value: &Expr,
     ) {
+        self.hint_computed(before, target, value);
         let Expr::Name(name) = target else { return };
         let Some(word) = name.name() else { return };
         let unknown = |d: &Diagnostic| d.code == "unknown-name" && d.place.span == word.span();
@@ -71,6 +72,41 @@ impl Lowerer<'_> {
         };
     }
 
+    /// Says how a message of a class is asked, and what it answers.
+    pub(crate) fn as_asked(&self, definer: ClassId, name: &Name) -> Option<String> {
+        let message = self.defined_message(definer, name)?;
+        let labelled = message.parameters.iter().map(|p| match p.label == p.name {
+            true => p.name.to_string(),
+            false => format!("{}: {}", p.label, p.name),
+        });
+        let word = match labelled.collect::<Vec<_>>() {
+            none if none.is_empty() => message.word().to_string(),
+            some => format!("{}({})", message.word(), some.join(", ")),
+        };
+        match message.doc.trim() {
+            "" => Some(format!("it is asked as `{word}`")),
+            says => Some(format!("`{word}`: {}", says.lines().next()?)),
+        }
+    }
+
+    /// Says of what is computed and is given a value, that it is said by a constraint.
+    fn hint_computed(&mut self, before: usize, target: &Expr, value: &Expr) {
+        let (file, span) = match self.diagnostics.get(before) {
+            Some(d) if d.code == "virtual-part" => (d.place.file, target.span()),
+            _ => return,
+        };
+        let [of, value] = [target, value].map(|e| e.syntax().text().to_string().trim().to_string());
+        if value.contains('\n') {
+            return;
+        }
+        let d = &self.diagnostics[before];
+        let plain = Diagnostic::error(d.code, d.place, d.message.clone());
+        let start = Span::new(span.start, span.start);
+        self.diagnostics[before] = plain
+            .hint(format!("what it shall be is a constraint: `constraint {of} = {value}`"))
+            .fix("write constraint", [(Place { file, span: start }, "constraint ".to_string())]);
+    }
+
     /// Says how a part further out is named, where one of the thing itself has its name and is not what is wanted.
     pub(crate) fn meant_further_out(
         &mut self,
@@ -87,6 +123,24 @@ impl Lowerer<'_> {
             }
         }
         None
+    }
+
+    /// Says which part of what is given a thing can be that thing: `a.node = n` for `a = n`.
+    pub(crate) fn meant_part_of_it(
+        &self,
+        path: &Path,
+        (found, wanted): (&Kind, &Kind),
+        value: &Expr,
+    ) -> Option<String> {
+        let (Kind::Thing(_), Kind::Thing(class)) = (found, wanted) else { return None };
+        let fields = self.document.layout(*class).into_iter();
+        let mut fitting = fields.filter(|&field| {
+            let kind = Kind::of_class(&self.document, self.document.field_class(field));
+            matches!(kind, Kind::Thing(_)) && found.fits(&kind, &self.document)
+        });
+        let name = self.document.field_name(fitting.next()?);
+        let written = value.syntax().text().to_string();
+        Some(format!("it has one: `{path}.{name} = {}`", written.trim()))
     }
 
     /// Returns the class that a new part with this value is likely to be of; nothing where it measures what has no name.
@@ -117,6 +171,12 @@ impl Lowerer<'_> {
         let written = value.syntax().text().to_string().trim().to_string();
         let place = d.place;
         match (found, wanted, value) {
+            (Kind::Number(_), Kind::Number(_), Expr::Binary(quotient))
+                if let Some(number) = fraction_of_unit(quotient) =>
+            {
+                d.hint(format!("a unit belongs to the number before it alone: write `{number}`"))
+                    .fix(format!("write {number}"), [(place, number)])
+            }
             (Kind::Number(_), Kind::Text, Expr::Number(_)) => {
                 let quoted = format!("\"{written}\"");
                 d.hint(format!("a text stands in quotes: `{quoted}`"))
@@ -264,6 +324,17 @@ fn written(asked: &str, message: &Message) -> String {
         true => format!("{asked}.{}", message.word()),
         false => format!("{asked}.{}({})", message.word(), labels.join(", ")),
     }
+}
+
+/// Returns `0.25 in` for `1/4 in`, which is 1 divided by 4 inches.
+fn fraction_of_unit(quotient: &ast::BinaryExpr) -> Option<String> {
+    let (BinaryOp::Divide, Expr::Number(above), Expr::Number(below)) =
+        (quotient.op()?, quotient.left()?, quotient.right()?)
+    else {
+        return None;
+    };
+    let x = above.value().filter(|_| above.unit().is_none())? / below.value()?;
+    Some(format!("{} {}", base::number::shortest(x), below.unit()?.text()))
 }
 
 /// Returns the unit in `5 h = 6`, which somebody may have meant for the name of the next part.

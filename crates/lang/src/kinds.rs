@@ -147,6 +147,11 @@ impl Kind {
             }
             (Builtin::Place, _) => false,
             (Builtin::List, _) => matches!(self, Self::List(_) | Self::Tuple(_)),
+            (Builtin::Plains, Self::List(element)) => element.is(Builtin::Plain, first, document),
+            (Builtin::Plains, Self::Tuple(items)) => {
+                items.iter().all(|item| item.is(Builtin::Plain, first, document))
+            }
+            (Builtin::Plains, _) => false,
             (Builtin::Numbers, Self::List(element)) => element.is(Builtin::Same, first, document),
             (Builtin::Numbers, _) => self.is(Builtin::Same, first, document),
             (Builtin::Function, _) => *self == Self::Function,
@@ -177,6 +182,7 @@ pub(crate) fn wanted_in_words(wanted: Builtin, first: &Kind, document: &Document
         Builtin::Color => "a colour, a text".into(),
         Builtin::Place => "a place, (x, y)".into(),
         Builtin::List => "a list".into(),
+        Builtin::Plains => "a list of plain numbers".into(),
         Builtin::Function => "a function, `x => …`".into(),
         Builtin::Picture | Builtin::Pictures => "a picture".into(),
         Builtin::Element | Builtin::Answer | Builtin::Any => "something".into(),

@@ -24,6 +24,7 @@
 //! `numbers`, `operations`, `mixed`, `write`, `uses`,
 //! `edits`, `references`, `mentions`.
 mod alone;
+mod angles;
 mod bindings;
 mod calls;
 mod checks;
@@ -34,6 +35,7 @@ mod connections;
 mod constraints;
 mod counts;
 mod edits;
+mod ends;
 mod families;
 mod files;
 mod hints;
@@ -51,6 +53,7 @@ mod names;
 mod numbers;
 mod operations;
 mod origins;
+mod outwards;
 mod paths;
 mod placed;
 mod programs;

@@ -4,6 +4,7 @@
 //! loop its name means the element of the turn.
 
 mod declared;
+mod listed;
 
 use crate::lower::Lowerer;
 use crate::members::Pending;
@@ -36,8 +37,8 @@ enum Written {
 enum Over {
     /// Whole numbers from this one on.
     Numbers(i64),
-    /// What is written, one after the other.
-    Written(Vec<Written>),
+    /// What is written, one row after the other, with as many in each as there are names.
+    Written(Vec<Vec<Written>>),
     /// Elements of a list, as many at a time as there are names.
     Elements { path: Path, element: ClassId },
 }
@@ -132,11 +133,17 @@ impl Lowerer<'_> {
             other => (Some(other.clone()), 1),
         };
         let named = each.names().count();
+        if let Some(rows) = over.as_ref().filter(|_| together == 1) {
+            let written = self.listed(scope, rows);
+            // names of things are looked for where they stand
+            let is_here = matches!(rows, Expr::List(_) | Expr::Tuple(_));
+            if let Some(written) = written.filter(|_| is_here || named > 1) {
+                return self.written_rows(scope, each, &written);
+            }
+        }
         if named != together as usize {
             let message = format!("{named} names for {together} at a time");
-            let place = Place { file: scope.file, span: each.span() };
-            let d = Diagnostic::error("wrong-arity", place, message);
-            self.report(d.hint("`for a in list`, `for a, b in list.neighbours`, `for i in 0..3`"));
+            self.refuse_names(scope, each, message);
             return None;
         }
         let Some(list) = over else {
@@ -152,17 +159,6 @@ impl Lowerer<'_> {
             let count = u32::try_from(count).unwrap_or(u32::MAX);
             return Some((count, Over::Numbers(from)));
         };
-        let written = match &list {
-            Expr::List(list) => Some(list.elements().collect::<Vec<Expr>>()),
-            Expr::Tuple(tuple) => Some(tuple.elements().collect()),
-            _ => None,
-        };
-        if let Some(written) = written.filter(|_| together == 1) {
-            let over: Option<Vec<Written>> =
-                written.iter().map(|e| self.written(scope, e)).collect();
-            let count = written.len() as u32;
-            return Some((count, Over::Written(over?)));
-        }
         if !matches!(list, Expr::Name(_) | Expr::Field(_) | Expr::Index(_) | Expr::Paren(_)) {
             let place = Place { file: scope.file, span: list.span() };
             let message = "a `for` goes through a range of whole numbers, a list that is a part, or what is listed";
@@ -192,19 +188,6 @@ impl Lowerer<'_> {
         };
         let count = elements.saturating_sub(together - 1);
         Some((count, Over::Elements { path, element }))
-    }
-
-    /// Finds what a loop binds its name to where it is written: a whole number, or a part.
-    fn written(&mut self, scope: &Scope, e: &Expr) -> Option<Written> {
-        match self.constant(scope, e) {
-            Some(number) if !matches!(e, Expr::Name(_)) || scope.constant(e).is_some() => {
-                Some(Written::Number(number))
-            }
-            _ => {
-                let (path, class) = self.path(scope, e)?;
-                Some(Written::Thing { path, class })
-            }
-        }
     }
 
     /// Loops of a class go on in what gives a list that they go through more elements.
@@ -311,7 +294,7 @@ pub(crate) fn turn_of(scope: &Scope, turns: &Turns, turn: u32) -> Scope {
     for (i, name) in (0..).zip(&turns.bound) {
         match &turns.over {
             Over::Numbers(from) => inner.bind_number(name.clone(), from + i64::from(turn)),
-            Over::Written(all) => match &all[turn as usize] {
+            Over::Written(rows) => match &rows[turn as usize][i as usize] {
                 Written::Number(number) => inner.bind_number(name.clone(), *number),
                 Written::Thing { path, class } => {
                     inner.bind_element(name.clone(), path.clone(), *class);

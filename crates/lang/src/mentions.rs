@@ -81,7 +81,7 @@ impl Lowerer<'_> {
             (Meant::Message, says, message.doc.clone())
         } else {
             let is_it = |c: &&kernel::Constraint| c.name.as_ref() == Some(&symbol.name);
-            let doc = class.constraints.iter().find(is_it).map(|c| c.doc.clone());
+            let doc = class.constraints.iter().find(is_it).map(|c| c.doc.to_string());
             (Meant::Constraint, format!("constraint {}", symbol.name), doc.unwrap_or_default())
         };
         let place = self.named_at.get(&key).or_else(|| self.rule_names.get(&key));

@@ -38,7 +38,7 @@ impl Lowerer<'_> {
         if scope.is_program && self.is_step_elsewhere(scope, word) {
             return None;
         }
-        for (class, me) in owners(scope) {
+        for (class, me) in owners(scope).into_iter().skip(scope.passed_over(&name)) {
             if let Some(kind) = self.kind_of_part(class, &name) {
                 let takes = self.find_message(class, &name, None);
                 let takes = takes.map_or(0, |(_, m)| m.parameters.len());

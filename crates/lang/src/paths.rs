@@ -59,8 +59,9 @@ impl Lowerer<'_> {
         if let Some(element) = scope.element(&word.name()) {
             return Some((scope.path_to(element), self.class_of_variable(scope, element)));
         }
-        let mut path = Path::default();
-        for &class in &scope.classes {
+        let passed_over = scope.passed_over(word.text());
+        let mut path = Path(vec![Step::Owner; passed_over]);
+        for &class in scope.classes.iter().skip(passed_over) {
             if let Some(part) = self.class_of_part(class, &word.name()) {
                 let place = Place { file: scope.file, span: word.span() };
                 self.refer(place, &word.name(), class);

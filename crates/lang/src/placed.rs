@@ -388,7 +388,7 @@ impl Lowerer<'_> {
         let Some(rule) = rule else { return true };
         let joint = Constraint {
             name,
-            doc: String::new(),
+            doc: Box::default(),
             rule,
             strength: Strength::Required,
             methods: Vec::new(),

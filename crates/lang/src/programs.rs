@@ -179,7 +179,12 @@ impl Lowerer<'_> {
                     };
                     let message = "a program has steps, messages and demands on its parameters";
                     let d = Diagnostic::error("not-a-step", place, message);
-                    self.report(d.hint("a step is `name = …`; a parameter stands in the brackets"));
+                    self.report(d.hint(match other {
+                        Member::Program(_) | Member::Class(_) => {
+                            "write it beside this one, at the top of the text: it is called by its name"
+                        }
+                        _ => "a step is `name = …`; a parameter stands in the brackets",
+                    }));
                 }
             }
         }

@@ -322,7 +322,7 @@ impl Lowerer<'_> {
             |m: &Method| Method { values: m.values.iter().map(term).collect(), ..m.clone() };
         let constraint = |c: Constraint| Constraint {
             rule: term(&c.rule),
-            within: c.within.as_ref().map(term),
+            within: c.within.as_deref().map(term).map(Box::new),
             methods: c.methods.iter().map(method).collect(),
             ..c
         };
@@ -357,7 +357,8 @@ impl Lowerer<'_> {
         };
         self.masks.push(mask);
         let written = Written { rule, tolerance: replace.tolerance(), methods: replace.methods() };
-        self.add_constraint(scope, written, Heading { name: Some(name), doc, strength, origin });
+        let heading = Heading { name: Some(name), doc: doc.to_string(), strength, origin };
+        self.add_constraint(scope, written, heading);
     }
 
     /// Finds the constraint or merge that a mask names: the parts on the way to it, and its name.

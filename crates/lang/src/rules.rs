@@ -92,7 +92,8 @@ impl Lowerer<'_> {
                 self.define(&scope, &member, &mut trails);
             }
         }
-        for pending in others {
+        for mut pending in others {
+            self.look_outwards(&mut pending);
             if self.connect(&pending) {
                 continue;
             }
@@ -120,6 +121,9 @@ impl Lowerer<'_> {
                         Some(term) => {
                             self.speaks_of_no_thing(&scope, &name, answer, &term);
                             self.document.classes[class].messages[index].answer = term;
+                            if loops.is_empty() {
+                                self.tell_angle(&scope, index, answer);
+                            }
                         }
                         None => {
                             self.messages.shift_remove(&(class, name.clone()));
@@ -145,7 +149,7 @@ impl Lowerer<'_> {
         let mut class = self.class_at(scope.class(), &path);
         if let Some(target) = target {
             // what is given belongs to the thing itself, not to one around it
-            let mut own = scope.clone();
+            let mut own = Scope { outwards: None, ..scope.clone() };
             own.classes = match class {
                 Some(c) if !path.is_empty() => vec![c],
                 _ => vec![scope.class()],
@@ -184,7 +188,8 @@ impl Lowerer<'_> {
             let unit = unit_before_equals(value);
             let hint = unit
                 .map(|unit| is_a_unit(&unit))
-                .or_else(|| self.meant_further_out(scope, value, &wanted));
+                .or_else(|| self.meant_further_out(scope, value, &wanted))
+                .or_else(|| self.meant_part_of_it(&path, (&kind, &wanted), value));
             let d = match hint {
                 Some(hint) => d.hint(hint),
                 None => self.with_value_hint(d, (&kind, &wanted), value),
@@ -342,6 +347,8 @@ impl Lowerer<'_> {
                     return;
                 }
                 if paths.len() == wanted && wanted > 1 {
+                    let place = Place { file: scope.file, span: merge.span() };
+                    self.warn_of_ends(scope, &paths, place, "merge ");
                     self.document.classes[class].merges.push(Merge { name, paths, origin });
                 }
             }
@@ -451,6 +458,9 @@ impl Lowerer<'_> {
             return;
         }
         let Some(name) = self.rule_name(scope, c.name()) else { return };
+        if let Rule::Holds(rule) = &rule {
+            self.warn_of_equals(scope, rule);
+        }
         let written = Written { rule, tolerance: c.tolerance(), methods: c.methods() };
         let strength = c.strength().map_or(Strength::Required, strength);
         let doc = c.doc().unwrap_or_default();
@@ -499,13 +509,13 @@ impl Lowerer<'_> {
         let Heading { name, doc, strength, origin } = heading;
         self.document.classes[scope.class()].constraints.push(Constraint {
             name,
-            doc,
+            doc: doc.into(),
             rule: term,
             strength,
             methods,
             derived,
             reads,
-            within,
+            within: within.map(Box::new),
             origin,
         });
     }

@@ -6,7 +6,7 @@
 use expr::dimension::Dimension;
 use kernel::Scale;
 use kernel::quantity::is_of_the_sheet;
-use syntax::ast::{AstNode, NumberExpr};
+use syntax::ast::{AstNode, NumberExpr, Part};
 use syntax::{Parse, SyntaxKind, WalkEvent};
 
 /// Numbers between these, in units of SI, are of everyday size.
@@ -33,14 +33,41 @@ pub(crate) type Counting = (Scale, bool);
 pub(crate) fn of(parse: &Parse, before: Option<Scale>) -> Counting {
     let quantities = quantities(parse);
     let has_unit = parse.outline().any(|(kind, _)| kind == SyntaxKind::UnitLine);
-    let is_length = |(_, d): &(f64, Dimension)| is_of_the_sheet(*d);
-    let writes_lengths = !has_unit && quantities.iter().any(is_length);
+    let any = |is: fn(Dimension) -> bool| quantities.iter().any(|(_, d)| is(*d));
+    let writes_lengths =
+        !has_unit && (any(is_of_the_sheet) || any(names_a_length) && !has_bare_places(parse));
     let best = best(quantities, has_unit);
     let is_near = |scale: &Scale| scale.0.iter().zip(best.0).all(|(a, b)| a.abs_diff(b) <= NEAR);
     (
         before.filter(|scale| *scale != Scale::default()).filter(is_near).unwrap_or(best),
         writes_lengths,
     )
+}
+
+/// Returns true for what is written with a unit of length, `m/s`, `kg/m^3`; not for a newton, which the writer of a
+/// bare length may well have.
+fn names_a_length(dimension: Dimension) -> bool {
+    let [length, mass, time, others @ ..] = dimension.0;
+    let is_plain = others.iter().all(|&exponent| exponent == 0) && (mass == 0 || time == 0);
+    is_plain && length != 0
+}
+
+/// Returns true for a text that writes places, or lengths by their class, without units.
+fn has_bare_places(parse: &Parse) -> bool {
+    let is_bare = |number: &NumberExpr| number.unit().is_none();
+    stated(parse).iter().filter(|number| is_bare(number)).any(|number| {
+        let above = number.syntax().ancestors().find(|n| {
+            matches!(n.kind(), SyntaxKind::TupleExpr | SyntaxKind::Part | SyntaxKind::Assign)
+        });
+        above.is_some_and(|above| match above.kind() {
+            SyntaxKind::Part => {
+                let part = Part::cast(above);
+                let class = part.and_then(|part| part.class());
+                class.is_some_and(|class| class.syntax().text().to_string().trim() == "Length")
+            }
+            kind => kind == SyntaxKind::TupleExpr,
+        })
+    })
 }
 
 fn best(mut quantities: Vec<(f64, Dimension)>, has_unit: bool) -> Scale {
@@ -138,6 +165,16 @@ mod tests {
     fn everyday_numbers_stay_in_si() {
         assert_eq!(scale("x: Length = 3 m\ny: Resistance = 4.7 kohm\n"), Scale::default());
         assert_eq!(scale("x: Real = 1e-30\n"), Scale::default());
+    }
+    #[test]
+    fn lengths_have_a_unit_where_a_velocity_has() {
+        let writes = |text: &str| of(&syntax::parse(base::FileId(0), text), None).1;
+        assert!(writes("v: Velocity = 100 km/h\nd: Length = v^2 / (2 * 8 m/s^2)\n"));
+        assert!(writes("rho: Density = 1000 kg/m^3\n"));
+        assert!(!writes("rho: Density = 1000 kg/m^3\np: Point = (10, 20.5)\n"));
+        assert!(!writes("v: Velocity = 3 m/s\nd: Length = 20\n"));
+        assert!(!writes("f: Force = 5 N\nx: Length = 20\n"));
+        assert!(!writes("unit mm\nv: Velocity = 100 km/h\n"));
     }
     #[test]
     fn checks_and_tolerances_say_nothing_of_the_scale() {

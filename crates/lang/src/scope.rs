@@ -23,6 +23,8 @@ pub(crate) struct Scope {
     pub(crate) turns: Vec<u32>,
     /// True in the steps of a program: of its steps those are seen that are among the locals.
     pub(crate) is_program: bool,
+    /// The name that is not looked for in the innermost class: a value of a body means what is further out by it.
+    pub(crate) outwards: Option<Name>,
 }
 
 /// An element of a list that `for` goes through.
@@ -47,6 +49,7 @@ impl Scope {
             elements: Vec::new(),
             turns: Vec::new(),
             is_program: false,
+            outwards: None,
         }
     }
     /// Returns the class whose things are `Me`.
@@ -58,12 +61,17 @@ impl Scope {
         let mut inner = self.clone();
         inner.classes.insert(0, class);
         inner.turns.clear();
+        inner.outwards = None;
         inner
     }
     pub(crate) fn with_local(&self, name: Name, kind: Kind) -> Self {
         let mut inner = self.clone();
         inner.locals.push((name, kind));
         inner
+    }
+    /// Returns how many of the innermost classes a name is not looked for in.
+    pub(crate) fn passed_over(&self, name: &str) -> usize {
+        usize::from(self.outwards.as_ref().is_some_and(|outwards| *outwards == name))
     }
     /// Makes a name stand for a number.
     pub(crate) fn bind_number(&mut self, name: Name, value: i64) {

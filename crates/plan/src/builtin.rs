@@ -9,6 +9,9 @@ use expr::{Binary, ExprId, Unary};
 use kernel::builtin::{THING_MESSAGES, find};
 use kernel::{BinaryOperator, ClassId, ClassKind, Primitive};
 
+/// So many numbers are sorted by comparisons in the rule, for which it has about as many squared.
+const MOST_SORTED: usize = 32;
+
 impl<'a> Opening<'a> {
     /// Calls a function of the language: `sqrt(x)`, `max(a, b, c)`.
     pub(crate) fn call(&mut self, name: &Name, arguments: &[Given<'a>]) -> Answer<'a> {
@@ -30,16 +33,14 @@ impl<'a> Opening<'a> {
                 let below = self.fold(Binary::Min, &[x.clone(), high.clone()])?;
                 self.fold(Binary::Max, &[low.clone(), below])
             }
-            ("min", [list @ Meaning::List(_)]) => {
-                let items = self.items(list)?;
-                self.fold(Binary::Min, &items)
+            ("min" | "max", of) => {
+                let operator = if *name == *"min" { Binary::Min } else { Binary::Max };
+                match of {
+                    [list] if let Ok(items) = self.items(list) => self.fold(operator, &items),
+                    numbers => self.fold(operator, numbers),
+                }
             }
-            ("max", [list @ Meaning::List(_)]) => {
-                let items = self.items(list)?;
-                self.fold(Binary::Max, &items)
-            }
-            ("min", items) => self.fold(Binary::Min, items),
-            ("max", items) => self.fold(Binary::Max, items),
+            ("rgb", of) => Ok(self.opaque(of)),
             ("allDifferent", [list]) if self.items(list).is_ok() => {
                 let items = self.items(list)?;
                 self.all_different(&items)
@@ -214,6 +215,21 @@ impl<'a> Opening<'a> {
             }
             ("min", []) => self.fold(Binary::Min, &items),
             ("max", []) => self.fold(Binary::Max, &items),
+            ("mean" | "median" | "sorted", []) if items.is_empty() && *name != *"sorted" => {
+                Err(empty(name))
+            }
+            ("mean", []) => self.mean(&items),
+            ("product", []) if items.is_empty() => Ok(self.number(1.0)),
+            ("product", []) => self.fold(Binary::Mul, &items),
+            ("median" | "sorted", []) => {
+                let Some(sorted) = self.sorted(&items)? else {
+                    return Ok(self.opaque(items.iter()));
+                };
+                match name.as_str() {
+                    "sorted" => Ok(Meaning::List(sorted.into())),
+                    _ => self.mean(&sorted[(sorted.len() - 1) / 2..=sorted.len() / 2]),
+                }
+            }
             ("map", [f]) => Ok(Meaning::List(self.map(&items, f)?.into())),
             ("filter", [f]) => {
                 let mut kept = Vec::new();
@@ -297,6 +313,30 @@ impl<'a> Opening<'a> {
         function: &Meaning<'a>,
     ) -> Result<Vec<Meaning<'a>>, Trouble> {
         items.iter().map(|item| self.apply(function, std::slice::from_ref(item))).collect()
+    }
+
+    /// Returns the mean of some numbers, not none.
+    fn mean(&mut self, items: &[Meaning<'a>]) -> Answer<'a> {
+        let sum = self.fold(Binary::Add, items)?;
+        let count = self.number(items.len() as f64);
+        self.binary(BinaryOperator::Divide, &sum, &count)
+    }
+
+    /// Sorts numbers by size: neighbours in the wrong order change places until there are none (odd-even transposition
+    /// sort). Returns nothing for many, which are sorted beside the rules.
+    fn sorted(&mut self, items: &[Meaning<'a>]) -> Result<Option<Vec<Meaning<'a>>>, Trouble> {
+        if items.len() > MOST_SORTED || items.iter().any(|m| matches!(m, Meaning::Opaque(_))) {
+            return Ok(None);
+        }
+        let mut sorted = items.to_vec();
+        for round in 0..sorted.len() {
+            for at in (round % 2..sorted.len().saturating_sub(1)).step_by(2) {
+                let pair = [sorted[at].clone(), sorted[at + 1].clone()];
+                sorted[at] = self.fold(Binary::Min, &pair)?;
+                sorted[at + 1] = self.fold(Binary::Max, &pair)?;
+            }
+        }
+        Ok(Some(sorted))
     }
 
     /// Joins numbers from the first to the last.

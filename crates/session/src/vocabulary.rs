@@ -117,6 +117,7 @@ fn in_words(kind: Kind) -> &'static str {
         Kind::Color => "a colour",
         Kind::Place => "a place",
         Kind::List => "a list",
+        Kind::Plains => "a list of plain numbers",
         Kind::Numbers => "numbers of one quantity, or a list of these",
         Kind::Element => "an element",
         Kind::Answer => "an answer",

@@ -488,7 +488,7 @@ pub(crate) fn show_slot(state: &State, slot: SlotId, values: &Values) -> Shown {
             let quantity = quantity_of(state, slot, &written);
             let document = &state.lowered.document;
             let shown = kernel::show_quantity(x, quantity, document);
-            if !is_rounding(state, slot, values) {
+            if !is_rounding(state, slot, values) && !is_rounding_of_a_sum(state, slot, values) {
                 return shown;
             }
             let nothing = kernel::show_quantity(0.0, quantity, document);
@@ -514,6 +514,29 @@ fn is_rounding(state: &State, slot: SlotId, values: &Values) -> bool {
     let all = state.structure.slots_under(place);
     let largest = all.into_iter().map(|slot| values.numbers[slot].abs()).fold(0.0, f64::max);
     x < ROUNDING * largest
+}
+
+/// Returns true for a computed member of a set that is no more than rounding beside the others there: what is left of a
+/// sum, as the current into a ground that nothing else leads to.
+fn is_rounding_of_a_sum(state: &State, slot: SlotId, values: &Values) -> bool {
+    let (document, structure) = (&state.lowered.document, &state.structure);
+    let s = &structure.slots[slot];
+    let x = values.numbers[slot].abs();
+    if s.given.is_some() || x == 0.0 || structure.sets.is_empty() {
+        return false;
+    }
+    let largest_beside = |thing: ThingId| {
+        let owner = structure.things[thing].owner?;
+        let line = document.primary_line(structure.things[owner].class);
+        let inserts = line.iter().flat_map(|&c| &document.classes[c].inserts);
+        let mut sets = inserts.filter(|i| structure.follow(owner, &i.part).ok() == Some(thing));
+        let set = structure.follow(owner, &sets.next()?.set).ok()?;
+        let members = structure.sets.get(&structure.merged[set])?;
+        let sizes = members.iter().filter_map(|&m| structure.slot_of(m));
+        Some(sizes.map(|slot| values.numbers[slot].abs()).fold(0.0, f64::max))
+    };
+    let merged = structure.merged_with(s.thing);
+    merged.into_iter().filter_map(largest_beside).any(|largest| x < ROUNDING * largest)
 }
 
 /// Returns what has no unit, as it is.

@@ -25,14 +25,15 @@ const CURVED: usize = 10;
 #[derive(Debug)]
 pub struct Pattern {
     excerpt: Excerpt,
-    arena: OnceCell<Arena>,
-    arity: usize,
+    arena: OnceCell<Box<Arena>>,
+    arity: u32,
     plain: Option<Plain>,
     has_pieces: bool,
     has_angles: bool,
     values: OnceCell<Rc<Tape>>,
     kernel: OnceCell<Rc<Kernel>>,
-    identified: RefCell<BTreeMap<Box<[u32]>, Identified>>,
+    /// Few patterns have some.
+    identified: RefCell<Option<Box<BTreeMap<Box<[u32]>, Identified>>>>,
 }
 
 /// Returns true if an operation takes or gives an angle.
@@ -69,7 +70,7 @@ impl Pattern {
         Self {
             excerpt,
             arena: OnceCell::new(),
-            arity,
+            arity: arity as u32,
             plain,
             has_pieces,
             has_angles,
@@ -80,7 +81,7 @@ impl Pattern {
     }
     /// Returns its expressions, in an arena that holds nothing else.
     pub fn arena(&self) -> &Arena {
-        self.arena.get_or_init(|| Arena::of_excerpt(&self.excerpt))
+        self.arena.get_or_init(|| Box::new(Arena::of_excerpt(&self.excerpt)))
     }
     /// Returns its expressions: of an equation, the left and the right side.
     pub fn roots(&self) -> &[ExprId] {
@@ -88,7 +89,7 @@ impl Pattern {
     }
     /// Returns the number of arguments; each occurs in it.
     pub fn arity(&self) -> usize {
-        self.arity
+        self.arity as usize
     }
     /// Writes its expressions out over slots.
     pub(crate) fn write_out(&self, arena: &mut Arena, arguments: &[SlotIndex]) -> Vec<ExprId> {
@@ -127,7 +128,7 @@ impl Pattern {
     /// If it has not two expressions.
     pub fn compile(&self) {
         self.kernel().complete();
-        if self.arity <= CURVED {
+        if self.arity() <= CURVED {
             self.kernel().complete_curves();
         }
     }
@@ -136,7 +137,7 @@ impl Pattern {
     /// # Panics
     /// If it has not two expressions.
     pub fn compile_where(&self, first: &[u32]) {
-        if !self.identified.borrow().contains_key(first) {
+        if self.known_identified(first).is_none() {
             self.identified(first).0.compile();
         }
     }
@@ -210,20 +211,24 @@ impl Pattern {
             let [left, right] = self.roots() else { panic!("an equation has two sides") };
             let sides = self.values().clone();
             let arena = Arena::to_derive(&self.excerpt);
-            Rc::new(Kernel::compile(arena, *left, *right, self.arity as u32, sides))
+            Rc::new(Kernel::compile(arena, *left, *right, self.arity, sides))
         })
+    }
+    fn known_identified(&self, which: &[u32]) -> Option<Identified> {
+        self.identified.borrow().as_ref()?.get(which).cloned()
     }
     /// Returns the pattern with every argument replaced by one before it, or itself.
     pub(crate) fn identified(&self, which: &[u32]) -> Identified {
-        if let Some(known) = self.identified.borrow().get(which) {
-            return known.clone();
+        if let Some(known) = self.known_identified(which) {
+            return known;
         }
         let mut arena = Arena::for_nodes(self.excerpt.nodes.len());
         let roots = self.write_out(&mut arena, which);
         let (excerpt, left) = arena.excerpt(&roots);
         let left = left.into_iter().map(|v| v.0).collect();
         let made = (Rc::new(Self::new(excerpt)), left);
-        self.identified.borrow_mut().insert(which.into(), made.clone());
+        let mut identified = self.identified.borrow_mut();
+        identified.get_or_insert_default().insert(which.into(), made.clone());
         made
     }
 }

@@ -549,6 +549,12 @@ fn token_fault(file: FileId, text: &str, span: Span, fault: Fault) -> Diagnostic
                 Some('≥') => "write `>=`",
                 Some('≠') => "write `!=`",
                 Some('√') => "write `sqrt(x)`",
+                Some('°') if follows(text, span, "°C") => {
+                    "temperatures are in kelvin: 20 °C is `293.15 K`, and a step of 1 °C is `1 K`"
+                }
+                Some('°') if follows(text, span, "°F") => {
+                    "temperatures are in kelvin: 68 °F is `293.15 K`, and a step of 9 °F is `5 K`"
+                }
                 Some('²') => "write `^2`",
                 Some('³') => "write `^3`",
                 Some('$' | '@' | '\\' | '~' | '?' | '`') => {
@@ -559,6 +565,11 @@ fn token_fault(file: FileId, text: &str, span: Span, fault: Fault) -> Diagnostic
             d.hint(hint)
         }
     }
+}
+
+/// Returns true if the text goes on with these words where a span begins.
+fn follows(text: &str, span: Span, words: &str) -> bool {
+    text.get(span.range().start..).is_some_and(|rest| rest.starts_with(words))
 }
 
 impl From<SyntaxKind> for rowan::SyntaxKind {

@@ -151,7 +151,7 @@ impl Build {
     pub(crate) fn constraint(&mut self, class: ClassId, name: &str, rule: Term) -> &mut Constraint {
         let constraint = Constraint {
             name: Some(Name::new(name)),
-            doc: String::new(),
+            doc: Box::default(),
             rule,
             strength: Strength::Required,
             methods: Vec::new(),

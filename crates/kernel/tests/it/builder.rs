@@ -68,7 +68,7 @@ impl Builder {
     pub(crate) fn constraint(&mut self, class: ClassId, name: &str) {
         self.0[class].constraints.push(Constraint {
             name: Some(name.into()),
-            doc: String::new(),
+            doc: Box::default(),
             rule: Term::Bool(true),
             strength: Strength::Required,
             methods: Vec::new(),

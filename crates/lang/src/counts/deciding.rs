@@ -161,6 +161,10 @@ impl Lowerer<'_> {
         for e in e.syntax().descendants().filter_map(Expr::cast) {
             let number = match &e {
                 Expr::Name(name) => name.name().and_then(|w| self.constant_named(scope, &w.name())),
+                Expr::Index(_) => {
+                    known.extend(self.listed_number(scope, &e).map(|n| (e.span(), n)));
+                    continue;
+                }
                 e => self.constant_count(scope, e),
             };
             known.extend(number.map(|n| (e.span(), n as f64)));

@@ -88,7 +88,7 @@ impl Builder {
         let constraints = &mut self.document.classes[class].constraints;
         constraints.push(Constraint {
             name: None,
-            doc: String::new(),
+            doc: Box::default(),
             rule,
             strength: Strength::Required,
             methods: Vec::new(),

@@ -203,7 +203,7 @@ impl Maker<'_> {
             let holds = !is_on || evaluator.test(instance).is_ok_and(|v| v.holds);
             let mut row = self.row(path, depth, RowKind::Constraint, name, constraint.origin);
             row.detail = self.state.lowered.source_of(constraint.origin);
-            row.doc = constraint.doc.clone();
+            row.doc = constraint.doc.to_string();
             row.enabled = is_on;
             row.value = Some(match (is_on, holds) {
                 (false, _) => "off".into(),

@@ -280,6 +280,13 @@ fn primary(p: &mut Parser<'_>, start: Checkpoint) -> u32 {
             p.finish();
             return height;
         }
+        Dot if mistakes::leading_dot(p) => {
+            p.start(BinaryExpr);
+            p.bump();
+            p.bump();
+            p.eat(Unit);
+            p.finish();
+        }
         Ident if mistakes::unit_before_number(p) || mistakes::bare_call(p) => {
             p.start(BinaryExpr);
             p.bump();

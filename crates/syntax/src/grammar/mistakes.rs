@@ -55,6 +55,23 @@ fn decimal_comma(p: &mut Parser<'_>) -> bool {
     is_one
 }
 
+/// `.5`
+pub(super) fn leading_dot(p: &mut Parser<'_>) -> bool {
+    let is_one = p.at(Dot) && p.nth(1) == Number && p.is_adjacent(1);
+    if is_one {
+        let at = p.pos();
+        let number = format!("0.{}", p.word(1));
+        let said = (
+            "leading-dot",
+            format!("found `.{}`, wanted a digit before the point", p.word(1)),
+            format!("write `{number}`"),
+        );
+        let span = p.span_at(at).join(p.span_at(at + 1));
+        p.report_mistake((at, at + 1), said, Some((span, number)));
+    }
+    is_one
+}
+
 /// `{ load = 900 N, arm = 1.2 m }`: returns true where the comma was reported.
 pub(super) fn comma_between(p: &mut Parser<'_>) -> bool {
     let mut end = 2;

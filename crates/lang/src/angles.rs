@@ -1,0 +1,86 @@
+//! Angles among plain numbers: what is computed of angles is one, and is shown in degrees.
+//!
+//! In: what a message without a class answers. Out: whether it is an angle. `30 deg`, `atan2(y, x)`, what is declared
+//! as an `Angle`, their sums and differences, and what is so many times as large.
+
+use crate::kinds::Kind;
+use crate::lower::{Lowerer, OWN};
+use crate::scope::Scope;
+use syntax::ast::{BinaryOp, Expr, UnaryOp};
+
+/// The units of angles by which a number is told from other plain numbers.
+const UNITS: [&str; 8] = ["deg", "°", "rad", "turn", "rev", "grad", "arcmin", "arcsec"];
+/// The functions that answer angles.
+const ANSWERING: [&str; 4] = ["atan2", "atan", "asin", "acos"];
+/// The functions of numbers that answer what these are.
+const KEEPING: [&str; 4] = ["abs", "min", "max", "clamp"];
+/// Expressions are looked into so deep.
+const DEEPEST: usize = 64;
+
+impl Lowerer<'_> {
+    /// Says of a message without a class whose answer is an angle that it answers one.
+    pub(crate) fn tell_angle(&mut self, scope: &Scope, index: usize, answer: &Expr) {
+        let class = scope.class();
+        let message = &self.document.classes[class].messages[index];
+        let name = message.name.clone();
+        if message.class.is_some()
+            || self.message_kind(class, &name) != Kind::PLAIN
+            || !self.is_angle_within(scope, answer, DEEPEST)
+        {
+            return;
+        }
+        let angle = self.visible.class(OWN, "Angle");
+        self.document.classes[class].messages[index].class = angle;
+    }
+
+    /// Returns true for an expression whose value is an angle, as far as its form and the classes of its parts tell.
+    fn is_angle_within(&mut self, scope: &Scope, e: &Expr, depth: usize) -> bool {
+        let Some(depth) = depth.checked_sub(1) else { return false };
+        let mut of = |e: Option<Expr>| e.is_some_and(|e| self.is_angle_within(scope, &e, depth));
+        match e {
+            Expr::Number(number) => number.unit().is_some_and(|unit| UNITS.contains(&unit.text())),
+            Expr::Paren(inner) => of(inner.inner()),
+            Expr::Unary(unary) => unary.op() != Some(UnaryOp::Not) && of(unary.operand()),
+            Expr::If(choice) => of(choice.then_value()) || of(choice.else_value()),
+            Expr::Let(bindings) => of(bindings.body()),
+            Expr::Binary(binary) => {
+                let (left, right) = (of(binary.left()), of(binary.right()));
+                match binary.op() {
+                    Some(BinaryOp::Add | BinaryOp::Subtract) => left || right,
+                    Some(BinaryOp::Multiply) => left != right,
+                    Some(BinaryOp::Divide) => left && !right,
+                    Some(BinaryOp::Remainder) => left,
+                    _ => false,
+                }
+            }
+            Expr::Call(call) => {
+                let Some(word) = call.name() else { return false };
+                let args = || call.args().into_iter().flat_map(|args| args.args());
+                let is_own = |l: &Self| l.find_message(scope.class(), &word.name(), None).is_none();
+                match word.text() {
+                    name if ANSWERING.contains(&name) => is_own(self),
+                    name if KEEPING.contains(&name) => {
+                        is_own(self)
+                            && args().any(|arg| {
+                                arg.value().is_some_and(|e| self.is_angle_within(scope, &e, depth))
+                            })
+                    }
+                    _ => self.is_declared_angle(scope, e),
+                }
+            }
+            Expr::Name(_) | Expr::Field(_) | Expr::Index(_) => self.is_declared_angle(scope, e),
+            _ => false,
+        }
+    }
+
+    /// Returns true for what is declared as an angle, or answers one.
+    fn is_declared_angle(&mut self, scope: &Scope, e: &Expr) -> bool {
+        let references = self.references.take();
+        self.silent += 1;
+        let found = self.expr(scope, e);
+        self.silent -= 1;
+        self.references = references;
+        let class = found.and_then(|(term, _)| self.declared_class(scope, &term));
+        class.is_some_and(|class| self.document.classes[class].name == *"Angle")
+    }
+}

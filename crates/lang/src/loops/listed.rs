@@ -1,0 +1,115 @@
+//! What a loop goes through where it is written out: `[1, 2, 5]`, `[left, right]`, rows such as `[(0, 1), (1, 2)]`.
+//!
+//! The list may stand in the loop, or be what a message answers: `ends => [(0, 1), (1, 2)]`. Elements of such a list,
+//! `ends[i][0]`, are constants.
+
+use super::{Over, Written};
+use crate::lower::Lowerer;
+use crate::scope::Scope;
+use base::{Diagnostic, Place};
+use syntax::ast::{self, AstNode, Expr};
+
+/// Lists within lists are followed so far.
+const DEEPEST: usize = 16;
+
+impl Lowerer<'_> {
+    /// Finds what a loop binds its names to where that is written, a row a turn.
+    pub(super) fn written_rows(
+        &mut self,
+        scope: &Scope,
+        each: &ast::For,
+        written: &[Expr],
+    ) -> Option<(u32, Over)> {
+        let named = each.names().count();
+        let mut rows = Vec::new();
+        for e in written {
+            let row = match (named, e) {
+                (1, e) => vec![e.clone()],
+                (_, Expr::List(_) | Expr::Tuple(_)) => elements(e)?,
+                (_, other) => {
+                    let message = format!("{named} names for `{}`", other.syntax().text());
+                    self.refuse_names(scope, each, message);
+                    return None;
+                }
+            };
+            if row.len() != named {
+                let message = format!("{named} names for {} in `{}`", row.len(), e.syntax().text());
+                self.refuse_names(scope, each, message);
+                return None;
+            }
+            let row: Option<Vec<Written>> = row.iter().map(|e| self.written(scope, e)).collect();
+            rows.push(row?);
+        }
+        Some((written.len() as u32, Over::Written(rows)))
+    }
+
+    /// Reports a loop with other names than there are values in a turn.
+    pub(super) fn refuse_names(&mut self, scope: &Scope, each: &ast::For, message: String) {
+        let place = Place { file: scope.file, span: each.span() };
+        let d = Diagnostic::error("wrong-arity", place, message);
+        self.report(d.hint(
+            "`for a in list`, `for a, b in list.neighbours`, `for a, b in [(0, 1), (1, 2)]`, `for i in 0..3`",
+        ));
+    }
+
+    /// Finds what a loop binds its name to where it is written: a whole number, or a part.
+    fn written(&mut self, scope: &Scope, e: &Expr) -> Option<Written> {
+        match self.constant(scope, e) {
+            Some(number) if !matches!(e, Expr::Name(_)) || scope.constant(e).is_some() => {
+                Some(Written::Number(number))
+            }
+            _ => {
+                let (path, class) = self.path(scope, e)?;
+                Some(Written::Thing { path, class })
+            }
+        }
+    }
+
+    /// Returns the elements of a list that is written out, where it stands or in what a message of the scope's own
+    /// things answers.
+    pub(super) fn listed(&self, scope: &Scope, list: &Expr) -> Option<Vec<Expr>> {
+        let Expr::Name(name) = list else { return elements(list) };
+        let name = name.name()?.name();
+        if scope.local(&name).is_some() || scope.element(&name).is_some() {
+            return None;
+        }
+        let mut line = self.document.primary_line(scope.class()).into_iter();
+        let definition = line.find_map(|c| self.definitions.get(&(c, name.clone())))?;
+        elements(&definition.answer)
+    }
+
+    /// Returns the number that an element of a list of written numbers is, `ends[i][0]`.
+    pub(crate) fn listed_number(&mut self, scope: &Scope, e: &Expr) -> Option<f64> {
+        let mut indices = Vec::new();
+        let mut list = e.clone();
+        while let Expr::Index(index) = &list {
+            if indices.len() == DEEPEST {
+                return None;
+            }
+            indices.push(self.constant(scope, &index.index()?)?);
+            list = index.receiver()?;
+        }
+        let mut found = None;
+        for at in indices.into_iter().rev() {
+            let items = match found {
+                None => self.listed(scope, &list)?,
+                Some(inner) => elements(&inner)?,
+            };
+            found = Some(items.into_iter().nth(usize::try_from(at).ok()?)?);
+        }
+        crate::numbers::constant(&|_| None, &found?)
+    }
+}
+
+/// Returns the elements of `[a, b]` and `(a, b)`.
+fn elements(list: &Expr) -> Option<Vec<Expr>> {
+    match list {
+        Expr::List(list) => Some(list.elements().collect()),
+        Expr::Tuple(tuple) => Some(tuple.elements().collect()),
+        Expr::Paren(inner) => match inner.inner()? {
+            list @ (Expr::List(_) | Expr::Tuple(_)) => elements(&list),
+            _ => None,
+        },
+        _ => None,
+    }
+}
