@@ -56,17 +56,15 @@ fn names_a_length(dimension: Dimension) -> bool {
 fn has_bare_places(parse: &Parse) -> bool {
     let is_bare = |number: &NumberExpr| number.unit().is_none();
     stated(parse).iter().filter(|number| is_bare(number)).any(|number| {
-        let above = number.syntax().ancestors().find(|n| {
-            matches!(n.kind(), SyntaxKind::TupleExpr | SyntaxKind::Part | SyntaxKind::Assign)
-        });
-        above.is_some_and(|above| match above.kind() {
+        let mut above = number.syntax().ancestors().skip(1);
+        let Some(above) = above.find(|n| n.kind() != SyntaxKind::UnaryExpr) else { return false };
+        match above.kind() {
             SyntaxKind::Part => {
-                let part = Part::cast(above);
-                let class = part.and_then(|part| part.class());
+                let class = Part::cast(above).and_then(|part| part.class());
                 class.is_some_and(|class| class.syntax().text().to_string().trim() == "Length")
             }
             kind => kind == SyntaxKind::TupleExpr,
-        })
+        }
     })
 }
 

@@ -49,7 +49,7 @@ fn sides_may_differ_by_a_billionth_of_the_larger() {
 #[test]
 fn within_is_the_written_measure() {
     let mut b = two_reals();
-    b.constraint(b.root(), "near", equal(part("a"), part("b"))).within = Some(num(0.5));
+    b.constraint(b.root(), "near", equal(part("a"), part("b"))).within = Some(Box::new(num(0.5)));
     assert!(holds(&b, &[x(1.0), x(1.5)]));
     assert!(!holds(&b, &[x(1.0), x(1.51)]));
 }
@@ -115,7 +115,7 @@ fn messages_that_answer_truth_are_opened() {
     assert_eq!((found.holds, found.error), (false, Some(4.0)));
     assert!(holds(&b, &[x(1.0), x(2.0)]));
     let root = b.root();
-    b.document.classes[root].constraints[0].within = Some(num(0.5));
+    b.document.classes[root].constraints[0].within = Some(Box::new(num(0.5)));
     assert!(holds(&b, &[x(1.5), x(2.5)]));
 }
 

@@ -181,9 +181,9 @@ fn constraints_keep_strength_methods_and_reads() {
     );
     let [same, twice, near] = root(&lowered).constraints.as_slice() else { panic!("three") };
     assert_eq!((same.strength, same.methods.len(), same.derived), (Strength::Weak, 1, true));
-    assert_eq!((same.doc.as_str(), same.name.as_deref()), ("Same.", Some("same")));
+    assert_eq!((&*same.doc, same.name.as_deref()), ("Same.", Some("same")));
     assert_eq!((twice.reads.len(), twice.methods.len(), twice.derived), (1, 0, true));
-    assert_eq!(near.within, Some(number(0.5, Dimension::NONE, true)));
+    assert_eq!(near.within, Some(Box::new(number(0.5, Dimension::NONE, true))));
     let complete = right("a, b: Real\nconstraint a = b { a := b }");
     assert!(!root(&complete).constraints[0].derived);
 }
