@@ -13,6 +13,7 @@ use base::{Diagnostic, Name, Place};
 pub(crate) use declared::Repeated;
 use declared::{declared_names, is_declaration};
 use kernel::{ClassId, Path, Step};
+use std::rc::Rc;
 use syntax::ast::{self, AstNode, Expr, Member};
 
 /// How many members all `for` of a document may come to.
@@ -57,7 +58,7 @@ impl Lowerer<'_> {
             // how long a list is, is known once all parts are declared
             Some(_) => {
                 self.pending.push(Pending::Each {
-                    scope: scope.clone(),
+                    scope: Rc::new(scope.clone()),
                     each: each.clone(),
                     from: 0,
                 });
@@ -195,7 +196,7 @@ impl Lowerer<'_> {
         let waiting = self.pending.iter().filter_map(|p| match p {
             Pending::Each { scope, each, from: 0 } if scope.turns.is_empty() => {
                 let name = own_list(scope, &through(each)?)?;
-                (scope.classes.len() == 1).then(|| (name, scope.clone(), each.clone()))
+                (scope.classes.len() == 1).then(|| (name, (**scope).clone(), each.clone()))
             }
             _ => None,
         });
@@ -218,6 +219,7 @@ impl Lowerer<'_> {
                 let declared_by = scope.class();
                 let scope = Scope::of(scope.file, class);
                 self.redeclare_loop(declared_by, &scope, &each);
+                let scope = Rc::new(scope);
                 self.pending.push(Pending::Each { scope, each: each.clone(), from });
             }
         }
@@ -251,7 +253,7 @@ impl Lowerer<'_> {
                         continue;
                     };
                     let path = of_turn(scope, word.name());
-                    let scope = scope.clone();
+                    let scope = Rc::new(scope.clone());
                     self.pending.push(if reference.is_absolute() {
                         Pending::Absolute { scope, path, target }
                     } else {
@@ -282,7 +284,7 @@ impl Lowerer<'_> {
             _ => None,
         });
         for (target, value) in whole.into_iter().chain(assigned) {
-            let (scope, prefix) = (scope.clone(), prefix.clone());
+            let (scope, prefix) = (Rc::new(scope.clone()), prefix.clone());
             self.pending.push(Pending::Value { scope, prefix, target, value });
         }
     }

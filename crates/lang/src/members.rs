@@ -10,16 +10,18 @@ use kernel::{
     ClassId, ClassKind, Count, Message, OriginId, Parameter, Part, Path, Primitive, Stay, Step,
     Term,
 };
+use std::cell::OnceCell;
+use std::rc::Rc;
 use syntax::ast::{self, AstNode, Expr, Member, TypeShape, span_without_doc};
 
 /// A member whose expressions are still to be lowered.
 #[derive(Clone, Debug)]
 pub(crate) enum Pending {
     /// Any member.
-    Member(Scope, Member),
+    Member(Rc<Scope>, Member),
     /// A value of a part: `x = 3`, or one of a body of values.
     Value {
-        scope: Scope,
+        scope: Rc<Scope>,
         /// From `Me` to what the target speaks of.
         prefix: Vec<Step>,
         /// The path after the prefix; none for a part's own `= value`.
@@ -28,9 +30,9 @@ pub(crate) enum Pending {
     },
     /// Members that `for` repeats for what is known once all parts are declared; so many first turns
     /// were taken already.
-    Each { scope: Scope, each: ast::For, from: u32 },
+    Each { scope: Rc<Scope>, each: ast::For, from: u32 },
     /// What a reference names, by a path from the document.
-    Absolute { scope: Scope, path: Path, target: Expr },
+    Absolute { scope: Rc<Scope>, path: Path, target: Expr },
     /// The values of parts of the document that are kept.
     Kept(Run),
     /// The values of one part of the document follow.
@@ -38,7 +40,7 @@ pub(crate) enum Pending {
     /// They end here: so many values of the part of this index, which is this member.
     Noted { member: usize, part: u32, givens: u32 },
     /// The answer of a message.
-    Answer { scope: Scope, index: usize, definition: Definition },
+    Answer { scope: Rc<Scope>, index: usize, definition: Box<Definition> },
 }
 
 /// The definition of a message.
@@ -63,6 +65,8 @@ const STEP_OUTSIDE: &str = "a step stands in a program";
 impl Lowerer<'_> {
     /// Declares what a body adds to the class of its scope.
     pub(crate) fn declare_body(&mut self, scope: &Scope, members: Vec<Member>) {
+        let whole = OnceCell::new();
+        let shared = || whole.get_or_init(|| Rc::new(scope.clone())).clone();
         for member in members {
             let span = span_without_doc(member.syntax());
             match &member {
@@ -84,7 +88,7 @@ impl Lowerer<'_> {
                         self.given_counts.insert((scope.class(), name), count);
                     }
                     if let (Some(target), Some(value)) = (assign.target(), value) {
-                        let (scope, prefix, target) = (scope.clone(), Vec::new(), Some(target));
+                        let (scope, prefix, target) = (shared(), Vec::new(), Some(target));
                         self.pending.push(Pending::Value { scope, prefix, target, value });
                     }
                 }
@@ -92,7 +96,7 @@ impl Lowerer<'_> {
                     if let Some(name) = constraint.name() {
                         self.constraints.insert((scope.class(), name.name()));
                     }
-                    self.pending.push(Pending::Member(scope.clone(), member.clone()));
+                    self.pending.push(Pending::Member(shared(), member.clone()));
                 }
                 Member::Merge(_)
                 | Member::Stay(_)
@@ -102,7 +106,7 @@ impl Lowerer<'_> {
                 | Member::Without(_)
                 | Member::Replace(_)
                 | Member::Attachers(_) => {
-                    self.pending.push(Pending::Member(scope.clone(), member.clone()));
+                    self.pending.push(Pending::Member(shared(), member.clone()));
                 }
                 Member::Unit(_) | Member::Y(_) | Member::Use(_) | Member::Error(_) => {}
                 Member::Class(_)
@@ -334,7 +338,8 @@ impl Lowerer<'_> {
             }
             if let Some(value) = part.value().and_then(ast::Value::expr) {
                 let prefix = vec![Step::Part(name)];
-                let pending = Pending::Value { scope: scope.clone(), prefix, target: None, value };
+                let scope = Rc::new(scope.clone());
+                let pending = Pending::Value { scope, prefix, target: None, value };
                 self.pending.push(pending);
             }
         }
@@ -370,7 +375,7 @@ impl Lowerer<'_> {
             let d = Diagnostic::error("unknown-reference", place, message);
             return self.report(d.hint("say what: `ref a: C -> b.c`"));
         };
-        let (scope, prefix) = (scope.clone(), vec![Step::Part(name)]);
+        let (scope, prefix) = (Rc::new(scope.clone()), vec![Step::Part(name)]);
         self.pending.push(if reference.is_absolute() {
             Pending::Absolute { scope, path: Path(prefix), target: value }
         } else {
@@ -424,7 +429,7 @@ impl Lowerer<'_> {
             }
             for (target, value) in values {
                 let prefix = vec![Step::Part(name.clone())];
-                let scope = scope.clone();
+                let scope = Rc::new(scope.clone());
                 let target = Some(target);
                 self.pending.push(Pending::Value { scope, prefix, target, value });
             }
@@ -580,7 +585,7 @@ impl Lowerer<'_> {
         let index = self.document.classes[class].messages.len();
         self.messages.insert((class, message.name.clone()), index);
         self.document.classes[class].messages.push(message);
-        let scope = scope.clone();
+        let (scope, definition) = (Rc::new(scope.clone()), Box::new(definition));
         self.pending.push(Pending::Answer { scope, index, definition });
     }
 }

@@ -10,6 +10,7 @@ use crate::members::Pending;
 use crate::scope::Scope;
 use base::Name;
 use kernel::Path;
+use std::rc::Rc;
 use syntax::ast::{AstNode, Expr, NameExpr};
 
 impl Lowerer<'_> {
@@ -24,7 +25,9 @@ impl Lowerer<'_> {
             Some(name) if speaks_of(value, &name) => Some(name),
             _ => self.misfit(scope, &Path(prefix.clone()), target, value),
         };
-        scope.outwards = outwards;
+        if outwards.is_some() {
+            Rc::make_mut(scope).outwards = outwards;
+        }
     }
 
     /// Returns true for a part of the thing itself whose name something further out has, too.

@@ -91,7 +91,7 @@ impl Lowerer<'_> {
             Part { name: name.clone(), doc, class, count, range: None, is_layout: false, origin };
         self.add_part(Place { file: scope.file, span: word.span() }, scope.class(), part);
         if let Some(value) = param.value() {
-            let (scope, prefix) = (scope.clone(), vec![Step::Part(name)]);
+            let (scope, prefix) = (Rc::new(scope.clone()), vec![Step::Part(name)]);
             self.pending.push(Pending::Value { scope, prefix, target: None, value });
         }
     }
@@ -169,7 +169,7 @@ impl Lowerer<'_> {
                     if let Some(name) = constraint.name() {
                         self.constraints.insert((home.class, name.name()));
                     }
-                    self.pending.push(Pending::Member(scope.clone(), member.clone()));
+                    self.pending.push(Pending::Member(Rc::new(scope.clone()), member.clone()));
                 }
                 Member::Next(_) | Member::Erase(_) | Member::Error(_) => {}
                 other => {

@@ -86,13 +86,14 @@ impl Lowerer<'_> {
         // merges come first, so that what is known of their paths stays true
         let mut trails = Trails::default();
         let is_merge = |p: &Pending| matches!(p, Pending::Member(_, Member::Merge(_)));
-        let others = pending.split_off(pending.partition_point(is_merge));
-        for pending in pending {
+        let merges = pending.partition_point(is_merge);
+        let mut pending = pending.into_iter();
+        for pending in pending.by_ref().take(merges) {
             if let Pending::Member(scope, member) = pending {
                 self.define(&scope, &member, &mut trails);
             }
         }
-        for mut pending in others {
+        for mut pending in pending {
             self.look_outwards(&mut pending);
             if self.connect(&pending) {
                 continue;
@@ -116,7 +117,7 @@ impl Lowerer<'_> {
                     let class = scope.class();
                     let name = self.document.classes[class].messages[index].name.clone();
                     let wanted = self.message_kind(class, &name);
-                    let Definition { answer, loops, .. } = &definition;
+                    let Definition { answer, loops, .. } = &*definition;
                     match self.answer_of(&scope, loops, answer, &wanted) {
                         Some(term) => {
                             self.speaks_of_no_thing(&scope, &name, answer, &term);

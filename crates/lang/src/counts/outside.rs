@@ -50,7 +50,7 @@ impl Lowerer<'_> {
         let path: Vec<Step> = prefix.iter().chain(owner).cloned().collect();
         let class = self.class_at(scope.class(), &Path(path.clone()))?;
         let is_count = !path.is_empty() && self.counts_of(class).contains_key(name);
-        let (scope, name, value) = (scope.clone(), name.clone(), value.clone());
+        let (scope, name, value) = ((**scope).clone(), name.clone(), value.clone());
         is_count.then_some(Given { scope, path, name, value })
     }
 
