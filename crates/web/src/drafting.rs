@@ -1,7 +1,7 @@
 //! Drawing by constructions: what is waited for, recording, and its steps.
 
 use crate::lab::{Lab, Notice};
-use crate::{js, words};
+use crate::{js, keyboard, words};
 use leptos::prelude::*;
 use session::drafting::view::{
     Ends, Go, MeasureKind, OlderUse, Prompt, StepRow, StepsView, Turn, Wants,
@@ -26,8 +26,6 @@ pub struct Drafting {
     pub typed: RwSignal<String>,
     /// What the pointer finds for it, or why nothing.
     pub finds: RwSignal<Option<String>>,
-    /// Whether what is drawn is for construction alone.
-    pub guides: RwSignal<bool>,
     /// Whether the calculator is open.
     pub calculator: RwSignal<bool>,
     /// What the calculator keeps.
@@ -49,7 +47,6 @@ impl Default for Drafting {
             prompt: RwSignal::new(None),
             typed: RwSignal::new(String::new()),
             finds: RwSignal::new(None),
-            guides: RwSignal::new(false),
             calculator: RwSignal::new(false),
             memory: RwSignal::new(None),
             banding: RwSignal::new(false),
@@ -58,6 +55,19 @@ impl Default for Drafting {
             turned: RwSignal::new(0),
         }
     }
+}
+
+/// Gives the keyboard to what comes next in the drawer: the name of a program, or, while one is recorded, what narrows
+/// the constructions; from there to the next parameter.
+pub fn focus_drawer() {
+    const TOOLS: &str = "input[name='construction']";
+    let is_there = keyboard::holder().is_some_and(|e| e.matches(TOOLS).unwrap_or(false));
+    let next = if is_there { "input[name='parameter']" } else { TOOLS };
+    let name = document().query_selector("input[name='program']").ok().flatten();
+    keyboard::focus(if name.is_some() { "input[name='program']" } else { next });
+    // what is typed takes the place of what was sought before
+    let field = keyboard::holder().and_then(|f| f.dyn_into::<web_sys::HtmlInputElement>().ok());
+    field.inspect(web_sys::HtmlInputElement::select);
 }
 
 impl Lab {
@@ -75,7 +85,6 @@ impl Lab {
                 self.notice.set(None);
                 self.select(None);
                 self.fits.set_value(false);
-                self.draw_guides(self.drafting.guides.get_untracked());
                 self.show_prompt(Some(prompt));
             }
             Some(Err(refusal)) => self.notice.set(Some(Notice::Refused(refusal))),
@@ -254,8 +263,11 @@ impl Lab {
     }
 
     fn draw_guides(self, are_guides: bool) {
-        self.drafting.guides.set(are_guides);
         self.tell(|session, id| session.draw_guides(id, are_guides));
+        // the field has the keyboard again
+        self.drafting.prompt.update(|prompt| {
+            prompt.iter_mut().for_each(|prompt| prompt.is_guide = are_guides);
+        });
     }
 
     fn record(self, name: &str) {
@@ -269,15 +281,19 @@ impl Lab {
 
     fn stop_recording(self) {
         self.draft_end();
+        let steps = self.ask_of_shown(|session, id| session.steps(id, None)).flatten();
         match self.tell(session::Session::stop_recording) {
             Some(Err(refusal)) => self.notice.set(Some(Notice::Refused(refusal))),
             stopped => {
                 self.settle(stopped);
+                // its steps stay in sight, and its values to be tried
+                self.select(steps.map(|steps| steps.example));
                 self.drafting.lit.set(None);
                 self.show_made(drawing::Drawing::default());
             }
         }
         self.drafting.turned.update(|n| *n += 1);
+        keyboard::rest_at("[data-draft='more'], input[name='program']");
     }
 
     /// Does something about a block that is demonstrated, and shows what is waited for then.
@@ -290,6 +306,7 @@ impl Lab {
             self.notice.set(None);
         }
         self.show_waiting();
+        keyboard::rest_at(".blocks button");
     }
 
     fn end_turn(self, ends: Ends) {

@@ -29,6 +29,15 @@ pub fn give_back(before: Option<Element>) {
     });
 }
 
+/// With the next frame, gives the keyboard to the first element of a selector, if by then nobody has it.
+pub fn rest_at(selector: &'static str) {
+    request_animation_frame(move || {
+        if holder().is_none_or(|holder| holder.tag_name() == "BODY") {
+            focus(selector);
+        }
+    });
+}
+
 fn focus_element(element: &Element) {
     if let Some(element) = element.dyn_ref::<HtmlElement>() {
         // What cannot be focused stays as it is.

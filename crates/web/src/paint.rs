@@ -255,6 +255,30 @@ pub fn ghosts(list: &mut DisplayList, drawn: &[Drawing]) {
     }
 }
 
+/// Adds what is drawn for construction alone, faint and dashed: straights without ends as far as the screen reaches.
+pub fn guides(list: &mut DisplayList, drawn: &Drawing, picture: &Drawing) {
+    let reach = LazyCell::new(|| Reach::of(picture));
+    for element in &drawn.elements {
+        match element.shape {
+            Shape::Dot(at) => {
+                begin(list, Hue::Faint as i32, -1, Line::Solid, USUAL_WIDTH, Space::Screen);
+                sign(list, Sign::Disc, at, POINT);
+            }
+            Shape::Segment(..)
+            | Shape::Polyline { .. }
+            | Shape::Circle { .. }
+            | Shape::Arc { .. }
+            | Shape::Ellipse { .. }
+            | Shape::Spline(_)
+            | Shape::Region(_)
+            | Shape::Text { .. } => {
+                begin(list, Hue::Faint as i32, -1, Line::Dashed, USUAL_WIDTH, Space::Sheet);
+                shown(list, element, &reach);
+            }
+        }
+    }
+}
+
 /// Adds where places went.
 pub fn loci(list: &mut DisplayList, drawn: &Drawing) {
     for element in &drawn.elements {

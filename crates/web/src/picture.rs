@@ -8,7 +8,7 @@ use crate::field::Edit;
 use crate::js::{self, Painter};
 use crate::lab::{Lab, Marked, Zoom, first_path};
 use crate::paint::{
-    DisplayList, Mark, Part, arrows, caught, display_list, ghosts, grid, loci, preview,
+    DisplayList, Mark, Part, arrows, caught, display_list, ghosts, grid, guides, loci, preview,
 };
 use crate::sheet::{View, bounds, fit_box, with_words};
 use crate::words;
@@ -161,12 +161,20 @@ fn lists(lab: Lab) -> Lists {
             is_split.then(|| Arc::new(list()))
         })
     });
+    // what is drawn for construction alone is in sight while a program is recorded
+    let guided = Memo::new(move |_| {
+        lab.text.track();
+        lab.values.track();
+        lab.drafting.turned.track();
+        lab.ask_of_shown(session::Session::guides).unwrap_or_default()
+    });
     let list = Memo::new(move |_| {
         lab.picture.with(|picture| {
             let mut list = lab.moved.with(|moved| listed(picture, Part::Moving(moved)));
             lab.plotting.plot.with(|plot| loci(&mut list, &plot.drawn_loci()));
             lab.ghosts.with(|drawn| ghosts(&mut list, drawn));
             lab.traced.with(|drawn| ghosts(&mut list, std::slice::from_ref(drawn)));
+            guided.with(|drawn| guides(&mut list, drawn, &picture.drawing));
             lab.motion.with(|motion| arrows(&mut list, picture, motion));
             lab.tool_view.with(|tool| {
                 preview(&mut list, &tool.preview, &picture.drawing);

@@ -4,7 +4,7 @@ use crate::actions::{self, ACTIONS, Action, Group};
 use crate::lab::{Lab, Notice};
 use crate::{icons, words};
 use leptos::prelude::*;
-use session::view::{Along, Pointer, ToolView};
+use session::view::{Along, Pointer, Refusal, ToolView};
 
 /// The tools, one below the other; those that the document has no classes for say why not.
 #[component]
@@ -51,6 +51,9 @@ impl Lab {
     /// Takes the tool that places things of a class.
     pub fn take_tool(self, class: &str) {
         self.flush_text();
+        if self.takes_step(class) {
+            return;
+        }
         match self.tell(|session, id| session.take_tool(id, class)) {
             Some(Ok(view)) => {
                 // what is drawn must not move under the hand
@@ -67,6 +70,22 @@ impl Lab {
             }
             None => {}
         }
+    }
+
+    /// While a program is recorded its tools draw steps: begins the construction that a tool is, or says that there is
+    /// none. Returns whether a program is recorded.
+    fn takes_step(self, class: &str) -> bool {
+        let recorded =
+            self.ask_of_shown(|session, id| session.recorded(id).map(String::from)).flatten();
+        let Some(program) = recorded else { return false };
+        let all = self.ask_of_shown(session::Session::constructions).unwrap_or_default();
+        if all.iter().any(|row| row.id == class) {
+            self.begin_construction(class);
+        } else {
+            let message = words::no_step(class, &program);
+            self.notice.set(Some(Notice::Refused(Refusal { message, ..Refusal::default() })));
+        }
+        true
     }
 
     fn show_tool(self, view: ToolView) {

@@ -540,6 +540,14 @@ pub fn recording(program: &str) -> String {
     format!("Recording {program}")
 }
 
+/// What Enter does in the field that narrows the constructions.
+pub const FILTER_HELP: &str = "Enter begins the one that is marked";
+
+/// Why a tool draws nothing while a program is recorded.
+pub fn no_step(class: &str, program: &str) -> String {
+    format!("a {class} is no step of {program}: draw it by lines and arcs, or stop recording first")
+}
+
 /// Whose steps are listed.
 pub fn steps_of(program: &str) -> String {
     format!("{program}, step by step")

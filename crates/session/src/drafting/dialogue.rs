@@ -100,6 +100,7 @@ impl Dialogue {
             operands: operands.map(|(i, slot)| (slot.name.clone(), given(i))).collect(),
             is_value: slot.is_some_and(|slot| slot.kind == SlotKind::Value),
             takes_sets: slot.is_some_and(|slot| slot.kind == SlotKind::Set),
+            is_guide: self.is_guide,
             wants: Wants::Operand,
             insert: None,
         }

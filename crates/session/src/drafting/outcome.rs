@@ -235,8 +235,11 @@ fn ways(tool: &Tool, operands: &[Operand]) -> Vec<(String, u32)> {
     let is_curve = |i: &usize| tool.slots[*i].kind == SlotKind::Curve;
     let curves: Vec<usize> = (0..texts.len()).filter(is_curve).collect();
     let mut orders = vec![texts.clone()];
+    // a point of points has one outcome, in the order of the picks
+    let is_point_of = |slot: &Slot| slot.kind == SlotKind::Point && *tool.class == *slot.class;
     if let [a, b, ..] = tool.slots.as_slice()
         && a.class == b.class
+        && !is_point_of(a)
         && texts.len() > 1
         && a.label.is_none()
     {

@@ -364,6 +364,11 @@ pub(crate) fn asked_drawing(open: &mut Open, host: &dyn Host) -> drawing::Drawin
     for name in names_in(&question.first) {
         elements.extend(scene::drawing_of(&state, &opened.home, &name).elements);
     }
+    // what is no name is lit as what it comes to: `Point(pitch / 2, 0)`
+    let first = [question.first.clone()];
+    outcome::try_all(&state, &opened.home, &first, &mut |_, evaluator, answer| {
+        elements.extend(answer.iter().flat_map(|answer| scene::elements_of(evaluator, answer)));
+    });
     if let Ok(tried) = with_two_turns(open, host, (&opened, &opened.it)) {
         let evaluator = tried.evaluator(&tried.values);
         if let Ok(answer) = evaluator.at(&second_path(&opened)) {

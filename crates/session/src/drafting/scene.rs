@@ -4,6 +4,7 @@ use super::{Home, text};
 use crate::state::State;
 use crate::view::Pointer;
 use crate::views::drawn;
+use base::Name;
 use base::number::{atan2, hypot};
 use eval::{Answer, Context, Evaluator};
 use geometry::Figure;
@@ -278,6 +279,11 @@ pub(crate) fn scene(state: &State, home: &Home) -> Vec<Found> {
         Home::Document => all.document(),
         Home::Program { example, way, .. } => {
             let mut path = kernel::Path::of(&[example]);
+            for name in parameters(state, home) {
+                if let Ok(given) = evaluator.at(&path.then(kernel::Step::Part(name.clone()))) {
+                    all.add((name, &[]), &given, true);
+                }
+            }
             let mut levels = text::visible(&text::Source::now(state), home).into_iter();
             all.level(&path, &levels.next().unwrap_or_default());
             for around in way {
@@ -291,6 +297,17 @@ pub(crate) fn scene(state: &State, home: &Home) -> Vec<Found> {
         }
     }
     all.found
+}
+
+/// The parameters of the program that a home is in.
+pub(crate) fn parameters<'s>(state: &'s State, home: &Home) -> impl Iterator<Item = &'s Name> {
+    let document = &state.lowered.document;
+    let class = match home {
+        Home::Program { program, .. } => document.class_named(program),
+        Home::Document => None,
+    };
+    let program = class.and_then(|class| document.program(class));
+    program.into_iter().flat_map(|program| program.parameters.iter().map(|asked| &asked.name))
 }
 
 struct Scene<'e, 'a> {

@@ -47,7 +47,11 @@ pub(crate) fn operand(slot: &Slot, typed: &str, last: Option<&str>) -> Result<St
                 let wrong = || words::refuse(format!("{typed}: `@dx,dy` is wanted"));
                 let (dx, dy) = pair(by, ',').ok_or_else(wrong)?;
                 let from = from()?;
-                format!("Point({from}.x + {}, {from}.y + {})", grouped(dx), grouped(dy))
+                let (x, y) = match coordinates(&from) {
+                    Some((x, y)) => (x.into(), y.into()),
+                    None => (format!("{from}.x"), format!("{from}.y")),
+                };
+                format!("Point({}, {})", further(&x, dx), further(&y, dy))
             }
             (None, Some((length, angle))) => {
                 let angle = if is_number(angle) { format!("{angle} deg") } else { angle.into() };
@@ -65,10 +69,47 @@ fn is_number(text: &str) -> bool {
     text.trim().parse::<f64>().is_ok()
 }
 
+/// The coordinates of a point that is written by them: `Point(10, d / 2)`.
+fn coordinates(point: &str) -> Option<(&str, &str)> {
+    let inner = point.strip_prefix("Point(")?.strip_suffix(')')?;
+    // `Point(1, 2).moved(by: Point(3, 4))` is another one
+    let is_one = is_within_brackets(inner) && !inner.contains(':');
+    pair(inner, ',').filter(|_| is_one)
+}
+
+/// Whether no bracket is closed that was not opened.
+fn is_within_brackets(text: &str) -> bool {
+    let mut depth = 0;
+    text.chars().all(|c| {
+        match c {
+            '(' | '[' => depth += 1,
+            ')' | ']' => depth -= 1,
+            _ => {}
+        }
+        depth >= 0
+    })
+}
+
+/// Writes a coordinate so much further on.
+fn further(from: &str, by: &str) -> String {
+    match by.trim() {
+        "0" => from.into(),
+        by if from == "0" => by.into(),
+        by => match by.strip_prefix('-') {
+            Some(less) if is_plain(less) => format!("{from} - {less}"),
+            _ => format!("{from} + {}", grouped(by)),
+        },
+    }
+}
+
+/// Whether an expression is a single name or number.
+fn is_plain(text: &str) -> bool {
+    text.chars().all(|c| c.is_alphanumeric() || "._ ".contains(c))
+}
+
 /// Writes an expression so that it can be added.
 fn grouped(text: &str) -> String {
-    let is_plain = text.chars().all(|c| c.is_alphanumeric() || "._ ".contains(c));
-    if is_plain { text.into() } else { format!("({text})") }
+    if is_plain(text) { text.into() } else { format!("({text})") }
 }
 
 /// Splits what is typed in two, outside of any brackets.

@@ -32,6 +32,8 @@ pub struct Prompt {
     pub is_value: bool,
     /// Whether a pick may mean the turn of what is picked, or the whole loop.
     pub takes_sets: bool,
+    /// Whether what is made is drawn for construction alone.
+    pub is_guide: bool,
     /// What kind of answer is wanted.
     pub wants: Wants,
     /// What a pick adds to what is typed: `ring.radius`.

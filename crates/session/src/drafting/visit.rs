@@ -11,7 +11,7 @@ use crate::state::State;
 use crate::view::{Pointer, Refusal};
 use crate::words;
 use base::Name;
-use eval::{Answer, Evaluator};
+use eval::{Answer, Evaluator, Standing};
 use syntax::ast::Value;
 
 /// The home in front of a step: the first turn of the loops around it.
@@ -244,30 +244,58 @@ pub(crate) fn is_inside(open: &Open) -> bool {
 pub(crate) fn drawn_so_far(state: &State, home: &Home) -> drawing::Drawing {
     let evaluator = state.evaluator(&state.values);
     let mut elements = Vec::new();
-    let Home::Program { example, way, .. } = home else { return drawing::Drawing::default() };
-    let mut path = kernel::Path::of(&[example]);
-    let mut levels = text::visible(&text::Source::now(state), home).into_iter();
-    add(&evaluator, &path, &levels.next().unwrap_or_default(), &mut elements);
-    for around in way {
-        let Some(name) = &around.name else { continue };
-        path = path.then(kernel::Step::Part(name.clone()));
-        if let Some(turn) = around.turn {
-            for before in 0..turn {
-                if let Ok(answer) = evaluator.at(&path.then(kernel::Step::Index(before))) {
+    for (path, names) in levels(state, home) {
+        if let Some(kernel::Step::Index(turn)) = path.0.last() {
+            let around = kernel::Path(path.0[..path.0.len() - 1].to_vec());
+            for before in 0..*turn {
+                if let Ok(answer) = evaluator.at(&around.then(kernel::Step::Index(before))) {
                     elements.extend(scene::elements_of(&evaluator, &answer));
                 }
             }
-            path = path.then(kernel::Step::Index(turn));
         }
-        add(&evaluator, &path, &levels.next().unwrap_or_default(), &mut elements);
+        add(&evaluator, (&path, &names), |as_what| as_what != Standing::Carried, &mut elements);
     }
     drawing::Drawing { elements, ..drawing::Drawing::default() }
 }
 
+/// What is no part of the drawing, and can be picked where drawing goes on: what was drawn for construction alone, and
+/// the figures among the parameters.
+pub(crate) fn guides(state: &State, home: &Home) -> drawing::Drawing {
+    let evaluator = state.evaluator(&state.values);
+    let mut elements = Vec::new();
+    if let Home::Program { example, .. } = home {
+        let of = |name: &Name| kernel::Path::of(&[example]).then(kernel::Step::Part(name.clone()));
+        for given in scene::parameters(state, home).filter_map(|name| evaluator.at(&of(name)).ok()) {
+            elements.extend(scene::elements_of(&evaluator, &given));
+        }
+    }
+    for (path, names) in levels(state, home) {
+        add(&evaluator, (&path, &names), |as_what| as_what == Standing::Guide, &mut elements);
+    }
+    drawing::Drawing { elements, ..drawing::Drawing::default() }
+}
+
+/// The blocks that are open, from the program on: the path to each, and the names that are known there.
+fn levels(state: &State, home: &Home) -> Vec<(kernel::Path, Vec<String>)> {
+    let Home::Program { example, way, .. } = home else { return Vec::new() };
+    let mut names = text::visible(&text::Source::now(state), home).into_iter();
+    let mut path = kernel::Path::of(&[example]);
+    let mut levels = vec![(path.clone(), names.next().unwrap_or_default())];
+    for around in way {
+        let Some(name) = &around.name else { continue };
+        path = path.then(kernel::Step::Part(name.clone()));
+        if let Some(turn) = around.turn {
+            path = path.then(kernel::Step::Index(turn));
+        }
+        levels.push((path.clone(), names.next().unwrap_or_default()));
+    }
+    levels
+}
+
 fn add<'a>(
     evaluator: &Evaluator<'a>,
-    path: &kernel::Path,
-    names: &[String],
+    (path, names): (&kernel::Path, &[String]),
+    is_wanted: impl Fn(Standing) -> bool,
     into: &mut Vec<drawing::Element>,
 ) {
     let context = match evaluator.at(path) {
@@ -279,8 +307,7 @@ fn add<'a>(
         Ok(_) | Err(_) => return,
     };
     for entry in &context.made {
-        let is_own = entry.standing != eval::Standing::Carried;
-        if is_own && names.iter().any(|name| **name == *entry.name) {
+        if is_wanted(entry.standing) && names.iter().any(|name| **name == *entry.name) {
             into.extend(scene::elements_of(evaluator, &entry.answer));
         }
     }

@@ -2,7 +2,7 @@
 
 use super::hands::{home, prompt, replaced, turn_of};
 use super::view::{Go, Prompt, StepOperand, StepsView, Turn};
-use super::{blocks, changing, choice, recording, remove, steps, text, visit};
+use super::{blocks, changing, choice, recording, remove, scene, steps, text, visit};
 
 use crate::session::Session;
 use crate::view::{Change, DocumentId, Refusal};
@@ -121,6 +121,24 @@ impl Session {
     pub fn drawn_so_far(&self, id: DocumentId) -> Option<drawing::Drawing> {
         let open = self.document(id);
         visit::is_inside(open).then(|| visit::drawn_so_far(&open.state, &home(open)))
+    }
+
+    /// Returns what of what is recorded can be picked now and is no part of the drawing: what was drawn for construction
+    /// alone, and the figures among the parameters.
+    pub fn guides(&self, id: DocumentId) -> drawing::Drawing {
+        let open = self.document(id);
+        visit::guides(&open.state, &home(open))
+    }
+
+    /// Returns the program that is recorded.
+    pub fn recorded(&self, id: DocumentId) -> Option<&str> {
+        self.document(id).recording.as_ref().map(|recording| recording.program.as_str())
+    }
+
+    /// Returns the names of the parameters of what is recorded.
+    pub fn parameters(&self, id: DocumentId) -> Vec<String> {
+        let open = self.document(id);
+        scene::parameters(&open.state, &home(open)).map(ToString::to_string).collect()
     }
 
     /// Goes to a step, and lets what is drawn next take its place: it keeps its name, and what speaks of it.

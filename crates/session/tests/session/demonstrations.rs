@@ -1,7 +1,7 @@
 //! Standard parts, drawn once by hand: what comes of them is that of the programs that the gallery has of them.
 
 use crate::desk::Desk;
-use session::drafting::view::{NewParameter, Turn};
+use session::drafting::view::{Ends, NewParameter, Turn, Wants};
 use session::view::Pointer;
 
 fn record(name: &str, parameters: &[(&str, &str)]) -> Desk {
@@ -111,4 +111,112 @@ fn a_retaining_ring_has_the_lug_that_its_size_asks_for() {
         desk.set("ring.d1", d1).expect("a parameter can be set");
         assert_eq!(value(&desk, "ring.mirrored"), lug, "{d1}");
     }
+}
+
+#[test]
+fn what_is_drawn_for_construction_is_in_sight_while_it_can_be_picked() {
+    let mut desk = record("Ring", &[("a", "4")]);
+    let seen = |desk: &Desk| desk.session.guides(desk.id).elements.len();
+    guide(&mut desk, "Circle", &[Typed("0,0"), Typed("a")]);
+    draw(&mut desk, "Circle", &[At(0.0, 0.0), Typed("a / 2")]);
+    assert_eq!(seen(&desk), 1);
+    desk.session.begin_choice(desk.id).expect("it is recorded");
+    desk.session.enter(desk.id, "a < 10").expect("it is a condition");
+    guide(&mut desk, "Axis.vertical(x)", &[Typed("a / 5")]);
+    assert_eq!(seen(&desk), 2);
+    desk.session.end_choice(desk.id).expect("it is open");
+    desk.session.stop_recording(desk.id).expect("nothing is open");
+    assert_eq!(seen(&desk), 0);
+}
+
+#[test]
+fn a_place_that_is_typed_from_another_is_one_place() {
+    let mut desk = record("Slot", &[("d", "10")]);
+    draw(&mut desk, "Line", &[Typed("0, d / 2"), Typed("@30,0")]);
+    draw(&mut desk, "Line", &[At(30.0, 5.0), Typed("@0,-d")]);
+    draw(&mut desk, "Line", &[At(30.0, -5.0), Typed("@-d / 2, 2 * d")]);
+    let text = desk.text();
+    assert!(text.contains("line = Line(Point(0, d / 2), Point(30, d / 2))"), "{text}");
+    assert!(text.contains("line2 = Line(line.p2, Point(line.p2.x, line.p2.y - d))"), "{text}");
+    assert_eq!(value(&desk, "slot.line3"), "(30, -5) to (25, 15)");
+}
+
+#[test]
+fn a_construction_that_gives_an_operand_is_kept_only_if_that_is_said() {
+    let mut desk = record("Mark", &[("a", "4")]);
+    guide(&mut desk, "Circle", &[Typed("0,0"), Typed("a")]);
+    desk.session.draw_guides(desk.id, true);
+    desk.session.begin(desk.id, "Circle").expect("it is in scope");
+    let prompt = desk.session.begin(desk.id, "Point.middle(first,second)").expect("it fits");
+    assert!(!prompt.is_guide);
+    for typed in ["0,0", "a,0"] {
+        desk.session.enter(desk.id, typed).expect("it fits");
+    }
+    // what waited is for construction, as was said
+    assert!(desk.session.prompt(desk.id).expect("a radius is wanted").is_guide);
+    desk.session.enter(desk.id, "1").expect("it fits");
+    let text = desk.text();
+    assert!(text.contains("guide circle2 = Circle(center: Point.middle("), "{text}");
+}
+
+#[test]
+fn a_figure_that_is_a_parameter_is_in_sight_and_picked() {
+    let mut desk = record("Third", &[("from", "0,0"), ("to", "270,0")]);
+    assert_eq!(desk.session.guides(desk.id).elements.len(), 2);
+    assert_eq!(desk.session.parameters(desk.id), ["from", "to"]);
+    // the pointer is nearer to the other end when the ratio is typed
+    let third =
+        draw(&mut desk, "Point.dividing(first,second,ratio)", &[At(0.0, 0.0), At(270.0, 0.0), Typed("1 / 3")]);
+    let text = desk.text();
+    assert!(text.contains("Point.dividing(from, to, ratio: 1 / 3)"), "{text}");
+    assert_eq!(value(&desk, &format!("third.{third}")), "(90, 0)");
+}
+
+/// Records a hole, then a row of them, then rows of rows: each by its first turn and what the second one takes.
+#[test]
+fn a_plate_is_rows_of_rows_of_holes() {
+    let mut desk = record("Plate", &[("pitch", "8"), ("hole", "5")]);
+    for (name, example) in [("rows", "5"), ("columns", "8")] {
+        let new = NewParameter {
+            name: name.into(),
+            example: example.into(),
+            class: "Integer".into(),
+            ..NewParameter::default()
+        };
+        desk.session.define_parameter(desk.id, &new).expect("it is new");
+    }
+    for _ in 0..2 {
+        desk.session.begin_loop(desk.id, "").expect("it is recorded");
+    }
+    draw(&mut desk, "Circle", &[Typed("pitch / 2, pitch / 2"), Typed("hole / 2")]);
+    for (times, by) in [("columns", "pitch,0"), ("rows", "0,pitch")] {
+        desk.session.end_turn(desk.id, Ends::Times).expect("the first turn is drawn");
+        while let Some(Wants::Recurrence(question)) = desk.session.prompt(desk.id).map(|p| p.wants) {
+            if question.first == "Point(pitch / 2, pitch / 2)" {
+                // the place that is asked about is lit, though it has no name
+                let away = Pointer { at: (99.0, 99.0), reach: 0.1, ..Pointer::default() };
+                let lit = desk.session.hover(desk.id, &away, "").ghost;
+                let is_place = |e: &drawing::Element| {
+                    matches!(e.shape, drawing::Shape::Dot(at) if (at.x, at.y) == (4.0, 4.0))
+                };
+                assert!(lit.elements.iter().any(is_place), "{:?}", lit.elements);
+                draw_answer(&mut desk, by);
+            } else {
+                desk.session.same(desk.id).expect("it can be the same");
+            }
+        }
+        desk.session.enter(desk.id, times).expect("a number of turns");
+    }
+    assert_eq!(desk.wrong(), [], "{}", desk.text());
+    assert_eq!(value(&desk, "plate.turns.last.turns2.last.circle.center"), "(60, 36)");
+    desk.set("plate.rows", 3.0).expect("a parameter can be set");
+    assert_eq!(value(&desk, "plate.turns.last.turns2.last.circle.center"), "(60, 20)");
+}
+
+/// Answers a question by the first hole's centre, moved.
+fn draw_answer(desk: &mut Desk, by: &str) {
+    desk.session.begin(desk.id, ":moved(by)").expect("it is in scope");
+    let pointer = Pointer { at: (4.0, 4.0), reach: 0.4, ..Pointer::default() };
+    desk.session.point(desk.id, &pointer).expect("the centre lies there");
+    desk.session.enter(desk.id, by).expect("it is a place");
 }

@@ -5,7 +5,7 @@ use crate::dialog::Wish;
 use crate::dock::Tab;
 use crate::keyboard::focus;
 use crate::lab::{Drawer, Lab, Notice, Zoom};
-use crate::{js, route, structure, words};
+use crate::{drafting, js, route, structure, words};
 use leptos::prelude::*;
 use session::view::{RowKind, StructureRow};
 use session::{Command, Path, Relations};
@@ -594,7 +594,7 @@ pub const ACTIONS: &[Action] = &[
         enabled: |lab| document(lab).map(drop),
         run: |lab| {
             lab.drawer.set(Drawer::Draw);
-            request_animation_frame(|| focus("input[name='program'], input[name='parameter']"));
+            request_animation_frame(drafting::focus_drawer);
         },
     },
     Action {

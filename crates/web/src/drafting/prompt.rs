@@ -2,7 +2,7 @@
 
 use super::calculator::Calculator;
 use crate::lab::Lab;
-use crate::words;
+use crate::{js, keyboard, words};
 use leptos::html::Input;
 use leptos::prelude::*;
 use session::drafting::view::{OlderUse, Prompt, Wants};
@@ -15,9 +15,21 @@ pub fn PromptLine(
 ) -> impl IntoView {
     let drafting = lab.drafting;
     let field = NodeRef::<Input>::new();
+    // who had the keyboard before has it again
+    let waits = Memo::new(move |_| drafting.prompt.with(Option::is_some));
+    Effect::new(move |before: Option<Option<web_sys::Element>>| match waits.get() {
+        true => before.flatten().or_else(keyboard::holder),
+        false => {
+            if let Some(before) = before {
+                keyboard::give_back(before);
+            }
+            None
+        }
+    });
     Effect::new(move |_| {
         drafting.prompt.track();
-        if let Some(field) = field.get() {
+        // a keyboard on the screen would hide what is picked
+        if let Some(field) = field.get().filter(|_| !js::coarse()) {
             // The keyboard types what is wanted.
             let _ = field.focus();
         }
@@ -39,6 +51,19 @@ pub fn PromptLine(
             }
         };
         prompt.operands.into_iter().enumerate().map(one).collect_view()
+    };
+    let parameters = Memo::new(move |_| {
+        lab.drafting.turned.track();
+        let names = || lab.ask_of_shown(session::Session::parameters).unwrap_or_default();
+        if is_value() { names() } else { Vec::new() }
+    });
+    let parameter = move |name: String| {
+        let own = StoredValue::new(name.clone());
+        let title = words::value_of_parameter(&name);
+        view! {
+            <button type="button" class="value" data-value=name.clone() title=title
+                on:click=move |_| lab.draft_parameter(&own.get_value())><code>{name.clone()}</code></button>
+        }
     };
     let key = move |e: leptos::ev::KeyboardEvent| match e.key().as_str() {
         "Escape" => {
@@ -74,6 +99,7 @@ pub fn PromptLine(
                         on:input=move |e| drafting.typed.set(event_target_value(&e))
                         on:keydown=key />
                 </Show>
+                {move || parameters.get().into_iter().map(parameter).collect_view()}
                 <Show when=is_value>
                     <button type="button" data-draft="calculator" aria-pressed=move || drafting.calculator.get().to_string()
                         on:click=move |_| drafting.calculator.update(|open| *open = !*open)>{words::CALCULATOR}</button>
@@ -83,7 +109,7 @@ pub fn PromptLine(
                     <button type="button" data-draft="wider" on:click=move |_| lab.draft_wider()>{words::WIDER}</button>
                 </Show>
                 <Show when=is_drawn>
-                    <label><input type="checkbox" name="guide" prop:checked=move || drafting.guides.get()
+                    <label><input type="checkbox" name="guide" prop:checked=move || of(&|p| p.is_guide)
                         on:change=move |e| lab.draw_guides(event_target_checked(&e)) />{words::GUIDE}</label>
                 </Show>
                 <Show when=is_drawn>

@@ -106,7 +106,7 @@ fn Define(lab: Lab) -> impl IntoView {
         }
     };
     view! {
-        <form class="line" aria-label=words::DEFINE on:submit=define>
+        <form class="line define" aria-label=words::DEFINE on:submit=define>
             <input name="parameter" autocomplete="off" placeholder=words::PARAMETER_NAME
                 aria-label=words::PARAMETER_NAME prop:value=move || new.with(|n| n.name.clone())
                 on:input=move |e| new.update(|n| n.name = event_target_value(&e)) />

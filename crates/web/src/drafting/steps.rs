@@ -1,7 +1,7 @@
 //! The parameters and steps of a program.
 
 use crate::lab::Lab;
-use crate::words;
+use crate::{keyboard, words};
 use leptos::prelude::*;
 use session::drafting::view::{Go, ParameterRow, StepOperand, StepRow, StepsView};
 
@@ -25,6 +25,18 @@ pub fn Steps(
         let one = |row: StepRow| view! { <Row lab=lab steps=all.clone() row=row /> };
         all.rows.clone().into_iter().map(one).collect_view()
     };
+    // the step that was drawn last, or comes next, is in sight
+    Effect::new(move |seen: Option<usize>| {
+        let drawn = steps.with(|s| s.as_ref().filter(|s| s.is_recorded).map_or(0, |s| s.rows.len()));
+        if seen.is_some_and(|seen| seen != drawn) {
+            request_animation_frame(show_newest);
+        }
+        if drawn > 0 {
+            // the rows are others now: who had the keyboard in one of them has it beside them
+            keyboard::rest_at(".drawing .visit button");
+        }
+        drawn
+    });
     let go = move |go: Go| move |_| lab.visit(&go);
     let is_recorded = Memo::new(move |_| steps.with(|s| s.as_ref().is_some_and(|s| s.is_recorded)));
     let more = move |_| lab.record(&steps.get_untracked().unwrap_or_default().program);
@@ -51,7 +63,7 @@ pub fn Steps(
         <h3>{move || words::steps_of(&view().program)}</h3>
         <div class="parameters">{parameters}</div>
         <Show when=move || !view().parameters.is_empty()>
-            <div class="line">
+            <div class="line values">
                 <button data-draft="save-values" on:click=move |_| lab.save_parameters(&view().example)>{words::SAVE_VALUES}</button>
                 <button data-draft="load-values" on:click=move |_| lab.load_parameters(view().example)>{words::LOAD_VALUES}</button>
             </div>
@@ -64,6 +76,17 @@ pub fn Steps(
         </Show>
         <ol class="steps">{rows}</ol>
     }
+}
+
+/// Brings the step that comes next, or the last one, into the list's frame.
+fn show_newest() {
+    let found = |selector: &str| document().query_selector(selector).ok().flatten();
+    let step = found(".steps li.next").or_else(|| found(".steps li:last-child"));
+    let Some((step, list)) = step.zip(found(".drawing .steps")) else { return };
+    let (own, frame) = (step.get_bounding_client_rect(), list.get_bounding_client_rect());
+    let below = (own.bottom() - frame.bottom()).max(0.0);
+    let above = (own.top() - frame.top()).min(0.0);
+    list.set_scroll_top(list.scroll_top() + (below + above).round() as i32);
 }
 
 /// A parameter: its name goes where a value is wanted, its value is typed. While the program is visited that is a value

@@ -17,46 +17,74 @@ pub fn Constructions(
         lab.drafting.turned.track();
         lab.id().map(|id| lab.ask(|session| session.constructions(id))).unwrap_or_default()
     });
-    let shelves = move || {
+    let found = Memo::new(move |_| {
         let wanted = wanted.get().to_lowercase();
-        let mut shelves: Vec<(String, Vec<ConstructionRow>)> = Vec::new();
-        for row in all.get() {
+        let fits = |row: &ConstructionRow| {
             let text =
                 format!("{} {} {} {}", row.label, row.id, row.operands, row.doc).to_lowercase();
-            if !wanted.split_whitespace().all(|word| text.contains(word)) {
-                continue;
-            }
+            wanted.split_whitespace().all(|word| text.contains(word))
+        };
+        all.with(|all| all.iter().filter(|row| fits(row)).cloned().collect::<Vec<_>>())
+    });
+    // Enter begins this one
+    let best = Memo::new(move |_| {
+        let wanted = wanted.get().trim().to_lowercase();
+        let rank = |row: &ConstructionRow| match row.id.to_lowercase() == wanted {
+            true => 0,
+            false if row.label.to_lowercase().starts_with(&wanted) => 1,
+            false => 2,
+        };
+        let first = found.with(|rows| rows.iter().min_by_key(|row| rank(row)).map(|r| r.id.clone()));
+        first.filter(|_| !wanted.is_empty())
+    });
+    let shelves = move || {
+        let mut shelves: Vec<(String, Vec<ConstructionRow>)> = Vec::new();
+        for row in found.get() {
             match shelves.iter_mut().find(|(class, _)| *class == row.class) {
                 Some((_, shelf)) => shelf.push(row),
                 None => shelves.push((row.class.clone(), vec![row])),
             }
         }
         let shelf = |(class, rows): (String, Vec<ConstructionRow>)| {
+            let one = |row| view! { <Construction lab=lab row=row best=best /> };
             view! {
                 <h3>{class}</h3>
-                <ul class="constructions">
-                    {rows.into_iter().map(|row| view! { <Construction lab=lab row=row /> }).collect_view()}
-                </ul>
+                <ul class="constructions">{rows.into_iter().map(one).collect_view()}</ul>
             }
         };
         shelves.into_iter().map(shelf).collect_view()
     };
+    let key = move |e: leptos::ev::KeyboardEvent| {
+        if e.key() == "Enter"
+            && let Some(best) = best.get_untracked()
+        {
+            e.prevent_default();
+            lab.begin_construction(&best);
+        }
+    };
     view! {
-        <input type="search" placeholder=words::FILTER aria-label=words::FILTER_CONSTRUCTIONS
-            on:input=move |e| wanted.set(event_target_value(&e)) />
+        <input type="search" name="construction" placeholder=words::FILTER aria-label=words::FILTER_CONSTRUCTIONS
+            title=words::FILTER_HELP
+            on:input=move |e| wanted.set(event_target_value(&e)) on:keydown=key />
         {shelves}
     }
 }
 
 #[component]
-fn Construction(lab: Lab, row: ConstructionRow) -> impl IntoView {
+fn Construction(
+    lab: Lab,
+    row: ConstructionRow,
+    /// The one that Enter begins.
+    best: Memo<Option<String>>,
+) -> impl IntoView {
     let id = StoredValue::new(row.id.clone());
+    let is_best = Memo::new(move |_| best.with(|best| best.as_ref() == Some(&id.get_value())));
     let held = Memo::new(move |_| {
         lab.drafting.prompt.with(|p| p.as_ref().is_some_and(|p| p.tool == id.get_value()))
     });
     view! {
         <li>
-            <button data-construction=row.id title=row.doc aria-pressed=move || held.get().to_string()
+            <button data-construction=row.id title=row.doc class:best=is_best aria-pressed=move || held.get().to_string()
                 on:click=move |_| lab.begin_construction(&id.get_value())>
                 {row.label}" "<span class="quiet">{row.operands}</span>
             </button>

@@ -1,0 +1,337 @@
+//! Standard parts recorded from an empty document: by the mouse, by the keyboard alone, and on a narrow page.
+
+use browser::Visit;
+use browser::hands::{self, key, state, text_of};
+use fantoccini::Locator;
+use fantoccini::actions::MOUSE_BUTTON_LEFT;
+
+async fn press(visit: &Visit, selector: &str) {
+    let found = visit.client.wait().for_element(Locator::Css(selector)).await;
+    let found = found.unwrap_or_else(|e| panic!("{selector}: {e}"));
+    found.click().await.unwrap_or_else(|e| panic!("{selector}: {e}"));
+}
+
+/// Types into a field in place of what is there.
+async fn fill(visit: &Visit, selector: &str, text: &str) {
+    let found = visit.client.wait().for_element(Locator::Css(selector)).await;
+    let found = found.unwrap_or_else(|e| panic!("{selector}: {e}"));
+    visit.script(&format!("document.querySelector(\"{selector}\").select()")).await;
+    found.send_keys(text).await.unwrap_or_else(|e| panic!("{selector}: {e}"));
+}
+
+async fn construct(visit: &Visit, id: &str) {
+    press(visit, &format!("[data-construction='{id}']")).await;
+}
+
+async fn enter(visit: &Visit, typed: &str) {
+    fill(visit, "input[name='operand']", &format!("{typed}{}", key::ENTER)).await;
+    tokio::time::sleep(std::time::Duration::from_millis(80)).await;
+}
+
+/// Clicks where a place of the sheet is seen.
+async fn pick(visit: &Visit, x: f64, y: f64) {
+    let sheet = state(visit).await["sheet"].clone();
+    let of = |name: &str| sheet[name].as_f64().expect("a number");
+    let at = (of("px") + x * of("scale"), of("py") - y * of("scale"));
+    hands::point(visit, at, MOUSE_BUTTON_LEFT).await;
+}
+
+async fn has(visit: &Visit, text: &str) {
+    visit.until(&format!("window.__thinglab.state().text.includes('{text}')")).await;
+}
+
+/// Waits until the prompt says something.
+async fn asked(visit: &Visit, words: &str) {
+    visit.until(&format!("document.querySelector('.prompt')?.innerText.includes('{words}')")).await;
+}
+
+/// Begins a program with its parameters, each with its example and a class.
+async fn record(visit: &Visit, program: &str, parameters: &[(&str, &str, &str)]) {
+    press(visit, "#tab-draw").await;
+    fill(visit, "input[name='program']", program).await;
+    press(visit, "[data-draft='record']").await;
+    for (name, example, class) in parameters {
+        fill(visit, "input[name='parameter']", name).await;
+        fill(visit, "input[name='example']", example).await;
+        if !class.is_empty() {
+            press(visit, &format!("select[name='class'] option[value='{class}']")).await;
+        }
+        press(visit, "[data-draft='define']").await;
+        visit.until(&format!("document.querySelector(\"[data-parameter='{name}']\")")).await;
+    }
+}
+
+async fn enlarge(visit: &Visit, times: usize) {
+    for _ in 0..times {
+        press(visit, ".corner button:last-child").await;
+    }
+}
+
+/// Gives the example another value.
+async fn set(visit: &Visit, parameter: &str, value: &str) {
+    let field = format!("input[name='value-{parameter}']");
+    fill(visit, &field, &format!("{value}{}", key::ENTER)).await;
+    tokio::time::sleep(std::time::Duration::from_millis(80)).await;
+}
+
+/// Begins an `if` whose condition the calculator says: a parameter, and keys.
+async fn branch(visit: &Visit, parameter: &str, keys: &[&str]) {
+    press(visit, "[data-draft='if']").await;
+    press(visit, &format!("[data-parameter='{parameter}']")).await;
+    for label in keys {
+        press(visit, &format!("[data-key='{label}']")).await;
+    }
+    press(visit, "[data-key='give']").await;
+}
+
+/// Draws the other branch under another value.
+async fn otherwise(visit: &Visit, parameter: &str, value: &str) {
+    press(visit, "[data-draft='else']").await;
+    set(visit, parameter, value).await;
+    press(visit, "[data-draft='others']").await;
+}
+
+async fn value(visit: &Visit, expression: &str) {
+    construct(visit, "value").await;
+    enter(visit, expression).await;
+}
+
+#[tokio::test]
+async fn a_bolt_has_the_thread_that_its_length_asks_for() {
+    let visit = hands::begin().await;
+    let parameters = [("d", "10", ""), ("k", "6.4", ""), ("s", "16", ""), ("length", "60", "")];
+    record(&visit, "Bolt", &parameters).await;
+    enlarge(&visit, 8).await;
+    construct(&visit, "Line").await;
+    for typed in ["-k, -s / 2", "-k, s / 2"] {
+        enter(&visit, typed).await;
+    }
+    for (x, y, typed) in [(-6.4, 8.0, "0, s / 2"), (0.0, 8.0, "0, -s / 2"), (0.0, -8.0, "-k, -s / 2")] {
+        pick(&visit, x, y).await;
+        enter(&visit, typed).await;
+    }
+    enter(&visit, "0, d / 2").await;
+    enter(&visit, "length, d / 2").await;
+    pick(&visit, 60.0, 5.0).await;
+    enter(&visit, "@0, -d").await;
+    has(&visit, "Point(line5.p2.x, line5.p2.y - d)").await;
+    branch(&visit, "length", &["≤", "1", "2", "5"]).await;
+    value(&visit, "2 * d + 6").await;
+    otherwise(&visit, "length", "140").await;
+    branch(&visit, "length", &["≤", "2", "0", "0"]).await;
+    value(&visit, "2 * d + 12").await;
+    otherwise(&visit, "length", "220").await;
+    value(&visit, "2 * d + 25").await;
+    for _ in 0..2 {
+        press(&visit, "[data-draft='end-if']").await;
+    }
+    // what the three call alike is one thing behind them
+    construct(&visit, "Line.vertical(from,length)").await;
+    enter(&visit, "length - value, d / 2").await;
+    enter(&visit, "-d").await;
+    for (length, at) in [("140", "(108, 5)"), ("60", "(34, 5)"), ("220", "(175, 5)")] {
+        set(&visit, "length", length).await;
+        visit.until(&format!("document.querySelector(\"[data-step='line7']\").innerText.includes('{at}')")).await;
+    }
+    visit.picture("bolt").await;
+    press(&visit, "[data-draft='stop']").await;
+    // its steps and values stay in sight
+    visit.until("document.querySelector(\"[data-step='line7']\")").await;
+}
+
+#[tokio::test]
+async fn a_retaining_ring_has_the_lug_that_its_size_asks_for() {
+    let visit = hands::begin().await;
+    let parameters = [("d1", "20", ""), ("d3", "18.5", ""), ("a", "4", ""), ("d5", "2", "")];
+    record(&visit, "Ring", &parameters).await;
+    enlarge(&visit, 12).await;
+    // the tools beside the picture draw steps, too
+    press(&visit, "[data-action='tool-circle']").await;
+    press(&visit, "input[name='guide']").await;
+    pick(&visit, 0.0, 0.0).await;
+    enter(&visit, "d3 / 2 + a / 2").await;
+    has(&visit, "guide circle = Circle(center: Point(0, 0), radius: d3 / 2 + a / 2)").await;
+    construct(&visit, "Axis.vertical(x)").await;
+    enter(&visit, "7 * a / 10").await;
+    press(&visit, "[data-draft='end']").await;
+    // what is for construction alone is picked, and does not go on by itself
+    construct(&visit, "Circle").await;
+    construct(&visit, "Point.intersection(first,second)").await;
+    pick(&visit, 2.8, 4.0).await;
+    pick(&visit, 4.5, 10.3).await;
+    enter(&visit, "d5 / 2").await;
+    has(&visit, "    circle2 = Circle(center: Point.intersection(axis, circle), radius: d5 / 2)").await;
+    visit.picture("ring-guides").await;
+    branch(&visit, "d1", &["<", "1", "0"]).await;
+    construct(&visit, "Circle.concentric(with,radius)").await;
+    pick(&visit, -11.25, 0.0).await;
+    enter(&visit, "d3 / 2 + a").await;
+    otherwise(&visit, "d1", "8").await;
+    construct(&visit, "Circle.concentric(with,radius)").await;
+    pick(&visit, 3.8, 10.9).await;
+    enter(&visit, "a / 2").await;
+    press(&visit, "[data-draft='end-if']").await;
+    let text = text_of(&state(&visit).await);
+    let wanted = "    if d1 < 10 {
+        circle3 = Circle.concentric(with: circle2, radius: a / 2)
+    } else {
+        circle3 = Circle.concentric(with: circle, radius: d3 / 2 + a)
+    }";
+    assert!(text.contains(wanted), "{text}");
+    press(&visit, "[data-action='tool-rectangle']").await;
+    visit.until("document.querySelector('.notice').innerText.includes('is no step of Ring')").await;
+}
+
+#[tokio::test]
+async fn a_plate_is_rows_of_rows_of_holes() {
+    let visit = hands::begin().await;
+    let parameters = [
+        ("rows", "5", "Integer"),
+        ("columns", "8", "Integer"),
+        ("hole", "25", ""),
+        ("pitch", "40", ""),
+    ];
+    record(&visit, "Plate", &parameters).await;
+    for _ in 0..2 {
+        press(&visit, "[data-draft='repeat']").await;
+    }
+    construct(&visit, "Circle").await;
+    enter(&visit, "pitch / 2, pitch / 2").await;
+    enter(&visit, "hole / 2").await;
+    press(&visit, "[data-draft='times']").await;
+    // the next hole of a row, then the first one of the next row
+    for (asks, by, times) in [(2, "pitch, 0", "columns"), (4, "0, pitch", "rows")] {
+        for n in 1..=asks {
+            asked(&visit, &format!("{n} of {asks}")).await;
+            let asks_place = "document.querySelector('.prompt').innerText.includes('was Point(')";
+            if visit.script(&format!("return {asks_place}")).await == true {
+                construct(&visit, ":moved(by)").await;
+                pick(&visit, 20.0, 20.0).await;
+                enter(&visit, by).await;
+            } else {
+                press(&visit, "[data-draft='same']").await;
+            }
+        }
+        asked(&visit, "how many turns").await;
+        press(&visit, &format!("[data-parameter='{times}']")).await;
+        has(&visit, &format!("repeat {times} times")).await;
+        if times == "columns" {
+            press(&visit, "[data-draft='times']").await;
+        }
+    }
+    let text = text_of(&state(&visit).await);
+    let wanted = "    turns = repeat rows times with center2 = Point(pitch / 2, pitch / 2) {
+        turns2 = repeat columns times with center = center2 {
+            circle = Circle(center: center, radius: hole / 2)
+            next center = circle.center.moved(by: Point(pitch, 0))
+        }
+        next center2 = turns2[0].center.moved(by: Point(0, pitch))
+    }";
+    assert!(text.contains(wanted), "{text}");
+    visit.picture("plate").await;
+}
+
+/// Presses keys, and says that the keyboard is somewhere then.
+async fn keys(visit: &Visit, all: &str) {
+    hands::keys(visit, all).await;
+    tokio::time::sleep(std::time::Duration::from_millis(120)).await;
+    let held = visit.script("return document.activeElement.tagName").await;
+    assert_ne!(held, "BODY", "nobody has the keyboard after {all:?}");
+}
+
+/// Begins a construction by what narrows them.
+async fn sought(visit: &Visit, words: &str) {
+    hands::chord(visit, &[key::ALT], '7').await;
+    visit.until("document.activeElement.name === 'construction'").await;
+    keys(visit, words).await;
+    visit.until("document.querySelector('.constructions .best')").await;
+    keys(visit, &key::ENTER.to_string()).await;
+}
+
+/// Begins to record by the keyboard.
+async fn recorded_by_keys(program: &str, parameters: &[(&str, &str)]) -> Visit {
+    let visit = hands::begin().await;
+    hands::chord(&visit, &[key::ALT], '7').await;
+    visit.until("document.activeElement.name === 'program'").await;
+    keys(&visit, &format!("{program}{}", key::ENTER)).await;
+    for (name, example) in parameters {
+        visit.until("document.activeElement.name === 'parameter'").await;
+        keys(&visit, &format!("{name}{}{example}{}", key::TAB, key::ENTER)).await;
+        visit.until(&format!("document.querySelector(\"[data-parameter='{name}']\")")).await;
+    }
+    visit
+}
+
+#[tokio::test]
+async fn a_washer_is_recorded_by_the_keyboard_alone() {
+    let visit = recorded_by_keys("Washer", &[("inner", "84"), ("outer", "160")]).await;
+    sought(&visit, "circle").await;
+    for typed in ["0,0", "inner / 2", "circle.center", "outer / 2"] {
+        visit.until("document.activeElement.name === 'operand'").await;
+        keys(&visit, &format!("{typed}{}", key::ENTER)).await;
+    }
+    has(&visit, "circle2 = Circle(center: circle.center, radius: outer / 2)").await;
+    keys(&visit, &key::ESCAPE.to_string()).await;
+    hands::press_by_keys(&visit, "at.dataset.draft === 'stop'", key::ENTER).await;
+    visit.until("document.querySelector(\"[data-draft='more']\")").await;
+    keys(&visit, &key::TAB.to_string()).await;
+}
+
+#[tokio::test]
+async fn figure_7_6_is_recorded_by_the_keyboard_alone() {
+    let visit = recorded_by_keys("Rings", &[("radius", "40"), ("minimum", "2")]).await;
+    let enter = key::ENTER;
+    for tool in ["horizontal line", "vertical line at"] {
+        sought(&visit, tool).await;
+        asked(&visit, "type a value").await;
+        keys(&visit, &format!("0{enter}{}", key::ESCAPE)).await;
+    }
+    hands::press_by_keys(&visit, "at.dataset.draft === 'repeat'", enter).await;
+    visit.until("document.querySelector(\"[data-draft='until']\")").await;
+    keys(&visit, &key::TAB.to_string()).await;
+    sought(&visit, "circle touches two curves radius").await;
+    for typed in ["axis", "axis2", "radius"] {
+        keys(&visit, &format!("{typed}{enter}")).await;
+    }
+    has(&visit, "circle = Circle.tangent(").await;
+    sought(&visit, "circle around another radius").await;
+    for typed in ["circle", "circle.radius / 2"] {
+        keys(&visit, &format!("{typed}{enter}")).await;
+    }
+    has(&visit, "circle2 = Circle.concentric(").await;
+    keys(&visit, &key::ESCAPE.to_string()).await;
+    hands::press_by_keys(&visit, "at.dataset.draft === 'until'", enter).await;
+    for (asks, answer) in [("was axis:", "-circle"), ("was axis2", "axis2"), ("was radius", "circle.radius / 2")] {
+        asked(&visit, asks).await;
+        keys(&visit, &format!("{answer}{enter}")).await;
+    }
+    asked(&visit, "after the last turn").await;
+    keys(&visit, &format!("circle.radius < minimum{enter}")).await;
+    let turns = "document.querySelector(\"[data-step='turns']\").innerText";
+    visit.until(&format!("{turns}.includes('6 turns')")).await;
+    keys(&visit, &key::TAB.to_string()).await;
+}
+
+#[tokio::test]
+async fn a_washer_is_recorded_on_a_narrow_page() {
+    let visit = hands::begin().await;
+    visit.client.set_window_size(500, 844).await.expect("a narrow window");
+    press(&visit, ".handles button").await;
+    record(&visit, "Washer", &[("inner", "84", ""), ("outer", "160", "")]).await;
+    construct(&visit, "Circle").await;
+    asked(&visit, "pick a point").await;
+    // what is asked hides nothing of the picture
+    visit
+        .until(
+            "(([a, b]) => a.bottom <= b.top + 1 && b.width > 300)(['#picture', '.prompt']
+                .map(s => document.querySelector(s).getBoundingClientRect()))",
+        )
+        .await;
+    pick(&visit, 0.0, 0.0).await;
+    press(&visit, ".prompt [data-value='inner']").await;
+    has(&visit, "circle = Circle(center: Point(0, 0), radius: inner)").await;
+    pick(&visit, 0.0, 0.0).await;
+    press(&visit, ".prompt [data-value='outer']").await;
+    has(&visit, "circle2 = Circle(center: circle.center, radius: outer)").await;
+    visit.picture("washer-narrow").await;
+}
