@@ -36,13 +36,18 @@ pub fn Bin(
         let used = |name: &String| text.lines().any(|line| line.trim() == format!("use {name}"));
         lab.libraries().into_iter().filter(|name| !used(name)).collect::<Vec<_>>()
     });
-    // Enter: the library of that name, else the class that is called so, or is found first
+    // Enter: the library of that name, else the class that is called so, or begins so, or is found alone
     let take = move || {
         let typed = wanted.get_untracked().trim().to_lowercase();
+        if typed.is_empty() {
+            return;
+        }
         let library = libraries.get_untracked().into_iter().find(|name| *name == typed);
         let class = found.with_untracked(|found| {
             let is_it = |entry: &&BinEntry| entry.class.to_lowercase() == typed;
-            let entry = found.iter().find(is_it).or_else(|| found.first());
+            let begins = |entry: &&BinEntry| entry.class.to_lowercase().starts_with(&typed);
+            let entry = found.iter().find(is_it).or_else(|| found.iter().find(begins));
+            let entry = entry.or_else(|| found.first().filter(|_| found.len() == 1));
             entry.map(|entry| entry.class.clone())
         });
         match (library, class) {

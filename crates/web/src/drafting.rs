@@ -17,6 +17,9 @@ pub mod recorder;
 pub mod steps;
 pub mod tools;
 
+/// Where an operand is typed.
+const OPERAND: &str = "input[name='operand']";
+
 /// What of drafting the panels share.
 #[derive(Clone, Copy, Debug)]
 pub struct Drafting {
@@ -58,16 +61,20 @@ impl Default for Drafting {
 }
 
 /// Gives the keyboard to what comes next in the drawer: the name of a program, or, while one is recorded, what narrows
-/// the constructions; from there to the next parameter.
+/// the constructions.
 pub fn focus_drawer() {
-    const TOOLS: &str = "input[name='construction']";
-    let is_there = keyboard::holder().is_some_and(|e| e.matches(TOOLS).unwrap_or(false));
-    let next = if is_there { "input[name='parameter']" } else { TOOLS };
     let name = document().query_selector("input[name='program']").ok().flatten();
-    keyboard::focus(if name.is_some() { "input[name='program']" } else { next });
-    // what is typed takes the place of what was sought before
-    let field = keyboard::holder().and_then(|f| f.dyn_into::<web_sys::HtmlInputElement>().ok());
-    field.inspect(web_sys::HtmlInputElement::select);
+    select_all(if name.is_some() { "input[name='program']" } else { "input[name='construction']" });
+}
+
+/// Gives the keyboard to a field; what is typed takes the place of what is there.
+fn select_all(field: &str) {
+    let field = document().query_selector(field).ok().flatten();
+    if let Some(field) = field.and_then(|f| f.dyn_into::<web_sys::HtmlInputElement>().ok()) {
+        // What cannot be focused stays as it is.
+        let _ = field.focus();
+        field.select();
+    }
 }
 
 impl Lab {
@@ -243,7 +250,13 @@ impl Lab {
                 let said = if text.is_empty() { name } else { format!("{name}: {text}") };
                 self.notice.set((!said.is_empty()).then_some(Notice::Said(said)));
             }
-            Some(Err(refusal)) => self.notice.set(Some(Notice::Refused(refusal))),
+            Some(Err(refusal)) => {
+                self.notice.set(Some(Notice::Refused(refusal)));
+                if !self.drafting.typed.with_untracked(String::is_empty) {
+                    // what was refused makes room for what is typed next
+                    select_all(OPERAND);
+                }
+            }
             None => {}
         }
     }
@@ -370,14 +383,7 @@ impl Lab {
         // a value is changed from what it is; what is typed first takes its place
         if let Some(says) = says {
             self.drafting.typed.set(says);
-            request_animation_frame(|| {
-                let field = document().query_selector("input[name='operand']").ok().flatten();
-                if let Some(field) =
-                    field.and_then(|f| f.dyn_into::<web_sys::HtmlInputElement>().ok())
-                {
-                    field.select();
-                }
-            });
+            request_animation_frame(|| select_all(OPERAND));
         }
     }
 

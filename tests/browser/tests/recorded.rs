@@ -106,7 +106,9 @@ async fn a_bolt_has_the_thread_that_its_length_asks_for() {
     for typed in ["-k, -s / 2", "-k, s / 2"] {
         enter(&visit, typed).await;
     }
-    for (x, y, typed) in [(-6.4, 8.0, "0, s / 2"), (0.0, 8.0, "0, -s / 2"), (0.0, -8.0, "-k, -s / 2")] {
+    for (x, y, typed) in
+        [(-6.4, 8.0, "0, s / 2"), (0.0, 8.0, "0, -s / 2"), (0.0, -8.0, "-k, -s / 2")]
+    {
         pick(&visit, x, y).await;
         enter(&visit, typed).await;
     }
@@ -131,7 +133,11 @@ async fn a_bolt_has_the_thread_that_its_length_asks_for() {
     enter(&visit, "-d").await;
     for (length, at) in [("140", "(108, 5)"), ("60", "(34, 5)"), ("220", "(175, 5)")] {
         set(&visit, "length", length).await;
-        visit.until(&format!("document.querySelector(\"[data-step='line7']\").innerText.includes('{at}')")).await;
+        visit
+            .until(&format!(
+                "document.querySelector(\"[data-step='line7']\").innerText.includes('{at}')"
+            ))
+            .await;
     }
     visit.picture("bolt").await;
     press(&visit, "[data-draft='stop']").await;
@@ -160,7 +166,8 @@ async fn a_retaining_ring_has_the_lug_that_its_size_asks_for() {
     pick(&visit, 2.8, 4.0).await;
     pick(&visit, 4.5, 10.3).await;
     enter(&visit, "d5 / 2").await;
-    has(&visit, "    circle2 = Circle(center: Point.intersection(axis, circle), radius: d5 / 2)").await;
+    has(&visit, "    circle2 = Circle(center: Point.intersection(axis, circle), radius: d5 / 2)")
+        .await;
     visit.picture("ring-guides").await;
     branch(&visit, "d1", &["<", "1", "0"]).await;
     construct(&visit, "Circle.concentric(with,radius)").await;
@@ -301,7 +308,9 @@ async fn figure_7_6_is_recorded_by_the_keyboard_alone() {
     has(&visit, "circle2 = Circle.concentric(").await;
     keys(&visit, &key::ESCAPE.to_string()).await;
     hands::press_by_keys(&visit, "at.dataset.draft === 'until'", enter).await;
-    for (asks, answer) in [("was axis:", "-circle"), ("was axis2", "axis2"), ("was radius", "circle.radius / 2")] {
+    for (asks, answer) in
+        [("was axis:", "-circle"), ("was axis2", "axis2"), ("was radius", "circle.radius / 2")]
+    {
         asked(&visit, asks).await;
         keys(&visit, &format!("{answer}{enter}")).await;
     }

@@ -265,7 +265,8 @@ pub(crate) fn guides(state: &State, home: &Home) -> drawing::Drawing {
     let mut elements = Vec::new();
     if let Home::Program { example, .. } = home {
         let of = |name: &Name| kernel::Path::of(&[example]).then(kernel::Step::Part(name.clone()));
-        for given in scene::parameters(state, home).filter_map(|name| evaluator.at(&of(name)).ok()) {
+        for given in scene::parameters(state, home).filter_map(|name| evaluator.at(&of(name)).ok())
+        {
             elements.extend(scene::elements_of(&evaluator, &given));
         }
     }

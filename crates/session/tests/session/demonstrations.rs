@@ -165,8 +165,11 @@ fn a_figure_that_is_a_parameter_is_in_sight_and_picked() {
     assert_eq!(desk.session.guides(desk.id).elements.len(), 2);
     assert_eq!(desk.session.parameters(desk.id), ["from", "to"]);
     // the pointer is nearer to the other end when the ratio is typed
-    let third =
-        draw(&mut desk, "Point.dividing(first,second,ratio)", &[At(0.0, 0.0), At(270.0, 0.0), Typed("1 / 3")]);
+    let third = draw(
+        &mut desk,
+        "Point.dividing(first,second,ratio)",
+        &[At(0.0, 0.0), At(270.0, 0.0), Typed("1 / 3")],
+    );
     let text = desk.text();
     assert!(text.contains("Point.dividing(from, to, ratio: 1 / 3)"), "{text}");
     assert_eq!(value(&desk, &format!("third.{third}")), "(90, 0)");
@@ -191,14 +194,13 @@ fn a_plate_is_rows_of_rows_of_holes() {
     draw(&mut desk, "Circle", &[Typed("pitch / 2, pitch / 2"), Typed("hole / 2")]);
     for (times, by) in [("columns", "pitch,0"), ("rows", "0,pitch")] {
         desk.session.end_turn(desk.id, Ends::Times).expect("the first turn is drawn");
-        while let Some(Wants::Recurrence(question)) = desk.session.prompt(desk.id).map(|p| p.wants) {
+        while let Some(Wants::Recurrence(question)) = desk.session.prompt(desk.id).map(|p| p.wants)
+        {
             if question.first == "Point(pitch / 2, pitch / 2)" {
                 // the place that is asked about is lit, though it has no name
                 let away = Pointer { at: (99.0, 99.0), reach: 0.1, ..Pointer::default() };
                 let lit = desk.session.hover(desk.id, &away, "").ghost;
-                let is_place = |e: &drawing::Element| {
-                    matches!(e.shape, drawing::Shape::Dot(at) if (at.x, at.y) == (4.0, 4.0))
-                };
+                let is_place = |e: &drawing::Element| matches!(e.shape, drawing::Shape::Dot(at) if (at.x, at.y) == (4.0, 4.0));
                 assert!(lit.elements.iter().any(is_place), "{:?}", lit.elements);
                 draw_answer(&mut desk, by);
             } else {

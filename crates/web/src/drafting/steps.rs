@@ -27,7 +27,8 @@ pub fn Steps(
     };
     // the step that was drawn last, or comes next, is in sight
     Effect::new(move |seen: Option<usize>| {
-        let drawn = steps.with(|s| s.as_ref().filter(|s| s.is_recorded).map_or(0, |s| s.rows.len()));
+        let drawn =
+            steps.with(|s| s.as_ref().filter(|s| s.is_recorded).map_or(0, |s| s.rows.len()));
         if seen.is_some_and(|seen| seen != drawn) {
             request_animation_frame(show_newest);
         }

@@ -34,7 +34,8 @@ pub fn Constructions(
             false if row.label.to_lowercase().starts_with(&wanted) => 1,
             false => 2,
         };
-        let first = found.with(|rows| rows.iter().min_by_key(|row| rank(row)).map(|r| r.id.clone()));
+        let first =
+            found.with(|rows| rows.iter().min_by_key(|row| rank(row)).map(|r| r.id.clone()));
         first.filter(|_| !wanted.is_empty())
     });
     let shelves = move || {
