@@ -187,6 +187,8 @@ async fn a_retaining_ring_has_the_lug_that_its_size_asks_for() {
     assert!(text.contains(wanted), "{text}");
     press(&visit, "[data-action='tool-rectangle']").await;
     visit.until("document.querySelector('.notice').innerText.includes('is no step of Ring')").await;
+    construct(&visit, "Circle").await;
+    visit.book_picture("ring").await;
 }
 
 #[tokio::test]
@@ -236,6 +238,7 @@ async fn a_plate_is_rows_of_rows_of_holes() {
     }";
     assert!(text.contains(wanted), "{text}");
     visit.picture("plate").await;
+    visit.book_picture("plate").await;
 }
 
 /// Presses keys, and says that the keyboard is somewhere then.
