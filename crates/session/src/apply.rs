@@ -480,7 +480,10 @@ fn restructure(open: &mut Open, host: &dyn Host, command: &Command) -> Result<Ch
             planner.satisfy_since(state.model(), &state.values, &mut values, &mut texts);
             write_back(&state, &values, &[], host, planner.into_plans())
         }
-        (None, Some(class)) => place_new_parts(&before, state, planner, class, host),
+        (None, Some(class)) => {
+            let (state, planner) = place_new_parts(&before, state, planner, class, host);
+            settle_places(&before, state, planner, host)
+        }
         (None, None) if matches!(command, Command::Edit { .. } | Command::Merge(_)) => {
             settle_places(&before, state, planner, host)
         }

@@ -6,9 +6,13 @@ use crate::classing;
 use crate::document::Open;
 use crate::host::Beside;
 use crate::kinds;
+use crate::offers;
+use crate::outlines;
 use crate::session::{parse_path, thing_at};
 use crate::state::State;
-use crate::view::{ClassItem, ClassPlan, DocumentId, Question, Refusal, ValueRow, ValueWithin};
+use crate::view::{
+    ClassItem, ClassPlan, DocumentId, Offer, Question, Refusal, ValueRow, ValueWithin,
+};
 use crate::ways_out;
 use crate::{Session, views};
 use kernel::{Command, Literal, Path, SlotId, Step, ThingId};
@@ -72,6 +76,39 @@ impl Session {
         }
     }
 
+    /// Returns what can be said of some things, and is not said yet: the constraints that fit them, and merging them;
+    /// what can be made of an outline.
+    pub fn offers(&self, id: DocumentId, paths: &[Path]) -> Vec<Offer> {
+        let beside = Beside::of(&*self.host, &self.documents, id);
+        let open = self.document(id);
+        let found = offers::offers(&open.state, paths);
+        let mut offers = offers::new_ones(open, &beside, found);
+        offers.extend(outlines::offers(open, &beside, paths));
+        offers
+    }
+
+    /// Returns the command that says what is offered, with a value where one goes there.
+    ///
+    /// # Errors
+    /// The value is none for it: a radius that does not fit a corner.
+    pub fn said(
+        &self,
+        id: DocumentId,
+        offer: &Offer,
+        value: Option<&str>,
+    ) -> Result<Command, Refusal> {
+        let beside = Beside::of(&*self.host, &self.documents, id);
+        let open = self.document(id);
+        let Some(radius) = value.filter(|_| !offer.of.is_empty()) else {
+            return Ok(offer.command(value));
+        };
+        let rounded = outlines::rounded_by(open, &beside, &offer.of, radius);
+        rounded.ok_or_else(|| {
+            let message = format!("{radius} is no radius that fits this corner");
+            crate::words::refuse(message)
+        })
+    }
+
     /// Returns what a command would move, by path, without doing it.
     ///
     /// # Errors
@@ -121,6 +158,30 @@ impl Session {
             [] => String::new(),
             [one] => format!("{one} = "),
             [first, others @ ..] => format!("{first} = {}", others.join(" + ")),
+        }
+    }
+
+    /// Returns the number in base units that a value comes to on a slider: in its unit the shortest that is as near as a
+    /// step. Nothing where the path leads to no number.
+    pub fn at_step(&self, id: DocumentId, path: &Path, x: f64, step: f64) -> Option<f64> {
+        let state = &self.document(id).state;
+        let slot = state.structure.slot_of(thing_at(state, path)?)?;
+        let document = &state.lowered.document;
+        let quantity = crate::words::quantity_of(state, slot, "");
+        let unit = kernel::show_quantity(x, quantity, document).unit;
+        let shown = |x| kernel::in_unit(x, quantity.dimension, &unit, document);
+        let way = (shown(x + step) - shown(x)).abs();
+        let (mut size, mut decimals) = (1.0, 0);
+        while size > 1.000_001 * way && decimals < 17 {
+            size /= 10.0;
+            decimals += 1;
+        }
+        let typed = base::number::rounded(shown(x), decimals);
+        let class = document.class_named(quantity.class);
+        let wanted = class.map_or(Wanted::Anything, Wanted::Class);
+        match lang::read_literal(&crate::words::with_unit(typed, &unit), wanted, document) {
+            Ok(Literal::Number(x)) => Some(x),
+            _ => None,
         }
     }
 

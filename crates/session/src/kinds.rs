@@ -139,11 +139,16 @@ pub(crate) fn of_every(open: &Open, host: &dyn Host, path: &Path) -> Result<Comm
     let without = State::of(without, Some(state), host, Plans::default()).0;
     let target = parse_path(&class).unwrap_or_default();
     let said = Command::Edit { target, members: members.join("\n") };
-    let edits = restructuring(&without, &said)?.edits;
-    let text = apply(&without.text, &edits);
-    let trial = State::of(text.clone(), Some(state), host, Plans::default()).0;
-    refuse_new_errors(state, &trial, "this cannot be of every one")?;
-    Ok(Command::Text(text))
+    let mut trial = Open::of(&open.name, without.text.clone(), host);
+    let done = crate::apply::apply(&mut trial, host, &said);
+    if done.is_err() {
+        // its text says what is wrong
+        let text = apply(&without.text, &restructuring(&without, &said)?.edits);
+        let wrong = State::of(text, Some(state), host, Plans::default()).0;
+        refuse_new_errors(state, &wrong, "this cannot be of every one")?;
+        done?;
+    }
+    Ok(Command::Text(trial.state.text.clone()))
 }
 
 /// Returns the member that a deletion takes away, and whether it stands at the top of the text.

@@ -40,6 +40,7 @@ mod limits;
 mod mentioning;
 mod offers;
 mod opening;
+mod outlines;
 mod parting;
 mod placing;
 pub mod plain;

@@ -5,7 +5,11 @@
 //! be equal, midpoints, levels; and the classes of constraints whose parts the things could be. What is told a
 //! number is told what it is now, so that nothing moves before a person types another.
 
+use crate::apply;
+use crate::document::Open;
+use crate::host::Host;
 use crate::joining;
+use crate::plotting;
 use crate::recognise;
 use crate::session::thing_at;
 use crate::state::State;
@@ -67,7 +71,7 @@ struct Offerer<'s> {
 impl Offerer<'_> {
     fn rule(label: &str, rules: &[String]) -> Offer {
         let members: Vec<String> = rules.iter().map(|rule| format!("constraint {rule}")).collect();
-        Offer { label: label.into(), members: members.join("\n"), value: None }
+        Offer { label: label.into(), members: members.join("\n"), ..Offer::default() }
     }
 
     fn is_place(&self, class: ClassId) -> bool {
@@ -85,7 +89,7 @@ impl Offerer<'_> {
         let joined = joining::joined(self.state, paths).ok().filter(|all| all.len() > 1)?;
         let names: Vec<String> = joined.iter().map(ToString::to_string).collect();
         let members = format!("merge {}", names.join(" = "));
-        Some(Offer { label: "merge".into(), members, value: None })
+        Some(Offer { label: "merge".into(), members, ..Offer::default() })
     }
 
     /// The two places that are level or upright: two that are selected, or the ends of each line.
@@ -216,7 +220,7 @@ impl Offerer<'_> {
                 "{name}: Distance {{ value = {{}} }}\nmerge {a} = {name}.from\nmerge {b} = {name}.to"
             );
             let value = Some(self.written(now));
-            Some(Offer { label: "distance".into(), members, value })
+            Some(Offer { label: "distance".into(), members, value, ..Offer::default() })
         };
         let single = |name: &str| {
             let [one] = self.things else { return None };
@@ -226,20 +230,34 @@ impl Offerer<'_> {
             let path = one.path.then(Step::Part(Name::new(name)));
             let now = self.number(&Term::at(Term::Document, &path))?;
             let members = format!("constraint {path} = {{}}");
-            Some(Offer { label: name.into(), members, value: Some(self.written(now)) })
+            Some(Offer {
+                label: name.into(),
+                members,
+                value: Some(self.written(now)),
+                ..Offer::default()
+            })
         };
         let angle = || {
             let [a, b] = self.things else { return None };
             self.message(a.class, "angle").filter(|m| m.parameters.len() == 1)?;
             let (radians, _) = self.number(&asked(a, "angle", "to", b))?;
-            let degrees = radians * 180.0 / std::f64::consts::PI;
             let members = format!("constraint {}.angle(to: {}) = {{}}", a.path, b.path);
-            let value = format!("{} deg", base::number::rounded(degrees, 6));
-            Some(Offer { label: "angle".into(), members, value: Some(value) })
+            let value = in_degrees(radians);
+            Some(Offer { label: "angle".into(), members, value: Some(value), ..Offer::default() })
+        };
+        let direction = || {
+            let [one] = self.things else { return None };
+            self.message(one.class, "direction").filter(|m| m.parameters.is_empty())?;
+            let path = one.path.then(Step::Part(Name::new("direction")));
+            let (radians, _) = self.number(&Term::at(Term::Document, &path))?;
+            let members = format!("constraint {path} = {{}}");
+            let value = Some(in_degrees(radians));
+            Some(Offer { label: "direction".into(), members, value, ..Offer::default() })
         };
         let singles =
             ["length", "radius", "side", "width", "height"].into_iter().filter_map(single);
-        distance().into_iter().chain(singles).chain(angle()).collect()
+        let angles = angle().into_iter().chain(direction());
+        distance().into_iter().chain(singles).chain(angles).collect()
     }
 
     /// A number that something is now, in base units, with what it measures.
@@ -295,7 +313,7 @@ impl Offerer<'_> {
                 format!("\nmerge {} = {name}.{field}", self.things[i].path)
             });
             let members = format!("{name}: {}{}", class.name, merges.collect::<String>());
-            offers.push(Offer { label, members, value: None });
+            offers.push(Offer { label, members, ..Offer::default() });
         }
         offers
     }
@@ -321,6 +339,44 @@ impl Offerer<'_> {
     fn is_unseen(&self, class: ClassId) -> bool {
         crate::tools::bin::picture(self.state, class) == Drawing::default()
     }
+}
+
+/// Documents of more numbers than this are offered what holds already.
+const MOST_TRIED: usize = 400;
+
+/// Leaves out what holds already, because something says so: adding it would leave as much free as before.
+pub(crate) fn new_ones(open: &Open, host: &dyn Host, mut offers: Vec<Offer>) -> Vec<Offer> {
+    let state = &open.state;
+    if state.structure.slots.len() > MOST_TRIED || open.pane.is_some() {
+        return offers;
+    }
+    let holds = |rules: &[&str]| {
+        let Ok(terms) = plotting::read(state, host, rules) else { return false };
+        let evaluator = state.evaluator(&state.values);
+        let is_true = |term| matches!(evaluator.evaluate(term, DOCUMENT), Ok(Answer::Bool(true)));
+        terms.iter().all(is_true)
+    };
+    let is_said = |offer: &Offer| {
+        let rules: Option<Vec<&str>> =
+            offer.members.lines().map(|line| line.strip_prefix("constraint ")).collect();
+        let Some(rules) = rules.filter(|_| offer.value.is_none() && offer.whole.is_none()) else {
+            return false;
+        };
+        if !holds(&rules) {
+            return false;
+        }
+        let mut trial = Open::of(&open.name, state.text.clone(), host);
+        let added = apply::apply(&mut trial, host, &offer.command(None));
+        added.is_ok() && trial.status.freedom == open.status.freedom
+    };
+    offers.retain(|offer| !is_said(offer));
+    offers
+}
+
+/// An angle as a person writes it.
+fn in_degrees(radians: f64) -> String {
+    let degrees = radians * 180.0 / std::f64::consts::PI;
+    format!("{} deg", base::number::rounded(degrees, 6))
 }
 
 /// Whether an expression is a truth value, whatever it speaks of.

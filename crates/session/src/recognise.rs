@@ -17,6 +17,8 @@ use kernel::{
 
 /// How many parts can be asked about: their orders are all tried.
 const MOST_PARTS: usize = 6;
+/// Of so many parts at most each is tried both ways round.
+const MOST_TURNED: usize = 4;
 /// What the name of the class of placed things begins with: nobody declares it.
 const PLACED_OF: &str = "Placed of ";
 
@@ -51,17 +53,23 @@ pub(crate) fn recognise(state: &State, paths: &[Path]) -> Result<Vec<Recognised>
             document.is_a(state.structure.things[thing].class, wanted[field])
         };
         let Some(trial) = Trial::new(document, class) else { continue };
+        let ways: &[&[bool]] = match things.len() {
+            0..=MOST_TURNED => &[&[false], &[false, true]],
+            _ => &[&[false]],
+        };
         let mut order = Vec::new();
-        if trial.first_order(state, &things, &fits, &mut order) {
+        if ways.iter().any(|ways| trial.first_order(state, &things, (&fits, ways), &mut order)) {
             let names = fields.iter().map(|&f| document.field_name(f).to_string());
-            let parts = names.zip(order.iter().map(|&i| paths[i].to_string()));
+            let parts = names.zip(order.iter().map(|&(i, _)| paths[i].to_string()));
             let parts: Vec<(String, String)> = parts.collect();
+            let turned = order.iter().map(|&(i, turned)| ends(state, things[i]).filter(|_| turned));
+            let turned: Vec<Option<[Name; 2]>> = turned.collect();
             let class = &document.classes[class];
             found.push(Recognised {
                 class: class.name.to_string(),
                 doc: class.doc.clone(),
                 constraints: trial.rules,
-                members: members(state, &class.name, &parts),
+                members: members(state, &class.name, &parts, &turned),
                 parts,
             });
         }
@@ -71,11 +79,36 @@ pub(crate) fn recognise(state: &State, paths: &[Path]) -> Result<Vec<Recognised>
 }
 
 /// Writes a thing of a class whose parts are those selected; they stand first, so that they keep their
-/// values.
-fn members(state: &State, class: &Name, parts: &[(String, String)]) -> String {
+/// values. What runs the other way is joined end by end.
+fn members(
+    state: &State,
+    class: &Name,
+    parts: &[(String, String)],
+    turned: &[Option<[Name; 2]>],
+) -> String {
     let name = free_name(state, class);
-    let merges = parts.iter().map(|(field, part)| format!("merge {part} = {name}.{field}\n"));
+    let merges = parts.iter().zip(turned).map(|((field, part), turned)| match turned {
+        Some([a, b]) => {
+            format!(
+                "merge {part}.{a} = {name}.{field}.{b}\nmerge {part}.{b} = {name}.{field}.{a}\n"
+            )
+        }
+        None => format!("merge {part} = {name}.{field}\n"),
+    });
     std::iter::once(format!("{name}: {class}\n")).chain(merges).collect()
+}
+
+/// Returns the names of the two ends of a thing that is nothing but them, and so could run the other way.
+fn ends(state: &State, thing: ThingId) -> Option<[Name; 2]> {
+    let (document, structure) = (&state.lowered.document, &state.structure);
+    let parts: Vec<ThingId> = structure.parts(thing).collect();
+    let [a, b] = parts[..] else { return None };
+    let class = structure.things[a].class;
+    if class != structure.things[b].class || !document.is_place(class) {
+        return None;
+    }
+    let name = |part| structure.field_name(document, part).cloned();
+    Some([name(a)?, name(b)?])
 }
 
 /// Returns a name for a new thing of a class that nothing in the document has.
@@ -137,32 +170,47 @@ impl Trial {
         &self,
         state: &State,
         things: &[ThingId],
-        fits: &dyn Fn(usize, ThingId) -> bool,
-        order: &mut Vec<usize>,
+        (fits, ways): (&dyn Fn(usize, ThingId) -> bool, &[bool]),
+        order: &mut Vec<(usize, bool)>,
     ) -> bool {
         let field = order.len();
         if field == things.len() {
             return self.holds(state, things, order);
         }
         for i in 0..things.len() {
-            if order.contains(&i) || !fits(field, things[i]) {
+            if order.iter().any(|&(known, _)| known == i) || !fits(field, things[i]) {
                 continue;
             }
-            order.push(i);
-            if self.first_order(state, things, fits, order) {
-                return true;
+            for &turned in ways {
+                if turned && ends(state, things[i]).is_none() {
+                    continue;
+                }
+                order.push((i, turned));
+                if self.first_order(state, things, (fits, ways), order) {
+                    return true;
+                }
+                order.pop();
             }
-            order.pop();
         }
         false
     }
 
     /// Returns true if all that the class says is true of the things as its parts.
-    fn holds(&self, state: &State, things: &[ThingId], order: &[usize]) -> bool {
+    fn holds(&self, state: &State, things: &[ThingId], order: &[(usize, bool)]) -> bool {
         let mut values = Values::new(self.lone.structure.slots.len());
         let mut filled = vec![false; self.lone.structure.slots.len()];
-        for (field, &i) in self.lone.structure.parts(self.lone.thing).zip(order) {
-            if !self.fill(state, field, things[i], &mut values, &mut filled) {
+        for (field, &(i, turned)) in self.lone.structure.parts(self.lone.thing).zip(order) {
+            let is_filled = match ends(state, things[i]).filter(|_| turned) {
+                None => self.fill(state, field, things[i], &mut values, &mut filled),
+                Some(names) => { names.iter().zip(names.iter().rev()) }.all(|(name, other)| {
+                    let part = self.lone.structure.part_named(field, name);
+                    let from = state.structure.part_named(things[i], other);
+                    part.zip(from).is_some_and(|(part, from)| {
+                        self.fill(state, part, from, &mut values, &mut filled)
+                    })
+                }),
+            };
+            if !is_filled {
                 return false;
             }
         }

@@ -11,7 +11,6 @@ use crate::ghosts;
 use crate::host::{Beside, Host};
 use crate::joining;
 use crate::lessons;
-use crate::offers;
 use crate::opening::Opening;
 use crate::plotting::{self, Plot, Request, Sweeping};
 use crate::recognise;
@@ -22,7 +21,7 @@ use crate::tools::{self, Tool};
 use crate::view::{
     Advice, Affected, Along, Analysis, BinEntry, Change, CheckReport, CompletionView,
     DiagnosticView, DocumentId, DragState, Explanation, FamilyRow, FamilyView, FixView, Ghost,
-    HeldView, LessonEntry, LessonView, MovedView, Offer, PictureView, PlotEntry, Pointer, Question,
+    HeldView, LessonEntry, LessonView, MovedView, PictureView, PlotEntry, Pointer, Question,
     Recognised, Refusal, RowFormats, RowOutcome, Status, StructureRow, TableView, TextView,
     TokenView, ToolView, ValueRow,
 };
@@ -410,10 +409,6 @@ impl Session {
             return Vec::new();
         };
         apply::along(&self.document(self.home(id)).state, &path)
-    }
-    /// Returns what can be said of some things: the constraints that fit them, and merging them.
-    pub fn offers(&self, id: DocumentId, paths: &[Path]) -> Vec<Offer> {
-        offers::offers(&self.document(id).state, paths)
     }
     /// Returns what of the picture would look otherwise after a command, which is tried in a copy of the document.
     ///

@@ -8,6 +8,7 @@
 pub(crate) mod bin;
 mod catch;
 pub(crate) mod copies;
+mod digits;
 pub(crate) mod room;
 mod stages;
 mod stops;
@@ -277,7 +278,7 @@ impl Tool {
         self.set_to(catch, host)?;
         let mut view = self.view();
         if self.set.len() == self.stages.len() {
-            view.command = Some(self.command());
+            view.command = Some(self.command(host));
         }
         Ok(view)
     }
@@ -329,8 +330,8 @@ impl Tool {
     }
 
     /// The command that makes the thing as it is in the trial, joined to what its places were caught by.
-    fn command(&self) -> Command {
-        let mut members = member_of(&self.trial.state.text, &self.name);
+    fn command(&self, host: &dyn Host) -> Command {
+        let mut members = digits::without_noise(&self.trial, &self.name, host);
         for (stage, catch) in self.stages.iter().zip(&self.set) {
             if let Some(other) = &catch.joins {
                 members.push_str(&format!("\nmerge {other} = {}", self.own(stage)));

@@ -79,7 +79,10 @@ fn Open(lab: Lab, wish: Wish) -> impl IntoView {
     let look = move || {
         let Some(typed) = input.get_untracked().map(|input| input.value()) else { return };
         let command = match wish.get_value() {
-            Wish::Dimension(offer) => offer.command(Some(typed.trim())),
+            Wish::Dimension(offer) => match lab.dimension_said(&offer, typed.trim()) {
+                Ok(command) => command,
+                Err(sentence) => return foreseen.set(Some(sentence)),
+            },
             Wish::Equation(_) => equation(&typed),
             Wish::SaveAs | Wish::Rename(_) | Wish::Kind(_) | Wish::Number => return,
         };
@@ -212,10 +215,24 @@ impl Lab {
     /// # Errors
     /// Why not, in one sentence.
     pub fn set_dimension(self, offer: &Offer, typed: &str) -> Result<(), String> {
-        if self.apply(&offer.command(Some(typed))) {
+        let command = self.dimension_said(offer, typed)?;
+        let done = match offer.whole {
+            Some(_) => self.apply_called(&command, &offer.label),
+            None => self.apply(&command),
+        };
+        if done {
             return Ok(());
         }
         refused(self)
+    }
+
+    /// The command of a dimension with the value that was typed.
+    fn dimension_said(self, offer: &Offer, typed: &str) -> Result<Command, String> {
+        let said = self.ask_of_shown(|session, id| session.said(id, offer, Some(typed)));
+        match said {
+            Some(said) => said.map_err(|refusal| crate::field::reason(&refusal)),
+            None => Ok(offer.command(Some(typed))),
+        }
     }
 }
 

@@ -80,6 +80,9 @@ pub fn Dock(
     lab: Lab,
 ) -> impl IntoView {
     let wrong = Memo::new(move |_| lab.text.with(|text| text.diagnostics.len()));
+    let mild = Memo::new(move |_| {
+        lab.text.with(|text| text.diagnostics.iter().all(|d| d.severity != "error"))
+    });
     let tab = move |shown: Tab| {
         view! {
             <button role="tab" id=format!("tab-{}", shown.label().to_lowercase()) aria-controls="dock"
@@ -87,7 +90,7 @@ pub fn Dock(
                 on:click=move |_| lab.toggle_dock(shown)>
                 {shown.label()}
                 {move || (shown == Tab::Text && wrong.get() > 0)
-                    .then(|| view! { <span class="count">{wrong}</span> })}
+                    .then(|| view! { <span class="count" class:mild=mild>{wrong}</span> })}
             </button>
         }
     };

@@ -72,10 +72,10 @@ impl View {
         [5.0, 2.0].into_iter().map(|k| k * step).find(|&k| k <= most).unwrap_or(step)
     }
 
-    /// Returns how many decimals a position has that a pointer can tell apart: half a pixel or less.
+    /// Returns how many decimals a position has that a pointer can tell apart: a pixel or less.
     pub fn decimals(&self) -> usize {
         let (mut step, mut decimals) = (1.0, 0);
-        while step > 0.5 / self.scale {
+        while step > 1.0 / self.scale {
             step /= 10.0;
             decimals += 1;
         }
@@ -276,8 +276,8 @@ mod tests {
     }
 
     #[test]
-    fn a_pointer_tells_half_pixels_apart() {
-        for (scale, decimals) in [(0.004, 0), (0.5, 0), (1.0, 1), (5.0, 1), (6.0, 2)] {
+    fn a_place_at_full_size_is_in_whole_units() {
+        for (scale, decimals) in [(0.004, 0), (0.5, 0), (1.0, 0), (5.0, 1), (11.0, 2)] {
             assert_eq!(View { scale, ..View::default() }.decimals(), decimals, "at {scale}");
         }
     }

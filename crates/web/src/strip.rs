@@ -40,7 +40,7 @@ pub fn Strip(
 #[component]
 fn Button(lab: Lab, offer: Offer) -> impl IntoView {
     let label = match &offer.value {
-        Some(value) => format!("{} {value}", offer.label),
+        Some(value) => format!("{} {}", offer.label, to_read(value)),
         None => offer.label.clone(),
     };
     let (name, title) = (offer.label.clone(), offer.members.replace("{}", "…"));
@@ -52,6 +52,15 @@ fn Button(lab: Lab, offer: Offer) -> impl IntoView {
             on:focus=move |_| look()
             on:blur=move |_| lab.foresee(None)
             on:click=move |_| lab.take_offer(&offer.get_value())>{label}</button>
+    }
+}
+
+/// A value as a button shows it, to six digits; the field that asks for it has them all.
+fn to_read(value: &str) -> String {
+    let (number, unit) = value.split_once(' ').unwrap_or((value, ""));
+    match number.parse() {
+        Ok(x) => format!("{} {unit}", base::number::significant(x, 6)).trim_end().into(),
+        Err(_) => value.into(),
     }
 }
 
@@ -94,7 +103,10 @@ impl Lab {
             self.wish.set(Some(Wish::Dimension(offer.clone())));
             return;
         }
-        self.apply(&offer.command(None));
+        match offer.whole {
+            Some(_) => self.apply_called(&offer.command(None), &offer.label),
+            None => self.apply(&offer.command(None)),
+        };
         // the strip offers something else now; whoever was in it is where its things are
         keyboard::give_back(None);
     }
@@ -105,5 +117,17 @@ impl Lab {
             Some(offer) => self.take_offer(&offer),
             None => self.notice.set(Some(Notice::Said(String::from(words::NO_DIMENSION)))),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::to_read;
+
+    #[test]
+    fn a_button_shows_six_digits_of_a_length() {
+        assert_eq!(to_read("353.5533905932738"), "353.553");
+        assert_eq!(to_read("-53.089384 deg"), "-53.0894 deg");
+        assert_eq!(to_read("a + b"), "a + b");
     }
 }

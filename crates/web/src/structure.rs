@@ -273,6 +273,13 @@ fn rule_alone(row: &StructureRow) -> &str {
     if row.kind == RowKind::Constraint { rest } else { &row.detail }
 }
 
+/// Whether a row is a constraint that nobody has named: its rule says more than `constraint3`.
+fn is_unnamed(row: &StructureRow) -> bool {
+    let number = row.name.strip_prefix("constraint");
+    row.kind == RowKind::Constraint
+        && number.is_some_and(|n| !n.is_empty() && n.chars().all(|c| c.is_ascii_digit()))
+}
+
 /// Whether a row's value can be typed.
 fn is_editable(row: &StructureRow) -> bool {
     match row.kind {
@@ -407,6 +414,8 @@ fn Row(tree: Tree, place: usize, shown: Shown) -> impl IntoView {
     });
     let anchored = Memo::new(move |_| row.with(|row| row.as_ref().is_some_and(|r| r.anchored)));
     let enabled = Memo::new(move |_| row.with(|row| row.as_ref().is_none_or(|r| r.enabled)));
+    let unnamed = Memo::new(move |_| row.with(|row| row.as_ref().is_some_and(is_unnamed)));
+    let holds = Memo::new(move |_| value.with(|value| value.as_deref() == Some("holds")));
     let toggle = move |e: leptos::ev::MouseEvent| {
         e.stop_propagation();
         if let Some(row) = tree.row(at) {
@@ -421,6 +430,8 @@ fn Row(tree: Tree, place: usize, shown: Shown) -> impl IntoView {
             class:selected=selected
             class:hovered=hovered
             class:off=move || !enabled.get()
+            class:unnamed=unnamed
+            class:holds=holds
             style:--depth=move || depth.get().to_string()
             style:--place=place.to_string()
             role="treeitem"

@@ -258,6 +258,9 @@ fn Scrub(
     }
 }
 
+/// How many steps a slider has.
+const STEPS: f64 = 200.0;
+
 /// A slider for a number; while it is moved the rest follows, and it is one step of the undo list.
 #[component]
 pub fn Slider(
@@ -280,13 +283,21 @@ pub fn Slider(
         asked.get().unwrap_or_else(around)
     });
     let pressed = StoredValue::new(false);
+    let at_step = move |to: f64| {
+        let (least, most) = range.get_untracked();
+        let (path, id) = (path.with_untracked(|path| session::parse_path(path)), lab.id());
+        let rounded = path.zip(id).and_then(|(path, id)| {
+            lab.ask(|session| session.at_step(id, &path, to, (most - least) / STEPS))
+        });
+        rounded.filter(|x| (least..=most).contains(x)).unwrap_or(to)
+    };
     let moved = move |e: leptos::ev::Event| {
         let Ok(to) = event_target_value(&e).parse::<f64>() else { return };
         if !pressed.get_value() {
             pressed.set_value(path.with_untracked(|path| lab.press(path)).is_some());
         }
         if pressed.get_value() {
-            lab.drag((to, 0.0));
+            lab.drag((at_step(to), 0.0));
         }
     };
     let done = move |_| {
@@ -296,7 +307,7 @@ pub fn Slider(
     };
     let step = move || {
         let (least, most) = range.get();
-        if whole.get() { 1.0 } else { (most - least) / 200.0 }
+        if whole.get() { 1.0 } else { (most - least) / STEPS }
     };
     move || {
         number.with(Option::is_some).then(|| {

@@ -114,7 +114,7 @@ impl Tool {
             let pointer = Pointer { at, alone: true, ..Pointer::default() };
             self.set(state, &pointer, host)?;
         }
-        Ok(self.command())
+        Ok(self.command(host))
     }
 
     /// Sets the whole by its first place, all else as the prototype has it.
@@ -125,6 +125,6 @@ impl Tool {
             drag.release(&mut self.trial, host)?;
         }
         self.take_inserted(host);
-        Ok(self.command())
+        Ok(self.command(host))
     }
 }

@@ -53,7 +53,7 @@ pub struct Caught {
 }
 
 /// Something that can be said of what is selected.
-#[derive(Clone, PartialEq, Eq, Debug)]
+#[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct Offer {
     /// What a button says: `parallel`, `equal length`, `distance`.
     pub label: String,
@@ -61,12 +61,20 @@ pub struct Offer {
     pub members: String,
     /// The value as it is now, where one goes there.
     pub value: Option<String>,
+    /// The text of the document that says it, before and after the value, where more changes than that members are
+    /// added.
+    pub whole: Option<[String; 2]>,
+    /// What it is made of, where its value decides more than a number: see `Session::said`.
+    pub of: Vec<kernel::Path>,
 }
 
 impl Offer {
     /// Returns the command that says it, with a value where one goes there.
     pub fn command(&self, value: Option<&str>) -> kernel::Command {
         let value = value.or(self.value.as_deref()).unwrap_or_default();
+        if let Some([before, after]) = &self.whole {
+            return kernel::Command::Text(format!("{before}{value}{after}"));
+        }
         let members = self.members.replace("{}", value);
         kernel::Command::Edit { target: kernel::Path::default(), members }
     }

@@ -1,6 +1,7 @@
 //! What hands ask of a document that they work on, and what is inserted as it is drawn.
 
 use crate::desk::{Desk, at};
+use session::Command;
 use session::view::Pointer;
 
 const CONVERTER: &str = "\
@@ -134,7 +135,7 @@ fn what_contradicts_is_asked_about_with_ways_out_that_hold() {
         desk.apply(&asked.choices[n].command).expect("it was tried");
         assert!(desk.session.status(desk.id).satisfied, "{}", desk.text());
         assert!((desk.number("a.length") - wanted).abs() < 1e-9, "{}", desk.text());
-        desk.apply(&session::Command::Undo).expect("a step");
+        desk.apply(&Command::Undo).expect("a step");
         assert_eq!(desk.text(), before);
     }
     let reference = &asked.choices[0].command;
@@ -193,4 +194,29 @@ fn a_number_of_the_document_is_typed_with_or_without_its_name() {
         Err("K: a number's name is one word with a small first letter".into())
     );
     assert!(why("c = nonsense").is_err() && why("c =").is_err());
+}
+
+#[test]
+fn an_edited_class_leaves_no_warnings_at_things_put_by_hand() {
+    let mut desk = Desk::of(
+        "use geometry\nclass Pair {\n    a: Line { p2 = (9, 1) }\n    b: Line { p1 = (0, 5)  p2 = (8, 9) }\n}\n\
+         one: Pair { a.p1 = (100, 100)  a.p2 = (150, 100)  b.p1 = (100, 120)  b.p2 = (160, 190) }\n",
+    );
+    let members = String::from("constraint a.parallel(to: b)");
+    desk.apply(&Command::Edit { target: at("Pair"), members }).expect("it can be said");
+    assert_eq!(desk.wrong(), [], "{}", desk.text());
+    let status = desk.session.status(desk.id);
+    assert!(status.satisfied && !status.message.contains("gave way"), "{}", status.message);
+}
+
+#[test]
+fn a_slider_comes_to_short_numbers() {
+    let mut desk = Desk::of("use geometry\nturn: Angle = 30 deg\nl: Length = 120\n");
+    let wished = 257.4_f64.to_radians();
+    let angle = desk.session.at_step(desk.id, &at("turn"), wished, 1.8_f64.to_radians());
+    desk.set("turn", angle.expect("it is a number")).expect("it is free");
+    assert!(desk.text().contains("turn: Angle = 257 deg\n"), "{}", desk.text());
+    assert_eq!(desk.session.at_step(desk.id, &at("l"), 76.800_000_01, 1.2), Some(77.0));
+    assert_eq!(desk.session.at_step(desk.id, &at("l"), 0.034_567, 0.001), Some(0.035));
+    assert_eq!(desk.session.at_step(desk.id, &at("nothing"), 1.0, 0.1), None);
 }

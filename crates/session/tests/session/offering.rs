@@ -24,7 +24,7 @@ fn labels(desk: &Desk, paths: &[&str]) -> Vec<String> {
 fn take(desk: &mut Desk, paths: &[&str], label: &str, value: Option<&str>) {
     let all = offers(desk, paths);
     let offer = all.iter().find(|offer| offer.label == label).expect("it is offered");
-    let command = offer.command(value);
+    let command = desk.session.said(desk.id, offer, value).expect("it fits");
     desk.apply(&command).expect("it can be said");
     let status = desk.session.status(desk.id);
     assert!(status.satisfied, "{label}: {}", status.message);
@@ -99,4 +99,70 @@ fn an_offer_is_foreseen_and_nothing_changes() {
     let seen = desk.session.foreseen(desk.id, &level.command(None)).expect("it can be said");
     assert!(!seen.elements.is_empty());
     assert_eq!(desk.moment(), before);
+}
+
+#[test]
+fn what_holds_by_a_constraint_is_not_offered_again() {
+    let mut desk = Desk::of("use geometry\na: Line { p1 = (0, 0)  p2 = (100, 0) }\n");
+    // it is level, but nothing says so
+    assert!(labels(&desk, &["a"]).iter().any(|label| label == "horizontal"));
+    take(&mut desk, &["a"], "horizontal", None);
+    let again = labels(&desk, &["a"]);
+    assert!(again.iter().all(|label| label != "horizontal"), "{again:?}");
+    assert!(again.iter().any(|label| label == "vertical"), "{again:?}");
+}
+
+const ELBOW: &str = "use geometry
+a: Line { p1 = (0, 100)  p2 = (0, 0) }
+b: Line { p2 = (200, 0) }
+merge a.p2 = b.p1
+constraint a.p1.x = a.p2.x
+constraint b.p1.y = b.p2.y
+";
+
+#[test]
+fn a_corner_is_rounded_where_two_lines_meet() {
+    for selected in [&["a.p2"][..], &["b.p1"], &["a", "b"]] {
+        let mut desk = Desk::of(ELBOW);
+        let free = desk.session.status(desk.id).freedom;
+        take(&mut desk, selected, "round", Some("10"));
+        assert_eq!(desk.place("a.p1"), (0.0, 100.0));
+        assert_eq!(desk.place("b.p2"), (200.0, 0.0));
+        let (a, b) = (desk.place("a.p2"), desk.place("b.p1"));
+        let near = |p: (f64, f64), q: (f64, f64)| base::number::hypot(p.0 - q.0, p.1 - q.1) < 1e-6;
+        assert!(near(a, (0.0, 10.0)) && near(b, (10.0, 0.0)), "{a:?} {b:?}\n{}", desk.text());
+        assert_eq!(desk.wrong(), [], "{}", desk.text());
+        assert_eq!(desk.session.status(desk.id).freedom, free, "{}", desk.text());
+        let sweep = desk.number("arc.sweep");
+        assert!((sweep - std::f64::consts::FRAC_PI_2).abs() < 1e-6, "{sweep}");
+    }
+    let desk = Desk::of(ELBOW);
+    let round = offers(&desk, &["a.p2"]).into_iter().find(|offer| offer.label == "round");
+    let refused = desk.session.said(desk.id, &round.expect("it is offered"), Some("500"));
+    let refused = refused.expect_err("it is longer than the lines");
+    assert_eq!(refused.message, "500 is no radius that fits this corner");
+}
+
+#[test]
+fn where_three_lines_meet_or_two_are_in_line_nothing_is_rounded() {
+    let three = format!("{ELBOW}c: Line {{ p2 = (50, -80) }}\nmerge b.p1 = c.p1\n");
+    let level = ELBOW.replace("(0, 100)", "(-100, 0)").replace("constraint a.p1.x = a.p2.x\n", "");
+    for text in [three, level] {
+        let desk = Desk::of(&text);
+        assert!(labels(&desk, &["a.p2"]).iter().all(|label| label != "round"), "{text}");
+    }
+}
+
+#[test]
+fn a_rectangle_becomes_its_four_lines() {
+    let mut desk =
+        Desk::of("use geometry\nr: Rectangle { corner = (10, 20)  width = 30; height = 40 }\n");
+    take(&mut desk, &["r"], "four lines", None);
+    assert_eq!(desk.wrong(), [], "{}", desk.text());
+    assert!(!desk.text().contains("Rectangle"), "{}", desk.text());
+    assert_eq!((desk.place("line.p1"), desk.place("line3.p1")), ((10.0, 20.0), (40.0, 60.0)));
+    assert_eq!(desk.session.status(desk.id).freedom, 4);
+    // what something else speaks of stays
+    let spoken = Desk::of("use geometry\nr: Rectangle\np: Point\nconstraint p = r.center\n");
+    assert!(labels(&spoken, &["r"]).iter().all(|label| label != "four lines"));
 }

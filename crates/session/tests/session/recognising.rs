@@ -52,3 +52,21 @@ fn recognition_changes_nothing_and_refuses_what_it_cannot_ask() {
     assert_eq!(refused(&["a", "nothing"]), "there is no nothing here");
     assert_eq!(desk.moment(), before);
 }
+
+#[test]
+fn a_line_that_runs_the_other_way_is_recognised_too() {
+    let mut desk = Desk::of(&SHAPES.replace(
+        "b: Line { p1 = (30, 40)  p2 = (30, 90) }",
+        "b: Line { p1 = (30, 90)  p2 = (30, 40) }",
+    ));
+    let found = desk.session.recognise(desk.id, &[at("a"), at("b")]).expect("they are there");
+    let elbow = found.iter().find(|r| r.class == "Elbow").expect("it is one");
+    let members =
+        "elbow: Elbow\nmerge a = elbow.one\nmerge b.p1 = elbow.two.p2\nmerge b.p2 = elbow.two.p1\n";
+    assert_eq!(elbow.members, members);
+    let command =
+        session::Command::Edit { target: session::Path::default(), members: members.into() };
+    desk.apply(&command).expect("it can be said");
+    assert_eq!(desk.place("b.p1"), (30.0, 90.0), "{}", desk.text());
+    assert!(desk.session.status(desk.id).satisfied);
+}

@@ -1,0 +1,255 @@
+//! Outlines by hand: a corner is rounded, a rectangle becomes its four lines.
+//!
+//! In: a document and what is selected. Out: an offer whose text is that of a copy in which it was tried, so that what
+//! is offered holds. Nothing is offered that would take along what speaks of a rectangle.
+
+use crate::apply;
+use crate::document::Open;
+use crate::host::Host;
+use crate::plotting;
+use crate::recognise;
+use crate::session::thing_at;
+use crate::state::State;
+use crate::view::Offer;
+use base::Name;
+use base::number::{atan2, cos, hypot, shortest, significant, sin};
+use eval::Answer;
+use kernel::{Command, DOCUMENT, Literal, Path, Step, ThingId};
+
+/// A round corner reaches at most so far along the shorter of its lines, as a part of it.
+const MOST: f64 = 0.8;
+/// A round corner that is offered reaches so far, as a part of it.
+const REACH: f64 = 0.2;
+
+/// Returns what can be made of the outline that is selected.
+pub(crate) fn offers(open: &Open, host: &dyn Host, paths: &[Path]) -> Vec<Offer> {
+    let corner = corner(&open.state, paths).and_then(|corner| {
+        let radius = corner.radius()?;
+        let whole = Some(rounded(open, host, &corner, (radius, &shortest(radius)))?);
+        let (value, of) = (Some(shortest(radius)), paths.to_vec());
+        let members = String::from("round corner of radius {}");
+        Some(Offer { label: "round".into(), members, value, whole, of })
+    });
+    let lines = match paths {
+        [one] => in_lines(open, host, one),
+        _ => None,
+    };
+    corner.into_iter().chain(lines).collect()
+}
+
+/// Returns the command that rounds the corner of an offer, as it is with the radius that is typed; nothing where the
+/// offer is another, or that is no radius for it.
+pub(crate) fn rounded_by(
+    open: &Open,
+    host: &dyn Host,
+    of: &[Path],
+    typed: &str,
+) -> Option<Command> {
+    let corner = corner(&open.state, of)?;
+    let terms = plotting::read(&open.state, host, &[typed]).ok()?;
+    let evaluator = open.state.evaluator(&open.state.values);
+    let Ok(Answer::Number(radius, _)) = evaluator.evaluate(terms.first()?, DOCUMENT) else {
+        return None;
+    };
+    let text = rounded(open, host, &corner, (radius, typed))?;
+    Some(Command::Text(text.join(typed)))
+}
+
+/// One of the lines that meet at a corner.
+struct Side {
+    line: Path,
+    /// Its end there, by name.
+    end: Name,
+    /// From the corner along it.
+    way: (f64, f64),
+    length: f64,
+}
+
+/// Where the ends of two lines are one.
+struct Corner {
+    at: (f64, f64),
+    sides: [Side; 2],
+}
+
+/// Finds the corner that is selected, by its point or by both its lines.
+fn corner(state: &State, paths: &[Path]) -> Option<Corner> {
+    let structure = &state.structure;
+    let point = match paths {
+        [point] => thing_at(state, point)?,
+        [one, other] => {
+            let ends = |path: &Path| -> Vec<ThingId> {
+                ["p1", "p2"].iter().filter_map(|end| thing_at(state, &end_of(path, end))).collect()
+            };
+            let others: Vec<ThingId> =
+                ends(other).into_iter().map(|end| structure.identity(end)).collect();
+            { ends(one) }.into_iter().find(|&end| others.contains(&structure.identity(end)))?
+        }
+        _ => return None,
+    };
+    let at = place(state, point)?;
+    let met = structure.merged_with(point);
+    let [a, b] = met[..] else { return None };
+    let side = |end: ThingId| {
+        let path = structure.path(&state.lowered.document, end);
+        let [Step::Part(_), Step::Part(name)] = path.0.as_slice() else { return None };
+        let line = Path(path.0[..1].to_vec());
+        let of = structure.things[thing_at(state, &line)?].class;
+        let document = &state.lowered.document;
+        if !document.is_a(of, document.class_named(&Name::new("Line"))?) {
+            return None;
+        }
+        let other = match &**name {
+            "p1" => "p2",
+            "p2" => "p1",
+            _ => return None,
+        };
+        let far = place(state, thing_at(state, &end_of(&line, other))?)?;
+        let length = hypot(far.0 - at.0, far.1 - at.1);
+        let way = ((far.0 - at.0) / length, (far.1 - at.1) / length);
+        (length > 0.0).then(|| Side { line: line.clone(), end: name.clone(), way, length })
+    };
+    Some(Corner { at, sides: [side(a)?, side(b)?] }).filter(|c| c.sides[0].line != c.sides[1].line)
+}
+
+impl Corner {
+    /// Half of the angle between its lines.
+    fn half(&self) -> f64 {
+        let [a, b] = &self.sides;
+        atan2(self.turn().abs(), a.way.0 * b.way.0 + a.way.1 * b.way.1) / 2.0
+    }
+
+    /// Which way the second line lies of the first: positive where it is to the left.
+    fn turn(&self) -> f64 {
+        let [a, b] = &self.sides;
+        a.way.0 * b.way.1 - a.way.1 * b.way.0
+    }
+
+    /// The length of the shorter line.
+    fn shorter(&self) -> f64 {
+        self.sides[0].length.min(self.sides[1].length)
+    }
+
+    /// A radius that fits; nothing where one line lies on the other, or goes on in its direction.
+    fn radius(&self) -> Option<f64> {
+        let half = self.half();
+        let fits = (0.05..1.5).contains(&half);
+        let radius = significant(REACH * self.shorter() * sin(half) / cos(half), 1).parse();
+        radius.ok().filter(|_| fits)
+    }
+}
+
+/// Returns the text in which a corner is rounded, before and after its radius: its lines end where an arc touches them.
+fn rounded(
+    open: &Open,
+    host: &dyn Host,
+    corner: &Corner,
+    (radius, written): (f64, &str),
+) -> Option<[String; 2]> {
+    let [a, b] = &corner.sides;
+    let half = corner.half();
+    let reach = radius * cos(half) / sin(half);
+    if radius <= 0.0 || reach > MOST * corner.shorter() {
+        return None;
+    }
+    let along = |side: &Side| (corner.at.0 + reach * side.way.0, corner.at.1 + reach * side.way.1);
+    let middle = (a.way.0 + b.way.0, a.way.1 + b.way.1);
+    let far = radius / sin(half) / hypot(middle.0, middle.1);
+    let center = (corner.at.0 + far * middle.0, corner.at.1 + far * middle.1);
+    // an arc turns left from its start to its end
+    let (start, end) = if corner.turn() < 0.0 { (a, b) } else { (b, a) };
+
+    let mut trial = Open::of(&open.name, open.state.text.clone(), host);
+    apply::apply(&mut trial, host, &Command::Unmerge(end_of(&b.line, &b.end))).ok()?;
+    let ends = [a, b].map(|side| (end_of(&side.line, &side.end), at_place(along(side))));
+    apply::apply(&mut trial, host, &Command::Move(ends.to_vec())).ok()?;
+    let name = recognise::free_name(&trial.state, &Name::new("Arc"));
+    let touches = |side: &Side, end: &str| {
+        format!(
+            "merge {} = {name}.{end}\nconstraint {}.perpendicular(to: Line({name}.center, {name}.{end}))\n",
+            end_of(&side.line, &side.end),
+            side.line
+        )
+    };
+    let sized = format!("constraint {name}.radius = ");
+    let members = format!(
+        "{name}: Arc {{ center = ({}, {}) }}\n{}{}{sized}{}",
+        shortest(center.0),
+        shortest(center.1),
+        touches(start, "start"),
+        touches(end, "end"),
+        written
+    );
+    apply::apply(&mut trial, host, &Command::Edit { target: Path::default(), members }).ok()?;
+    let holds = trial.status.satisfied && !trial.state.has_errors();
+    let text = &trial.state.text;
+    let value = text.rfind(&sized).filter(|_| holds)? + sized.len();
+    let rest = text[value..].strip_prefix(written)?;
+    Some([text[..value].into(), rest.into()])
+}
+
+/// Offers to make a rectangle its four lines, joined at the corners.
+fn in_lines(open: &Open, host: &dyn Host, path: &Path) -> Option<Offer> {
+    let state = &open.state;
+    let document = &state.lowered.document;
+    let [Step::Part(_)] = path.0.as_slice() else { return None };
+    let thing = thing_at(state, path)?;
+    let class = document.class_named(&Name::new("Rectangle"))?;
+    let line = document.class_named(&Name::new("Line"))?;
+    let is_one = document.is_a(state.structure.things[thing].class, class);
+    if !is_one || !apply::along(state, path).is_empty() {
+        return None;
+    }
+    let of = |name: &str| thing_at(state, &end_of(path, name));
+    let number = |name: &str| {
+        let slot = state.structure.slot_of(of(name)?)?;
+        Some(state.values.numbers[slot])
+    };
+    let (x, y) = place(state, of("corner")?)?;
+    let (far_x, far_y) = (x + number("width")?, y + number("height")?);
+    let mut trial = Open::of(&open.name, state.text.clone(), host);
+    apply::apply(&mut trial, host, &Command::Delete(path.clone())).ok()?;
+    let [bottom, right, top, left] = names(&trial.state, &document.classes[line].name);
+    let at = |x: f64, y: f64| format!("({}, {})", shortest(x), shortest(y));
+    let members = format!(
+        "{bottom}: Line {{ p1 = {}  p2 = {} }}\n{right}: Line {{ p2 = {} }}\nmerge {bottom}.p2 = {right}.p1\n\
+         {top}: Line {{ p2 = {} }}\nmerge {right}.p2 = {top}.p1\n{left}: Line\nmerge {top}.p2 = {left}.p1\n\
+         merge {bottom}.p1 = {left}.p2\nconstraint {bottom}.p1.y = {bottom}.p2.y\n\
+         constraint {right}.p1.x = {right}.p2.x\nconstraint {top}.p1.y = {top}.p2.y\n\
+         constraint {left}.p1.x = {left}.p2.x",
+        at(x, y),
+        at(far_x, y),
+        at(far_x, far_y),
+        at(x, far_y)
+    );
+    let said = Command::Edit { target: Path::default(), members: members.clone() };
+    apply::apply(&mut trial, host, &said).ok()?;
+    let holds = trial.status.satisfied && !trial.state.has_errors();
+    let whole = Some([trial.state.text.clone(), String::new()]).filter(|_| holds)?;
+    Some(Offer { label: "four lines".into(), members, whole: Some(whole), ..Offer::default() })
+}
+
+/// Four names for new things of a class.
+fn names(state: &State, class: &Name) -> [String; 4] {
+    let word = recognise::name_like(class);
+    let is_free = |name: &String| {
+        let path = Path(vec![Step::Part(Name::new(name))]);
+        Name::new(name) != *class && thing_at(state, &path).is_none()
+    };
+    let mut free =
+        std::iter::once(word.clone()).chain((2..).map(|n| format!("{word}{n}"))).filter(is_free);
+    std::array::from_fn(|_| free.next().unwrap_or_default())
+}
+
+fn end_of(line: &Path, end: &str) -> Path {
+    line.then(Step::Part(Name::new(end)))
+}
+
+fn at_place((x, y): (f64, f64)) -> Literal {
+    Literal::Tuple(vec![Literal::Number(x), Literal::Number(y)])
+}
+
+/// Where a place is.
+fn place(state: &State, thing: ThingId) -> Option<(f64, f64)> {
+    let [(_, x), (_, y)] = crate::drag::coordinates(&state.structure, thing)?;
+    Some((state.values.numbers[x], state.values.numbers[y]))
+}
