@@ -42,6 +42,12 @@ impl Version {
     }
 }
 
+impl std::fmt::Display for Version {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
 /// A document as it stands on disk.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Stored {

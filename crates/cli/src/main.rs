@@ -14,6 +14,7 @@ mod documents;
 mod embedded;
 mod family;
 mod import;
+mod journal;
 mod plot;
 mod serve;
 

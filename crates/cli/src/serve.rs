@@ -18,6 +18,7 @@ use tokio::net::{TcpListener, TcpStream};
 use tokio::sync::Semaphore;
 
 use crate::disk::Root;
+use crate::journal::Journal;
 
 mod api;
 mod guard;
@@ -49,6 +50,7 @@ pub(crate) struct Arguments {
 /// What the requests share.
 struct Lab {
     root: Root,
+    journal: Journal,
     guard: guard::Guard,
 }
 
@@ -77,7 +79,8 @@ async fn open(arguments: &Arguments) -> io::Result<()> {
     if !arguments.no_open {
         open_browser(&page);
     }
-    accept(listener, Rc::new(Lab { root, guard })).await
+    let journal = Journal::of(&root);
+    accept(listener, Rc::new(Lab { root, journal, guard })).await
 }
 
 /// Listens on a port that was asked for, or else on the first of the folder's own that no other program has; where

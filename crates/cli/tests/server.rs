@@ -37,6 +37,7 @@ impl Server {
         let mut child = Command::new(env!("CARGO_BIN_EXE_thinglab"))
             .args(["serve", "--no-open", "--root"])
             .arg(folder.join("root"))
+            .env("XDG_STATE_HOME", folder.join("state"))
             .stdout(Stdio::piped())
             .spawn()
             .unwrap();
@@ -161,6 +162,22 @@ fn requests_from_elsewhere_are_refused() {
         let answer = server.raw(&format!("{line}\r\n{head}Connection: close\r\n\r\n"));
         assert_eq!(status(&answer), wanted, "{line} {headers:?}\n{answer}");
         assert!(!answer.contains("a.thing"), "{line} {headers:?} was told a name");
+    }
+}
+
+#[test]
+fn an_unsaved_text_is_kept_until_the_page_takes_it_back() {
+    let server = Server::start("journal");
+    let draft = "{\"path\":\"a.thing\",\"tab\":\"7e-1\",\"draft\":\"absent 1\\nz: Real\"}";
+    assert_eq!(status(&server.ask("PUT", "/api/draft", draft)), 200);
+    let kept = server.ask("GET", "/api/drafts?path=a.thing", "");
+    assert!(kept.contains("\"tab\":\"7e-1\"") && kept.contains("z: Real"), "{kept}");
+    assert!(!server.folder.join("root/.thinglab").exists(), "the folder has only documents");
+    let none = draft.replace("\"absent 1\\nz: Real\"", "null");
+    assert_eq!(status(&server.ask("PUT", "/api/draft", &none)), 200);
+    assert!(!server.ask("GET", "/api/drafts?path=a.thing", "").contains("z: Real"));
+    for wrong in [draft.replace("7e-1", "../1"), draft.replace("a.thing", "../a.thing")] {
+        assert_eq!(status(&server.ask("PUT", "/api/draft", &wrong)), 400, "{wrong}");
     }
 }
 

@@ -154,6 +154,8 @@ pub struct Lab {
     pub draft: RwSignal<Option<Offered>>,
     /// Whether the browser has refused to keep the latest draft.
     is_unkept: StoredValue<bool>,
+    /// What the server is still to keep, by place; nothing for what it is to forget.
+    journal: StoredValue<BTreeMap<String, Option<String>>>,
     /// Whether the explanation panel is open.
     pub why: RwSignal<bool>,
     /// Whether the palette of actions is open.
@@ -314,6 +316,7 @@ impl Lab {
             conflict: RwSignal::new(None),
             draft: RwSignal::new(None),
             is_unkept: StoredValue::new(false),
+            journal: StoredValue::default(),
             why: RwSignal::new(false),
             palette: RwSignal::new(false),
             tool: RwSignal::new(None),
@@ -451,6 +454,11 @@ impl Lab {
             let is_part = |path: &str| selected.as_ref().is_some_and(|s| covers(s, path));
             picture.grips.iter().find(|grip| is_part(&grip.path)).map(|grip| (grip.x, grip.y))
         });
+        // the row that has the keyboard is where one looks
+        let row = document().query_selector("[role=treeitem]:focus").ok().flatten();
+        if let Some(row) = row.map(|row| row.get_bounding_client_rect()) {
+            return menu::open_at(self, (row.left() + 40.0, row.bottom()), context);
+        }
         let (x, y) = match grip {
             Some((x, y)) => self.view.with_untracked(|view| view.screen_from_sheet(Point { x, y })),
             None => (rect.width() / 2.0, rect.height() / 2.0),

@@ -141,3 +141,25 @@ pub async fn library() -> Result<Vec<(String, String)>, String> {
         .map(|one| (text_field(&one, "name"), text_field(&one, "text")))
         .collect())
 }
+
+/// Returns what tabs have not saved of a document, by their names; nothing where the server keeps none.
+pub async fn drafts(path: &str) -> Vec<(String, String)> {
+    let query = String::from(js_sys::encode_uri_component(path));
+    let (status, json) = ask("GET", &format!("/api/drafts?path={query}"), None).await;
+    if status != 200 {
+        return Vec::new();
+    }
+    let all = Array::from(&json);
+    all.iter().map(|one| (text_field(&one, "tab"), text_field(&one, "draft"))).collect()
+}
+
+/// Has the server keep what a tab has not saved of a document, or nothing any more; returns whether it does.
+pub async fn keep_draft(path: &str, tab: &str, draft: Option<&str>) -> bool {
+    let body = Object::new();
+    let draft = draft.map_or(JsValue::NULL, JsValue::from);
+    for (name, value) in [("path", path.into()), ("tab", tab.into()), ("draft", draft)] {
+        crate::js::set_option(&body, name, &value);
+    }
+    let body = JSON::stringify(&body).map(String::from).unwrap_or_default();
+    ask("PUT", "/api/draft", Some(&body)).await.0 == 200
+}

@@ -203,6 +203,7 @@ fn serve(folder: &Folder, document: Option<&str>) -> (Process, String) {
         Command::new(named("THINGLAB"))
             .args(["serve", "--no-open", "--root"])
             .arg(&folder.0)
+            .env("XDG_STATE_HOME", folder.0.join(".state"))
             .args(document.map(|name| folder.0.join("gallery").join(name))),
         "http://",
     )

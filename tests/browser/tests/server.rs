@@ -127,3 +127,24 @@ async fn what_was_seen_outlives_a_killed_server_and_a_closed_page() {
     visit.until("!window.__thinglab.state().dirty").await;
     assert_eq!(visit.saved("quadrilateral.thing"), seen);
 }
+
+#[tokio::test]
+async fn what_the_server_was_told_outlives_a_browser_that_forgets() {
+    let visit = Visit::open(None).await;
+    let from = grip(&show(&visit, "quadrilateral.thing").await, "q.outer.side1.p1");
+    let told = "window.kept = 0; new PerformanceObserver(all => all.getEntries().forEach(e => {
+        window.kept += e.name.endsWith('/api/draft') ? 1 : 0 })).observe({ type: 'resource' })";
+    visit.script(told).await;
+    drag(&visit, from, (from.0 + 20.0, from.1 + 10.0)).await;
+    visit.until("window.kept > 0").await;
+    let seen = text_of(&state(&visit).await);
+    // as a browser that is killed before it has written anything down
+    let forget = "Object.keys(localStorage).filter(k => k.startsWith('thinglab/draft/'))
+        .forEach(k => localStorage.removeItem(k))";
+    visit.script(forget).await;
+    visit.leave_and_return().await;
+    show(&visit, "quadrilateral.thing").await;
+    visit.until("document.querySelector('.notice .primary')").await;
+    visit.script("document.querySelector('.notice .primary').click()").await;
+    assert_eq!(text_of(&state(&visit).await), seen);
+}

@@ -6,6 +6,8 @@
 //!   that version, status 409 and what stands there now, `{text, version}`, both null for no file;
 //!   the version `absent` makes a new file
 //! - `GET /api/table?path=P` → `{text}`: the table of a family, a `.csv` beside its document
+//! - `GET /api/drafts?path=P` → `[{tab, draft}]`: what tabs have not saved of a document
+//! - `PUT /api/draft` with `{path, tab, draft}` → `{}` once it is on disk; null for nothing any more
 //! - `GET /api/library` → `[{name, text}]`
 //!
 //! Every error is `{error: sentence}` with its status.
@@ -78,6 +80,14 @@ struct Saving {
     path: String,
     text: String,
     version: Version,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Keeping {
+    path: String,
+    tab: String,
+    draft: Option<String>,
 }
 
 #[derive(Debug, Serialize)]
@@ -176,17 +186,32 @@ async fn documents(lab: &Lab, request: Request<Incoming>) -> Answer {
             Some(path) => open(lab, &path),
             None => refused(StatusCode::BAD_REQUEST, "the query is not path=NAME"),
         },
-        "/api/document" if *request.method() == Method::PUT => match body(request).await {
-            Ok(saving) => save(lab, &saving),
-            Err(answer) => answer,
+        "/api/document" if *request.method() == Method::PUT => {
+            match body(request, "{path, text, version}").await {
+                Ok(saving) => save(lab, &saving),
+                Err(answer) => answer,
+            }
+        }
+        "/api/drafts" if get => match asked_path(request.uri().query().unwrap_or_default()) {
+            Some(path) => drafts(lab, &path),
+            None => refused(StatusCode::BAD_REQUEST, "the query is not path=NAME"),
         },
+        "/api/draft" if *request.method() == Method::PUT => {
+            match body(request, "{path, tab, draft}").await {
+                Ok(keeping) => keep(lab, &keeping),
+                Err(answer) => answer,
+            }
+        }
+        "/api/draft" => only_methods("PUT"),
         "/api/table" if get => match asked_path(request.uri().query().unwrap_or_default()) {
             Some(path) => table(lab, &path),
             None => refused(StatusCode::BAD_REQUEST, "the query is not path=NAME"),
         },
         "/api/library" if get => library(),
         "/api/document" => only_methods("GET, HEAD, PUT"),
-        "/api/documents" | "/api/table" | "/api/library" => only_methods("GET, HEAD"),
+        "/api/documents" | "/api/table" | "/api/drafts" | "/api/library" => {
+            only_methods("GET, HEAD")
+        }
         _ => refused(StatusCode::NOT_FOUND, "no such page"),
     }
 }
@@ -279,14 +304,31 @@ fn save(lab: &Lab, saving: &Saving) -> Answer {
     }
 }
 
+fn drafts(lab: &Lab, path: &str) -> Answer {
+    match lab.journal.drafts(path) {
+        Ok(drafts) => json(StatusCode::OK, &drafts),
+        Err(error) => disk_answer(error),
+    }
+}
+
+fn keep(lab: &Lab, keeping: &Keeping) -> Answer {
+    match lab.journal.keep(&keeping.path, &keeping.tab, keeping.draft.as_deref()) {
+        Ok(()) => json(StatusCode::OK, &serde_json::json!({})),
+        Err(error) => disk_answer(error),
+    }
+}
+
 fn library() -> Answer {
     let files: Vec<LibraryFile> =
         embedded::LIBRARY.iter().map(|&(name, text)| LibraryFile { name, text }).collect();
     json(StatusCode::OK, &files)
 }
 
-/// Reads and understands a body, within its limits of size and time.
-async fn body(request: Request<Incoming>) -> Result<Saving, Answer> {
+/// Reads and understands a body of some form, within its limits of size and time.
+async fn body<T: serde::de::DeserializeOwned>(
+    request: Request<Incoming>,
+    form: &str,
+) -> Result<T, Answer> {
     let (parts, body) = request.into_parts();
     if !is_plain_json(&parts.headers) {
         return Err(refused(
@@ -308,7 +350,7 @@ async fn body(request: Request<Incoming>) -> Result<Saving, Answer> {
         Ok(Ok(collected)) => collected.to_bytes(),
     };
     serde_json::from_slice(&bytes)
-        .map_err(|_| refused(StatusCode::BAD_REQUEST, "the body is not {path, text, version}"))
+        .map_err(|_| refused(StatusCode::BAD_REQUEST, &format!("the body is not {form}")))
 }
 
 fn is_plain_json(headers: &HeaderMap) -> bool {

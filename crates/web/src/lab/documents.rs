@@ -210,7 +210,7 @@ impl Lab {
         let outcome = server::save(&path, &text, ABSENT).await;
         match outcome {
             Saved::Done(version) => {
-                Self::forget_draft(&old);
+                self.forget_draft(&old);
                 self.order(|session| session.rename(document.id, &path));
                 let writable = true;
                 let opened = Opened { version, writable, saved: text, dirty: false, ..document };

@@ -1,14 +1,16 @@
-//! Drafts: unsaved texts, kept in the browser outside the bundle's memory, for when the page goes without warning.
+//! Drafts: unsaved texts, kept in the browser outside the bundle's memory and by the server on disk, for when the page
+//! or the whole browser goes without warning.
 //!
 //! Each tab keeps drafts of its own: two that show one document do not write over each other. Those of tabs that have
 //! gone are offered, one after the other, until somebody has decided about each. A draft remembers which state of the
 //! file it began from: brought back over a file that has changed since, it is not saved over that unasked.
 
 use super::{Lab, Notice};
-use crate::{js, theme, words};
+use crate::{js, server, theme, words};
 use js_sys::Array;
 use leptos::prelude::*;
 use session::Command;
+use std::collections::BTreeMap;
 
 /// Where drafts are kept: the tab and the document's path follow.
 const PLACE: &str = "thinglab/draft/";
@@ -56,17 +58,33 @@ fn place_of(name: &str) -> Option<(&str, &str)> {
     name.strip_prefix(PLACE)?.split_once('/')
 }
 
-/// The drafts of a document that say something else than its file and are of no tab that lives, the newest first.
-fn left_behind(path: &str, saved: &str, live: &[String]) -> Vec<Offered> {
+/// The drafts of a document that say something else than its file and are of no tab that lives, the newest first: of
+/// each tab the newer of what the browser and the server keep.
+fn left_behind(
+    lab: Lab,
+    (path, saved): (&str, &str),
+    live: &[String],
+    on_disk: Vec<(String, String)>,
+) -> Vec<Offered> {
     let is_left = |name: &String| {
         place_of(name).is_some_and(|(tab, of)| of == path && !live.iter().any(|l| l == tab))
     };
-    let places = theme::names().into_iter().filter(is_left);
-    let draft = |place: String| Some(Offered { draft: Draft::read(&theme::keep(&place)?)?, place });
+    let places = theme::names().into_iter();
+    let kept = places.filter_map(|place| theme::keep(&place).map(|kept| (place, kept)));
+    let on_disk = on_disk.into_iter().map(|(tab, kept)| (format!("{PLACE}{tab}/{path}"), kept));
+    let mut all: Vec<Offered> = Vec::new();
+    for (place, kept) in kept.chain(on_disk).filter(|(place, _)| is_left(place)) {
+        let Some(draft) = Draft::read(&kept) else { continue };
+        match all.iter_mut().find(|known| known.place == place) {
+            Some(known) if known.draft.kept >= draft.kept => {}
+            Some(known) => known.draft = draft,
+            None => all.push(Offered { draft, place }),
+        }
+    }
     let (mut found, needless): (Vec<Offered>, Vec<Offered>) =
-        places.filter_map(draft).partition(|offered| offered.draft.text != saved);
+        all.into_iter().partition(|offered| offered.draft.text != saved);
     for offered in needless {
-        theme::put(&offered.place, None);
+        lab.put_draft(&offered.place, None);
     }
     found.sort_by(|a, b| b.draft.kept.total_cmp(&a.draft.kept));
     found
@@ -81,12 +99,14 @@ impl Lab {
             let mut live: Vec<String> =
                 Array::from(&js::live_tabs().await).iter().filter_map(|n| n.as_string()).collect();
             live.push(js::tab_name());
+            let on_disk = self.drafts_on_disk(&path).await;
             if self.current.with_untracked(|current| *current != Some(path.clone())) {
                 return;
             }
             let saved = self.document.with_untracked(|d| d.as_ref().map(|d| d.saved.clone()));
-            let found = left_behind(&path, &saved.unwrap_or_default(), &live).into_iter().next();
-            self.draft.set(found);
+            let of = (path.as_str(), saved.unwrap_or_default());
+            let found = left_behind(self, (of.0, &of.1), &live, on_disk);
+            self.draft.set(found.into_iter().next());
         });
     }
 
@@ -99,7 +119,7 @@ impl Lab {
             let (version, text) = (document.version.clone(), String::from(text));
             Some(Draft { version, kept: js_sys::Date::now(), text }.written())
         });
-        let is_kept = theme::put(&place, draft.as_deref());
+        let is_kept = self.put_draft(&place, draft.as_deref());
         if draft.is_some() && !is_kept && !self.is_unkept.get_value() {
             self.notice.set(Some(Notice::Said(String::from(words::DRAFT_NOT_KEPT))));
         }
@@ -107,8 +127,49 @@ impl Lab {
     }
 
     /// Forgets what this tab keeps of a document that stands under another name now.
-    pub(super) fn forget_draft(path: &str) {
-        theme::put(&own_place(path), None);
+    pub(super) fn forget_draft(self, path: &str) {
+        self.put_draft(&own_place(path), None);
+    }
+
+    /// Keeps a draft in a place, or nothing any more, here and with the server; returns false where the browser keeps
+    /// nothing.
+    fn put_draft(self, place: &str, draft: Option<&str>) -> bool {
+        let is_idle = self.journal.with_value(|journal| journal.is_empty());
+        self.journal.update_value(|journal| {
+            journal.insert(String::from(place), draft.map(String::from));
+        });
+        if is_idle {
+            leptos::task::spawn_local(self.write_journal());
+        }
+        theme::put(place, draft)
+    }
+
+    /// What the server keeps of a document, once it has been told all.
+    async fn drafts_on_disk(self, path: &str) -> Vec<(String, String)> {
+        loop {
+            let is_told = self.journal.with_value(BTreeMap::is_empty);
+            let found = server::drafts(path).await;
+            if is_told {
+                return found;
+            }
+        }
+    }
+
+    /// Tells the server what is to be kept, one after the other, of each place the latest.
+    async fn write_journal(self) {
+        while let Some((place, draft)) = self.journal.with_value(|all| {
+            all.first_key_value().map(|(place, draft)| (place.clone(), draft.clone()))
+        }) {
+            if let Some((tab, path)) = place_of(&place) {
+                // without a server the browser alone keeps it
+                let _ = server::keep_draft(path, tab, draft.as_deref()).await;
+            }
+            self.journal.update_value(|all| {
+                if all.get(&place) == Some(&draft) {
+                    all.remove(&place);
+                }
+            });
+        }
     }
 
     /// Takes up the unsaved text that is offered, or forgets it; then the one before it is offered.
@@ -127,7 +188,7 @@ impl Lab {
         }
         // where there is no room for both, the older one stays until this one is saved
         if !restore || !self.is_unkept.get_value() {
-            theme::put(&place, None);
+            self.put_draft(&place, None);
         }
         self.offer_draft(&path);
     }
