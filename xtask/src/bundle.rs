@@ -82,13 +82,14 @@ pub(crate) fn module(
     Ok(module)
 }
 
-/// Builds the command, with what `dist/` holds of the page in it; gives its path.
+/// Builds the command out of a selection of packages, with what `dist/` holds of the page in it; gives its path.
 ///
 /// # Errors
 /// As [`build`].
-pub(crate) fn build_command(effort: Effort) -> Result<PathBuf, String> {
+pub(crate) fn build_command(effort: Effort, selection: &[&str]) -> Result<PathBuf, String> {
     say!("thinglab: compiling");
     let mut command = tools::cargo(&["build", "--bin", "thinglab"]);
+    command.args(selection);
     let folder = match effort {
         Effort::Full => {
             command.arg("--release");

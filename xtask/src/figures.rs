@@ -62,7 +62,7 @@ pub(crate) fn run((of, missing): (Of, Missing)) -> ExitCode {
 /// Builds the lab as people get it, and has it visited.
 fn lab(compiler: &WasmCompiler, browser: &Path) -> ExitCode {
     let built = bundle::build(compiler, Effort::Full);
-    match built.and_then(|()| bundle::build_command(Effort::Quick)) {
+    match built.and_then(|()| bundle::build_command(Effort::Quick, &[])) {
         Ok(thinglab) => {
             let mut visit =
                 tools::cargo(&["run", "--quiet", "--package", "browser", "--bin", "lab-figures"]);

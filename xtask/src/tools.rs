@@ -130,6 +130,13 @@ pub(crate) fn wasm_compiler() -> Option<WasmCompiler> {
     there.then_some(WasmCompiler::Debian { linker })
 }
 
+/// The compiler that the linter is.
+pub(crate) fn clippy_driver() -> Option<PathBuf> {
+    let sysroot = output(Command::new(rustc()).args(["--print", "sysroot"]))?;
+    let driver = Path::new(sysroot.trim()).join("bin/clippy-driver");
+    driver.exists().then_some(driver)
+}
+
 /// The Python that has ezdxf.
 pub(crate) fn ezdxf() -> PathBuf {
     crate::top().join("target/ezdxf/bin/python")

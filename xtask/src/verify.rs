@@ -3,7 +3,6 @@
 //! Format, lints, documentation and the page's bundle count as one each, every test as one; a step
 //! that breaks off (a test that does not compile) counts as one failure.
 
-use std::ffi::OsString;
 use std::io::{BufRead as _, BufReader};
 use std::path::Path;
 use std::process::{Command, ExitCode, Stdio};
@@ -85,20 +84,31 @@ pub(crate) fn run(wish: &Wish) -> ExitCode {
     // rooms are compiled one after the other: two such chains keep two cores busy
     let mut count = std::thread::scope(|scope| {
         let page = (wish.browser == Browser::Test).then(|| scope.spawn(|| page(effort)));
-        let mut count = native(wish.length);
+        let mut count = native(wish.browser);
         if let Some(page) = page {
             count.add(page.join().unwrap_or(Count { passed: 0, failed: 1 }));
         }
         count
     });
-    let thinglab = bundle::build_command(Effort::Quick);
+    let thinglab = bundle::build_command(Effort::Tests, selection(wish.browser));
     count.add(Count::one(thinglab.is_ok()));
     match thinglab {
         Ok(thinglab) => count.add(with_command(&thinglab, wish)),
-        Err(why) => say!("{why}; the audit of DXF files and the browser tests cannot run"),
+        Err(why) => say!("{why}; the audit of DXF files and the tests cannot run"),
     }
     say!("{}", last_line(count, wish.browser));
     if count.failed == 0 { ExitCode::SUCCESS } else { ExitCode::FAILURE }
+}
+
+/// The packages that every command here compiles: cargo chooses the features of libraries for all of a command's
+/// packages, and another choice would compile the rooms once more.
+fn selection(browser: Browser) -> &'static [&'static str] {
+    match browser {
+        Browser::Test => &["--workspace", "--exclude", "bindgen", "--exclude", "figures"],
+        Browser::LeaveOut => {
+            &["--workspace", "--exclude", "bindgen", "--exclude", "figures", "--exclude", "browser"]
+        }
+    }
 }
 
 fn last_line(count: Count, browser: Browser) -> String {
@@ -111,14 +121,21 @@ fn last_line(count: Count, browser: Browser) -> String {
     }
 }
 
-fn native(length: Length) -> Count {
+fn native(browser: Browser) -> Count {
     let mut count = step("format", &mut tools::cargo(&["fmt", "--all", "--check"]));
     let mut lints = tools::cargo(&["clippy", "--quiet", "--workspace", "--all-targets"]);
     count.add(step("lints", lints.args(["--", "--deny", "warnings"])));
-    let mut documentation = tools::cargo(&["doc", "--quiet", "--no-deps"]);
+    let mut documentation = tools::cargo(&["doc", "--quiet", "--no-deps", "--workspace"]);
     documentation.env("RUSTDOCFLAGS", "--deny warnings");
+    if let Some(clippy) = tools::clippy_driver() {
+        // the rooms that it reads are those that the linter has read, where cargo sees the same compiler with the
+        // same wishes
+        documentation.env("RUSTC_WORKSPACE_WRAPPER", clippy);
+        documentation.env("CLIPPY_ARGS", "--deny__CLIPPY_HACKERY__warnings__CLIPPY_HACKERY__");
+    }
     count.add(step("documentation", &mut documentation));
-    count.add(tests("tests", &[], &[], length));
+    let mut compile = tools::cargo(&["test", "--quiet", "--no-run"]);
+    count.add(step("compiling the tests", compile.args(selection(browser))));
     count
 }
 
@@ -132,7 +149,7 @@ fn page(effort: Effort) -> Count {
     Count::one(built.is_ok())
 }
 
-/// What wants the built command: compiled like the tests, it shares what they compiled.
+/// What wants the built command.
 fn with_command(thinglab: &Path, wish: &Wish) -> Count {
     let mut count = Count::default();
     // no part of the project needs it: without it the audit is left out, which is said
@@ -140,12 +157,16 @@ fn with_command(thinglab: &Path, wish: &Wish) -> Count {
         0 => count.add(audit(thinglab)),
         _ => say!("left out: the audit of DXF files"),
     }
-    if wish.browser == Browser::Test {
-        let chromium = tools::browser().expect("required above");
-        let places: [(&str, OsString); 2] =
-            [("THINGLAB", thinglab.into()), ("CHROMIUM", chromium.into())];
-        count.add(tests("browser tests", &["--package", "browser"], &places, wish.length));
+    let mut tests = tools::cargo(&["test", "--quiet", "--no-fail-fast"]);
+    tests.args(selection(wish.browser)).env("THINGLAB", thinglab);
+    tests.env("THINGLAB_DIST", crate::top().join("dist"));
+    if let Some(chromium) = tools::browser() {
+        tests.env("CHROMIUM", chromium);
     }
+    if wish.length == Length::Long {
+        tests.env("THINGLAB_LONG", "1");
+    }
+    count.add(tested(&mut tests));
     count
 }
 
@@ -180,14 +201,9 @@ fn step(name: &str, command: &mut Command) -> Count {
     Count::one(passed)
 }
 
-/// Runs `cargo test` over the default members or the packages named, showing what it prints.
-fn tests(name: &str, packages: &[&str], places: &[(&str, OsString)], length: Length) -> Count {
-    say!("== {name}");
-    let mut command = tools::cargo(&["test", "--quiet", "--no-fail-fast"]);
-    command.args(packages).envs(places.iter().map(|(name, value)| (name, value)));
-    if length == Length::Long {
-        command.env("THINGLAB_LONG", "1");
-    }
+/// Runs `cargo test`, showing what it prints.
+fn tested(command: &mut Command) -> Count {
+    say!("== tests");
     let child = command.stdin(Stdio::null()).stdout(Stdio::piped()).spawn();
     let Ok(mut child) = child else { return Count::one(false) };
     let mut count = Count::default();
@@ -199,7 +215,7 @@ fn tests(name: &str, packages: &[&str], places: &[(&str, OsString)], length: Len
     }
     let ended_well = child.wait().is_ok_and(|status| status.success());
     if !ended_well && count.failed == 0 {
-        say!("{name} broke off");
+        say!("the tests broke off");
         count.failed = 1;
     }
     count
