@@ -100,7 +100,8 @@ async fn a_temperature_converter_is_built_of_calculator_parts() {
     place(&visit, "Printer", &[celsius, fahrenheit]).await;
     chord(&visit, &[], key::ESCAPE).await;
     let built = state(&visit).await;
-    assert_eq!(text_of(&built).matches("merge ").count(), 5, "{}", text_of(&built));
+    let shown = visit.script("return document.body.innerText").await;
+    assert_eq!(text_of(&built).matches("merge ").count(), 5, "{}\n{shown}", text_of(&built));
     for (path, value) in [("constant", "1.8"), ("constant2", "32"), ("printer", "100")] {
         let at = word(&state(&visit).await, path);
         type_over(&visit, at, value).await;
