@@ -33,8 +33,11 @@ pub struct Pattern {
     values: OnceCell<Rc<Tape>>,
     kernel: OnceCell<Rc<Kernel>>,
     /// Few patterns have some.
-    identified: RefCell<Option<Box<BTreeMap<Box<[u32]>, Identified>>>>,
+    identified: RefCell<Option<Box<ByArguments>>>,
 }
+
+/// By which arguments are one.
+type ByArguments = BTreeMap<Box<[u32]>, Identified>;
 
 /// Returns true if an operation takes or gives an angle.
 fn speaks_of_angles(node: Node) -> bool {
