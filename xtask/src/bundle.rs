@@ -72,7 +72,9 @@ pub(crate) fn module(
         || COMPRESSED.into_iter().zip(&compressed).any(is_stale)
     {
         say!("page: making its module");
-        let mut bindgen = tools::cargo(&["run", "--package", "bindgen", "--"]);
+        // the tests may be compiled meanwhile, in the other folder
+        let mut bindgen = tools::cargo(&["run", "--package", "bindgen", "--target-dir"]);
+        bindgen.arg(target()).arg("--");
         if effort != Effort::Full {
             bindgen.arg("--quick");
         }

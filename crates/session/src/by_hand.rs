@@ -11,10 +11,10 @@ use crate::outlines;
 use crate::session::{parse_path, thing_at};
 use crate::state::State;
 use crate::view::{
-    ClassItem, ClassPlan, DocumentId, Offer, Question, Refusal, ValueRow, ValueWithin,
+    ClassItem, ClassPlan, Deed, DocumentId, Offer, Question, Refusal, ValueRow, ValueWithin,
 };
 use crate::ways_out;
-use crate::{Session, views};
+use crate::{Session, views, words};
 use kernel::{Command, Literal, Path, SlotId, Step, ThingId};
 use lang::Wanted;
 
@@ -83,14 +83,14 @@ impl Session {
         let open = self.document(id);
         let found = offers::offers(&open.state, paths);
         let mut offers = offers::new_ones(open, &beside, found);
-        offers.extend(outlines::offers(open, &beside, paths));
+        offers.extend(outlines::offers(open, paths));
         offers
     }
 
     /// Returns the command that says what is offered, with a value where one goes there.
     ///
     /// # Errors
-    /// The value is none for it: a radius that does not fit a corner.
+    /// It cannot be made so: a radius does not fit a corner.
     pub fn said(
         &self,
         id: DocumentId,
@@ -99,14 +99,18 @@ impl Session {
     ) -> Result<Command, Refusal> {
         let beside = Beside::of(&*self.host, &self.documents, id);
         let open = self.document(id);
-        let Some(radius) = value.filter(|_| !offer.of.is_empty()) else {
-            return Ok(offer.command(value));
-        };
-        let rounded = outlines::rounded_by(open, &beside, &offer.of, radius);
-        rounded.ok_or_else(|| {
-            let message = format!("{radius} is no radius that fits this corner");
-            crate::words::refuse(message)
-        })
+        match &offer.deed {
+            Deed::Add => Ok(offer.command(value)),
+            Deed::Round(of) => {
+                let radius = value.or(offer.value.as_deref()).unwrap_or_default();
+                outlines::rounded_by(open, &beside, of, radius).ok_or_else(|| {
+                    words::refuse(format!("{radius} is no radius that fits this corner"))
+                })
+            }
+            Deed::InLines(path) => outlines::in_lines(open, &beside, path).ok_or_else(|| {
+                words::refuse(format!("{path} says more than four lines would say"))
+            }),
+        }
     }
 
     /// Returns what a command would move, by path, without doing it.
@@ -167,7 +171,7 @@ impl Session {
         let state = &self.document(id).state;
         let slot = state.structure.slot_of(thing_at(state, path)?)?;
         let document = &state.lowered.document;
-        let quantity = crate::words::quantity_of(state, slot, "");
+        let quantity = words::quantity_of(state, slot, "");
         let unit = kernel::show_quantity(x, quantity, document).unit;
         let shown = |x| kernel::in_unit(x, quantity.dimension, &unit, document);
         let way = (shown(x + step) - shown(x)).abs();
@@ -179,7 +183,7 @@ impl Session {
         let typed = base::number::rounded(shown(x), decimals);
         let class = document.class_named(quantity.class);
         let wanted = class.map_or(Wanted::Anything, Wanted::Class);
-        match lang::read_literal(&crate::words::with_unit(typed, &unit), wanted, document) {
+        match lang::read_literal(&words::with_unit(typed, &unit), wanted, document) {
             Ok(Literal::Number(x)) => Some(x),
             _ => None,
         }
@@ -209,17 +213,17 @@ impl Session {
             && name.starts_with(char::is_lowercase);
         if !is_name {
             let message = format!("{name}: a number's name is one word with a small first letter");
-            return Err(crate::words::refuse(message));
+            return Err(words::refuse(message));
         }
         if !is_free(&name) {
-            return Err(crate::words::refuse(format!("there is a {name} already")));
+            return Err(words::refuse(format!("there is a {name} already")));
         }
         let beside = Beside::of(&*self.host, &self.documents, id);
         let terms = crate::plotting::read(state, &beside, &[value])?;
         let evaluator = state.evaluator(&state.values);
         let answer = terms.first().map(|term| evaluator.evaluate(term, kernel::DOCUMENT));
         let Some(Ok(eval::Answer::Number(_, dimension))) = answer else {
-            return Err(crate::words::refuse(format!("{value} is no number")));
+            return Err(words::refuse(format!("{value} is no number")));
         };
         let is_angle = ["deg", "rad", "°", "turn"].iter().any(|unit| value.ends_with(unit));
         let class = if is_angle { "Angle" } else { dimension.named().unwrap_or("Real") };
@@ -272,7 +276,7 @@ impl Session {
         match open.pane {
             Some(_) => {
                 let message = "classes are made of things of the document: go back to it first";
-                Err(crate::words::refuse(message.into()))
+                Err(words::refuse(message.into()))
             }
             None => Ok(open),
         }

@@ -359,7 +359,7 @@ pub(crate) fn new_ones(open: &Open, host: &dyn Host, mut offers: Vec<Offer>) -> 
     let is_said = |offer: &Offer| {
         let rules: Option<Vec<&str>> =
             offer.members.lines().map(|line| line.strip_prefix("constraint ")).collect();
-        let Some(rules) = rules.filter(|_| offer.value.is_none() && offer.whole.is_none()) else {
+        let Some(rules) = rules.filter(|_| offer.value.is_none()) else {
             return false;
         };
         if !holds(&rules) {

@@ -1,7 +1,8 @@
 //! Outlines by hand: a corner is rounded, a rectangle becomes its four lines.
 //!
-//! In: a document and what is selected. Out: an offer whose text is that of a copy in which it was tried, so that what
-//! is offered holds. Nothing is offered that would take along what speaks of a rectangle.
+//! In: a document and what is selected. Out: what can be made of it, by its geometry; and, once that is wanted, the text
+//! of a copy in which it was tried. Nothing is offered of what a pane shows, nor of a rectangle that is spoken of or that
+//! says something itself.
 
 use crate::apply;
 use crate::document::Open;
@@ -10,11 +11,12 @@ use crate::plotting;
 use crate::recognise;
 use crate::session::thing_at;
 use crate::state::State;
-use crate::view::Offer;
+use crate::view::{Deed, Offer};
 use base::Name;
 use base::number::{atan2, cos, hypot, shortest, significant, sin};
 use eval::Answer;
 use kernel::{Command, DOCUMENT, Literal, Path, Step, ThingId};
+use syntax::ast::{AstNode, Member, NameExpr, Part};
 
 /// A round corner reaches at most so far along the shorter of its lines, as a part of it.
 const MOST: f64 = 0.8;
@@ -22,23 +24,31 @@ const MOST: f64 = 0.8;
 const REACH: f64 = 0.2;
 
 /// Returns what can be made of the outline that is selected.
-pub(crate) fn offers(open: &Open, host: &dyn Host, paths: &[Path]) -> Vec<Offer> {
-    let corner = corner(&open.state, paths).and_then(|corner| {
-        let radius = corner.radius()?;
-        let whole = Some(rounded(open, host, &corner, (radius, &shortest(radius)))?);
-        let (value, of) = (Some(shortest(radius)), paths.to_vec());
-        let members = String::from("round corner of radius {}");
-        Some(Offer { label: "round".into(), members, value, whole, of })
+pub(crate) fn offers(open: &Open, paths: &[Path]) -> Vec<Offer> {
+    if open.pane.is_some() {
+        return Vec::new();
+    }
+    let radius = corner(&open.state, paths).and_then(|corner| corner.radius());
+    let round = radius.map(|radius| Offer {
+        label: "round".into(),
+        members: "round corner of radius {}".into(),
+        value: Some(shortest(radius)),
+        deed: Deed::Round(paths.to_vec()),
     });
-    let lines = match paths {
-        [one] => in_lines(open, host, one),
+    let rectangle = match paths {
+        [one] => rectangle(&open.state, one).map(|_| one),
         _ => None,
     };
-    corner.into_iter().chain(lines).collect()
+    let lines = rectangle.map(|path| Offer {
+        label: "four lines".into(),
+        members: format!("the four lines of {path}"),
+        deed: Deed::InLines(path.clone()),
+        ..Offer::default()
+    });
+    round.into_iter().chain(lines).collect()
 }
 
-/// Returns the command that rounds the corner of an offer, as it is with the radius that is typed; nothing where the
-/// offer is another, or that is no radius for it.
+/// Returns the command that rounds a corner with the radius that is typed; nothing where that is none for it.
 pub(crate) fn rounded_by(
     open: &Open,
     host: &dyn Host,
@@ -51,9 +61,11 @@ pub(crate) fn rounded_by(
     let Ok(Answer::Number(radius, _)) = evaluator.evaluate(terms.first()?, DOCUMENT) else {
         return None;
     };
-    let text = rounded(open, host, &corner, (radius, typed))?;
-    Some(Command::Text(text.join(typed)))
+    rounded(open, host, &corner, (radius, typed)).map(Command::Text)
 }
+
+/// What a rectangle is given that its four lines show.
+const OWN: [&str; 5] = ["corner", "corner.x", "corner.y", "width", "height"];
 
 /// One of the lines that meet at a corner.
 struct Side {
@@ -138,13 +150,13 @@ impl Corner {
     }
 }
 
-/// Returns the text in which a corner is rounded, before and after its radius: its lines end where an arc touches them.
+/// Returns the text in which a corner is rounded: its lines end where an arc touches them.
 fn rounded(
     open: &Open,
     host: &dyn Host,
     corner: &Corner,
     (radius, written): (f64, &str),
-) -> Option<[String; 2]> {
+) -> Option<String> {
     let [a, b] = &corner.sides;
     let half = corner.half();
     let reach = radius * cos(half) / sin(half);
@@ -181,24 +193,51 @@ fn rounded(
     );
     apply::apply(&mut trial, host, &Command::Edit { target: Path::default(), members }).ok()?;
     let holds = trial.status.satisfied && !trial.state.has_errors();
-    let text = &trial.state.text;
-    let value = text.rfind(&sized).filter(|_| holds)? + sized.len();
-    let rest = text[value..].strip_prefix(written)?;
-    Some([text[..value].into(), rest.into()])
+    holds.then(|| trial.state.text.clone())
 }
 
-/// Offers to make a rectangle its four lines, joined at the corners.
-fn in_lines(open: &Open, host: &dyn Host, path: &Path) -> Option<Offer> {
-    let state = &open.state;
-    let document = &state.lowered.document;
-    let [Step::Part(_)] = path.0.as_slice() else { return None };
+/// Finds a rectangle of the document that nothing speaks of, and that says no more than where it is and how large.
+fn rectangle(state: &State, path: &Path) -> Option<ThingId> {
+    let [Step::Part(name)] = path.0.as_slice() else { return None };
     let thing = thing_at(state, path)?;
-    let class = document.class_named(&Name::new("Rectangle"))?;
-    let line = document.class_named(&Name::new("Line"))?;
-    let is_one = document.is_a(state.structure.things[thing].class, class);
-    if !is_one || !apply::along(state, path).is_empty() {
-        return None;
-    }
+    let class = state.lowered.document.class_named(&Name::new("Rectangle"))?;
+    let is_plain = state.structure.things[thing].class == class
+        && says_numbers_alone(&state.text, name)
+        && apply::along(state, path).is_empty();
+    is_plain.then_some(thing)
+}
+
+/// Returns true where a text gives a rectangle numbers alone: no rule, no name, no remark.
+fn says_numbers_alone(text: &str, name: &Name) -> bool {
+    let file = syntax::parse(base::FileId(0), text).file();
+    let is_plain = |part: &Part| {
+        let mut members = part.body().into_iter().flat_map(|body| body.members());
+        let is_number = |member: Member| match member {
+            Member::Assign(given) => {
+                let target = given.target().map(|target| target.syntax().text().to_string());
+                let names = given.value().map(|value| value.syntax().descendants());
+                let speaks_of_no_name =
+                    names.is_some_and(|mut nodes| nodes.all(|node| NameExpr::cast(node).is_none()));
+                target.is_some_and(|word| OWN.contains(&word.trim())) && speaks_of_no_name
+            }
+            _ => false,
+        };
+        let has_remark = part.doc().is_some() || part.syntax().text().to_string().contains("//");
+        part.value().is_none() && !has_remark && members.all(is_number)
+    };
+    let said = file.members().find_map(|member| match member {
+        Member::Part(part) if part.names().any(|word| word.name() == *name) => Some(part),
+        _ => None,
+    });
+    said.is_some_and(|part| part.names().count() == 1 && is_plain(&part))
+}
+
+/// Returns the command that makes a rectangle its four lines, joined at the corners; nothing where they would be another
+/// figure.
+pub(crate) fn in_lines(open: &Open, host: &dyn Host, path: &Path) -> Option<Command> {
+    let state = &open.state;
+    let line = state.lowered.document.class_named(&Name::new("Line"))?;
+    rectangle(state, path)?;
     let of = |name: &str| thing_at(state, &end_of(path, name));
     let number = |name: &str| {
         let slot = state.structure.slot_of(of(name)?)?;
@@ -208,7 +247,8 @@ fn in_lines(open: &Open, host: &dyn Host, path: &Path) -> Option<Offer> {
     let (far_x, far_y) = (x + number("width")?, y + number("height")?);
     let mut trial = Open::of(&open.name, state.text.clone(), host);
     apply::apply(&mut trial, host, &Command::Delete(path.clone())).ok()?;
-    let [bottom, right, top, left] = names(&trial.state, &document.classes[line].name);
+    let [bottom, right, top, left] =
+        names(&trial.state, &state.lowered.document.classes[line].name);
     let at = |x: f64, y: f64| format!("({}, {})", shortest(x), shortest(y));
     let members = format!(
         "{bottom}: Line {{ p1 = {}  p2 = {} }}\n{right}: Line {{ p2 = {} }}\nmerge {bottom}.p2 = {right}.p1\n\
@@ -221,11 +261,11 @@ fn in_lines(open: &Open, host: &dyn Host, path: &Path) -> Option<Offer> {
         at(far_x, far_y),
         at(x, far_y)
     );
-    let said = Command::Edit { target: Path::default(), members: members.clone() };
+    let said = Command::Edit { target: Path::default(), members };
     apply::apply(&mut trial, host, &said).ok()?;
     let holds = trial.status.satisfied && !trial.state.has_errors();
-    let whole = Some([trial.state.text.clone(), String::new()]).filter(|_| holds)?;
-    Some(Offer { label: "four lines".into(), members, whole: Some(whole), ..Offer::default() })
+    let as_free = trial.status.freedom == open.status.freedom;
+    (holds && as_free).then(|| Command::Text(trial.state.text.clone()))
 }
 
 /// Four names for new things of a class.

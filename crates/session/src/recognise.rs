@@ -177,8 +177,8 @@ impl Trial {
         if field == things.len() {
             return self.holds(state, things, order);
         }
-        for i in 0..things.len() {
-            if order.iter().any(|&(known, _)| known == i) || !fits(field, things[i]) {
+        for (i, &thing) in things.iter().enumerate() {
+            if order.iter().any(|&(known, _)| known == i) || !fits(field, thing) {
                 continue;
             }
             for &turned in ways {

@@ -17,7 +17,8 @@ pub use reasons::{
 };
 use serde::{Deserialize, Serialize};
 pub use tools::{
-    Along, Caught, ClassItem, ClassPlan, ItemKind, Offer, Pointer, Scope, ToolView, ValueWithin,
+    Along, Caught, ClassItem, ClassPlan, Deed, ItemKind, Offer, Pointer, Scope, ToolView,
+    ValueWithin,
 };
 
 /// Which open document.

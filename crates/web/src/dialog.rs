@@ -5,8 +5,8 @@ use crate::{keyboard, words};
 use leptos::ev::{KeyboardEvent, SubmitEvent};
 use leptos::html::Input;
 use leptos::prelude::*;
-use session::Command;
 use session::view::Offer;
+use session::{Command, Session};
 use std::time::Duration;
 
 /// What a person is asked to type.
@@ -79,10 +79,16 @@ fn Open(lab: Lab, wish: Wish) -> impl IntoView {
     let look = move || {
         let Some(typed) = input.get_untracked().map(|input| input.value()) else { return };
         let command = match wish.get_value() {
-            Wish::Dimension(offer) => match lab.dimension_said(&offer, typed.trim()) {
-                Ok(command) => command,
-                Err(sentence) => return foreseen.set(Some(sentence)),
-            },
+            Wish::Dimension(offer) => {
+                let said = |session: &Session, id| session.said(id, &offer, Some(typed.trim()));
+                match lab.ask_of_shown(said) {
+                    Some(Ok(command)) => command,
+                    Some(Err(refusal)) => {
+                        return foreseen.set(Some(crate::field::reason(&refusal)));
+                    }
+                    None => return,
+                }
+            }
             Wish::Equation(_) => equation(&typed),
             Wish::SaveAs | Wish::Rename(_) | Wish::Kind(_) | Wish::Number => return,
         };
@@ -215,23 +221,10 @@ impl Lab {
     /// # Errors
     /// Why not, in one sentence.
     pub fn set_dimension(self, offer: &Offer, typed: &str) -> Result<(), String> {
-        let command = self.dimension_said(offer, typed)?;
-        let done = match offer.whole {
-            Some(_) => self.apply_called(&command, &offer.label),
-            None => self.apply(&command),
-        };
-        if done {
-            return Ok(());
-        }
-        refused(self)
-    }
-
-    /// The command of a dimension with the value that was typed.
-    fn dimension_said(self, offer: &Offer, typed: &str) -> Result<Command, String> {
-        let said = self.ask_of_shown(|session, id| session.said(id, offer, Some(typed)));
-        match said {
-            Some(said) => said.map_err(|refusal| crate::field::reason(&refusal)),
-            None => Ok(offer.command(Some(typed))),
+        match self.say_offer(offer, Some(typed)) {
+            Ok(true) => Ok(()),
+            Ok(false) => refused(self),
+            Err(refusal) => Err(crate::field::reason(&refusal)),
         }
     }
 }

@@ -6,7 +6,7 @@ use crate::lab::{Lab, Notice};
 use crate::{keyboard, words};
 use leptos::prelude::*;
 use session::Command;
-use session::view::{Offer, RowKind};
+use session::view::{Deed, Offer, Refusal, RowKind};
 
 /// Documents of more things than this show no preview while the pointer is over an offer.
 const MOST_FORESEEN: usize = 2000;
@@ -27,7 +27,7 @@ pub fn Strip(
         <Show when=move || !offers.with(Vec::is_empty)>
             <div class="strip" role="toolbar" aria-label=words::CONSTRAIN
                 on:pointerleave=move |_| lab.foresee(None)>
-                <For each=move || offers.get() key=|offer| offer.members.clone() let(offer)>
+                <For each=move || offers.get() key=key let(offer)>
                     <Button lab=lab offer=offer />
                 </For>
                 <button data-action="class-of" title=words::CLASS_OF
@@ -35,6 +35,11 @@ pub fn Strip(
             </div>
         </Show>
     }
+}
+
+/// What tells one button from another: what stands on it, and what it is of.
+fn key(offer: &Offer) -> (String, Option<String>, String) {
+    (offer.members.clone(), offer.value.clone(), format!("{:?}", offer.deed))
 }
 
 #[component]
@@ -83,7 +88,8 @@ impl Lab {
 
     /// Shows what an offer would do, or nothing any more.
     pub fn foresee(self, offer: Option<&Offer>) {
-        self.foresee_command(offer.map(|offer| offer.command(None)).as_ref());
+        let said = |offer| self.ask_of_shown(|session, id| session.said(id, offer, None).ok());
+        self.foresee_command(offer.and_then(said).flatten().as_ref());
     }
 
     /// Shows what a command would do, or nothing any more.
@@ -103,12 +109,28 @@ impl Lab {
             self.wish.set(Some(Wish::Dimension(offer.clone())));
             return;
         }
-        match offer.whole {
-            Some(_) => self.apply_called(&offer.command(None), &offer.label),
-            None => self.apply(&offer.command(None)),
-        };
+        if let Err(refusal) = self.say_offer(offer, None) {
+            self.notice.set(Some(Notice::Refused(refusal)));
+        }
         // the strip offers something else now; whoever was in it is where its things are
         keyboard::give_back(None);
+    }
+
+    /// Says what is offered, with a value where one goes there; answers whether it holds now.
+    ///
+    /// # Errors
+    /// Why it cannot be made so.
+    pub fn say_offer(self, offer: &Offer, value: Option<&str>) -> Result<bool, Refusal> {
+        // what is typed beside it comes first
+        self.flush_text();
+        let Some(said) = self.ask_of_shown(|session, id| session.said(id, offer, value)) else {
+            return Ok(false);
+        };
+        let command = said?;
+        Ok(match offer.deed {
+            Deed::Add => self.apply(&command),
+            Deed::Round(_) | Deed::InLines(_) => self.apply_called(&command, &offer.label),
+        })
     }
 
     /// Asks for the value of the first dimension that the selection can have.

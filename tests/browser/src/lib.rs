@@ -266,7 +266,7 @@ fn serve(folder: &Folder, document: Option<&str>) -> (Process, String) {
 /// other kind: then it is asked again.
 fn start_driver(profile: &Path) -> (Process, u16) {
     let mark = "started successfully on port ";
-    let watch = r#"chromedriver --port=0 & read -r end; exec 2>/dev/null; kill $!; wait $!
+    let watch = r#"chromedriver --port=0 & exec >/dev/null 2>&1; read -r end; kill $!; wait $!
         for i in 1 2 3 4 5; do sleep 0.2; rm -rf "$0" && break; done"#;
     let started = (0..5).find_map(|_| {
         let mut shell = Command::new("sh");

@@ -61,23 +61,29 @@ pub struct Offer {
     pub members: String,
     /// The value as it is now, where one goes there.
     pub value: Option<String>,
-    /// The text of the document that says it, before and after the value, where more changes than that members are
-    /// added.
-    pub whole: Option<[String; 2]>,
-    /// What it is made of, where its value decides more than a number: see `Session::said`.
-    pub of: Vec<kernel::Path>,
+    /// What saying it does.
+    pub deed: Deed,
 }
 
 impl Offer {
-    /// Returns the command that says it, with a value where one goes there.
+    /// Returns the command that adds its members to the document, with a value where one goes there.
     pub fn command(&self, value: Option<&str>) -> kernel::Command {
         let value = value.or(self.value.as_deref()).unwrap_or_default();
-        if let Some([before, after]) = &self.whole {
-            return kernel::Command::Text(format!("{before}{value}{after}"));
-        }
         let members = self.members.replace("{}", value);
         kernel::Command::Edit { target: kernel::Path::default(), members }
     }
+}
+
+/// What saying an offer does; `Session::said` gives the command.
+#[derive(Clone, PartialEq, Eq, Debug, Default)]
+pub enum Deed {
+    /// Its members are added to the document.
+    #[default]
+    Add,
+    /// The corner at a point, or between two lines, is rounded; its value is the radius.
+    Round(Vec<kernel::Path>),
+    /// A rectangle becomes its four lines.
+    InLines(kernel::Path),
 }
 
 /// Of what something is that becomes part of a class by example.

@@ -40,31 +40,6 @@ pub fn PromptLine(
     let is_value = move || of(&|p| p.is_value);
     let is_typed = move || of(&|p| !matches!(p.wants, Wants::Otherwise | Wants::Older { .. }));
     let takes_sets = Memo::new(move |_| of(&|p| p.takes_sets));
-    let operands = move || {
-        let prompt = drafting.prompt.get().unwrap_or_default();
-        let is_next = prompt.operands.iter().position(|(_, given)| given.is_none());
-        let one = |(i, (name, given)): (usize, (String, Option<String>))| {
-            view! {
-                <span class="operand" class:next=is_next == Some(i)>
-                    {name}{given.map(|given| view! { " "<code>{given}</code> })}
-                </span>
-            }
-        };
-        prompt.operands.into_iter().enumerate().map(one).collect_view()
-    };
-    let parameters = Memo::new(move |_| {
-        lab.drafting.turned.track();
-        let names = || lab.ask_of_shown(session::Session::parameters).unwrap_or_default();
-        if is_value() { names() } else { Vec::new() }
-    });
-    let parameter = move |name: String| {
-        let own = StoredValue::new(name.clone());
-        let title = words::value_of_parameter(&name);
-        view! {
-            <button type="button" class="value" data-value=name.clone() title=title
-                on:click=move |_| lab.draft_parameter(&own.get_value())><code>{name.clone()}</code></button>
-        }
-    };
     let key = move |e: leptos::ev::KeyboardEvent| match e.key().as_str() {
         "Escape" => {
             e.prevent_default();
@@ -90,7 +65,7 @@ pub fn PromptLine(
                     <Calculator lab=lab />
                 </Show>
                 <b>{move || drafting.prompt.with(|p| p.as_ref().map(|p| p.label.clone()))}</b>
-                {operands}
+                <Operands lab=lab />
                 <span class="wanted" role="status">{move || drafting.prompt.with(|p| p.as_ref().map(|p| p.words.clone()))}</span>
                 <Show when=is_typed>
                     <input node_ref=field name="operand" autocomplete="off" aria-label=words::OPERAND
@@ -99,7 +74,7 @@ pub fn PromptLine(
                         on:input=move |e| drafting.typed.set(event_target_value(&e))
                         on:keydown=key />
                 </Show>
-                {move || parameters.get().into_iter().map(parameter).collect_view()}
+                <Parameters lab=lab />
                 <Show when=is_value>
                     <button type="button" data-draft="calculator" aria-pressed=move || drafting.calculator.get().to_string()
                         on:click=move |_| drafting.calculator.update(|open| *open = !*open)>{words::CALCULATOR}</button>
@@ -124,6 +99,43 @@ pub fn PromptLine(
             </form>
         </Show>
     }
+}
+
+/// The operands of what is drawn, the next one marked.
+#[component]
+fn Operands(lab: Lab) -> impl IntoView {
+    move || {
+        let prompt = lab.drafting.prompt.get().unwrap_or_default();
+        let is_next = prompt.operands.iter().position(|(_, given)| given.is_none());
+        let one = |(i, (name, given)): (usize, (String, Option<String>))| {
+            view! {
+                <span class="operand" class:next=is_next == Some(i)>
+                    {name}{given.map(|given| view! { " "<code>{given}</code> })}
+                </span>
+            }
+        };
+        prompt.operands.into_iter().enumerate().map(one).collect_view()
+    }
+}
+
+/// The parameters that may be the value that is wanted.
+#[component]
+fn Parameters(lab: Lab) -> impl IntoView {
+    let parameters = Memo::new(move |_| {
+        lab.drafting.turned.track();
+        let is_value = lab.drafting.prompt.with(|p| p.as_ref().is_some_and(|p| p.is_value));
+        let names = || lab.ask_of_shown(session::Session::parameters).unwrap_or_default();
+        if is_value { names() } else { Vec::new() }
+    });
+    let parameter = move |name: String| {
+        let own = StoredValue::new(name.clone());
+        let title = words::value_of_parameter(&name);
+        view! {
+            <button type="button" class="value" data-value=name.clone() title=title
+                on:click=move |_| lab.draft_parameter(&own.get_value())><code>{name.clone()}</code></button>
+        }
+    };
+    move || parameters.get().into_iter().map(parameter).collect_view()
 }
 
 /// The buttons that answer what is asked.

@@ -1,7 +1,7 @@
 //! The parameters and steps of a program.
 
 use crate::lab::Lab;
-use crate::{keyboard, words};
+use crate::{js, keyboard, words};
 use leptos::prelude::*;
 use session::drafting::view::{Go, ParameterRow, StepOperand, StepRow, StepsView};
 
@@ -32,9 +32,10 @@ pub fn Steps(
         if seen.is_some_and(|seen| seen != drawn) {
             request_animation_frame(show_newest);
         }
-        if drawn > 0 {
+        let is_asked = lab.drafting.prompt.with_untracked(Option::is_some);
+        if drawn > 0 && !is_asked && !js::coarse() {
             // the rows are others now: who had the keyboard in one of them has it beside them
-            keyboard::rest_at(".drawing .visit button");
+            keyboard::rest_at(".drawing [data-visit='step']");
         }
         drawn
     });
