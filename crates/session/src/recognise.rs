@@ -40,6 +40,8 @@ pub(crate) fn recognise(state: &State, paths: &[Path]) -> Result<Vec<Recognised>
         things.push(thing);
     }
     let document = &state.lowered.document;
+    let ends: Vec<Option<[Name; 2]>> = things.iter().map(|&thing| ends(state, thing)).collect();
+    let chosen = Chosen { state, things: &things, ends: &ends };
     let classes = document.classes.iter().filter(|&(id, c)| is_candidate(state, id, c));
     let mut found: Vec<Recognised> = Vec::new();
     for (class, _) in classes {
@@ -58,11 +60,11 @@ pub(crate) fn recognise(state: &State, paths: &[Path]) -> Result<Vec<Recognised>
             _ => &[&[false]],
         };
         let mut order = Vec::new();
-        if ways.iter().any(|ways| trial.first_order(state, &things, (&fits, ways), &mut order)) {
+        if ways.iter().any(|ways| trial.first_order(&chosen, (&fits, ways), &mut order)) {
             let names = fields.iter().map(|&f| document.field_name(f).to_string());
             let parts = names.zip(order.iter().map(|&(i, _)| paths[i].to_string()));
             let parts: Vec<(String, String)> = parts.collect();
-            let turned = order.iter().map(|&(i, turned)| ends(state, things[i]).filter(|_| turned));
+            let turned = order.iter().map(|&way| chosen.turned(way).cloned());
             let turned: Vec<Option<[Name; 2]>> = turned.collect();
             let class = &document.classes[class];
             found.push(Recognised {
@@ -98,9 +100,29 @@ fn members(
     std::iter::once(format!("{name}: {class}\n")).chain(merges).collect()
 }
 
-/// Returns the names of the two ends of a thing that is nothing but them, and so could run the other way.
+/// The things that are asked about.
+struct Chosen<'a> {
+    state: &'a State,
+    things: &'a [ThingId],
+    /// The names of the ends of each that could run the other way.
+    ends: &'a [Option<[Name; 2]>],
+}
+
+impl Chosen<'_> {
+    /// The ends of a thing that is turned round.
+    fn turned(&self, (i, turned): (usize, bool)) -> Option<&[Name; 2]> {
+        self.ends[i].as_ref().filter(|_| turned)
+    }
+}
+
+/// Returns the names of the two ends of a line that is nothing but them, and so could run the other way. Of other
+/// things, as of a disc by its centre and its rim, two places are not each other's.
 fn ends(state: &State, thing: ThingId) -> Option<[Name; 2]> {
     let (document, structure) = (&state.lowered.document, &state.structure);
+    let line = document.class_named("Line")?;
+    if !document.is_a(structure.things[thing].class, line) {
+        return None;
+    }
     let parts: Vec<ThingId> = structure.parts(thing).collect();
     let [a, b] = parts[..] else { return None };
     let class = structure.things[a].class;
@@ -168,25 +190,24 @@ impl Trial {
     /// Finds the first order of the things in which they could be the parts, field by field.
     fn first_order(
         &self,
-        state: &State,
-        things: &[ThingId],
+        chosen: &Chosen<'_>,
         (fits, ways): (&dyn Fn(usize, ThingId) -> bool, &[bool]),
         order: &mut Vec<(usize, bool)>,
     ) -> bool {
-        let field = order.len();
+        let (field, things) = (order.len(), chosen.things);
         if field == things.len() {
-            return self.holds(state, things, order);
+            return self.holds(chosen, order);
         }
         for (i, &thing) in things.iter().enumerate() {
             if order.iter().any(|&(known, _)| known == i) || !fits(field, thing) {
                 continue;
             }
             for &turned in ways {
-                if turned && ends(state, things[i]).is_none() {
+                if turned && chosen.ends[i].is_none() {
                     continue;
                 }
                 order.push((i, turned));
-                if self.first_order(state, things, (fits, ways), order) {
+                if self.first_order(chosen, (fits, ways), order) {
                     return true;
                 }
                 order.pop();
@@ -196,15 +217,17 @@ impl Trial {
     }
 
     /// Returns true if all that the class says is true of the things as its parts.
-    fn holds(&self, state: &State, things: &[ThingId], order: &[(usize, bool)]) -> bool {
+    fn holds(&self, chosen: &Chosen<'_>, order: &[(usize, bool)]) -> bool {
+        let state = chosen.state;
         let mut values = Values::new(self.lone.structure.slots.len());
         let mut filled = vec![false; self.lone.structure.slots.len()];
-        for (field, &(i, turned)) in self.lone.structure.parts(self.lone.thing).zip(order) {
-            let is_filled = match ends(state, things[i]).filter(|_| turned) {
-                None => self.fill(state, field, things[i], &mut values, &mut filled),
+        for (field, &way) in self.lone.structure.parts(self.lone.thing).zip(order) {
+            let thing = chosen.things[way.0];
+            let is_filled = match chosen.turned(way) {
+                None => self.fill(state, field, thing, &mut values, &mut filled),
                 Some(names) => { names.iter().zip(names.iter().rev()) }.all(|(name, other)| {
                     let part = self.lone.structure.part_named(field, name);
-                    let from = state.structure.part_named(things[i], other);
+                    let from = state.structure.part_named(thing, other);
                     part.zip(from).is_some_and(|(part, from)| {
                         self.fill(state, part, from, &mut values, &mut filled)
                     })

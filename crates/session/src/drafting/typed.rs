@@ -4,6 +4,7 @@ use super::catalogue::{Slot, SlotKind};
 use crate::view::{Pointer, Refusal};
 use crate::words;
 use base::number::shortest;
+use syntax::ast::{BinaryOp, Expr, UnaryOp};
 
 /// Writes the place of the sheet where a pointer is: on the pointer's grid, unless it finds nothing.
 pub(crate) fn place(pointer: &Pointer) -> String {
@@ -49,7 +50,10 @@ pub(crate) fn operand(slot: &Slot, typed: &str, last: Option<&str>) -> Result<St
                 let from = from()?;
                 let (x, y) = match coordinates(&from) {
                     Some((x, y)) => (x.into(), y.into()),
-                    None => (format!("{from}.x"), format!("{from}.y")),
+                    None => {
+                        let from = grouped(&from);
+                        (format!("{from}.x"), format!("{from}.y"))
+                    }
                 };
                 format!("Point({}, {})", further(&x, dx), further(&y, dy))
             }
@@ -92,24 +96,70 @@ fn is_within_brackets(text: &str) -> bool {
 
 /// Writes a coordinate so much further on.
 fn further(from: &str, by: &str) -> String {
+    let to = if is_sum(expression(from).as_ref()) { from.into() } else { format!("({from})") };
     match by.trim() {
         "0" => from.into(),
         by if from == "0" => by.into(),
         by => match by.strip_prefix('-') {
-            Some(less) if is_plain(less) => format!("{from} - {less}"),
-            _ => format!("{from} + {}", grouped(by)),
+            Some(less) if is_operand(less) => format!("{to} - {}", less.trim()),
+            _ => format!("{to} + {}", grouped(by)),
         },
     }
 }
 
-/// Whether an expression is a single name or number.
-fn is_plain(text: &str) -> bool {
-    text.chars().all(|c| c.is_alphanumeric() || "._ ".contains(c))
+/// Reads an expression; nothing where the text is none.
+fn expression(text: &str) -> Option<Expr> {
+    let parse = syntax::parse_expression(base::FileId(0), text);
+    parse.file().expression().filter(|_| parse.diagnostics().is_empty())
 }
 
-/// Writes an expression so that it can be added.
+/// Whether something can be added to an expression as it stands: it is of operands and arithmetic, without `if` and
+/// `let`, which would take in what follows.
+fn is_sum(expression: Option<&Expr>) -> bool {
+    match expression {
+        Some(Expr::Unary(unary)) => {
+            unary.op() != Some(UnaryOp::Not) && is_sum(unary.operand().as_ref())
+        }
+        Some(Expr::Binary(binary)) => {
+            let is_arithmetic = matches!(
+                binary.op(),
+                Some(
+                    BinaryOp::Add
+                        | BinaryOp::Subtract
+                        | BinaryOp::Multiply
+                        | BinaryOp::Divide
+                        | BinaryOp::Remainder
+                        | BinaryOp::Power
+                )
+            );
+            is_arithmetic && is_sum(binary.left().as_ref()) && is_sum(binary.right().as_ref())
+        }
+        Some(expression) => is_single(expression),
+        None => false,
+    }
+}
+
+/// Whether an expression is a single operand: a number, a name, a part, a call, something in brackets.
+fn is_operand(text: &str) -> bool {
+    expression(text).is_some_and(|expression| is_single(&expression))
+}
+
+fn is_single(expression: &Expr) -> bool {
+    matches!(
+        expression,
+        Expr::Number(_)
+            | Expr::Name(_)
+            | Expr::Owner(_)
+            | Expr::Field(_)
+            | Expr::Call(_)
+            | Expr::Index(_)
+            | Expr::Paren(_)
+    )
+}
+
+/// Writes an expression as an operand.
 fn grouped(text: &str) -> String {
-    if is_plain(text) { text.into() } else { format!("({text})") }
+    if is_operand(text) { text.into() } else { format!("({text})") }
 }
 
 /// Splits what is typed in two, outside of any brackets.
@@ -126,4 +176,27 @@ pub(super) fn pair(text: &str, at: char) -> Option<(&str, &str)> {
     let (i, _) = split?;
     let (a, b) = (text[..i].trim(), text[i + at.len_utf8()..].trim());
     (!a.is_empty() && !b.is_empty()).then_some((a, b))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::further;
+
+    #[test]
+    fn a_step_from_a_choice_is_not_taken_into_its_last_branch() {
+        assert_eq!(further("if d > 5 then 1 else 2", "3"), "(if d > 5 then 1 else 2) + 3");
+        assert_eq!(further("if d then 1 else 2", "-3"), "(if d then 1 else 2) - 3");
+        assert_eq!(further("2 * if d then 1 else 2", "3"), "(2 * if d then 1 else 2) + 3");
+        assert_eq!(further("let a = d in a", "3"), "(let a = d in a) + 3");
+        assert_eq!(further("1", "if d then 1 else 2"), "1 + (if d then 1 else 2)");
+        // a choice that goes no further needs no brackets
+        assert_eq!(further("if d then 1 else 2", "0"), "if d then 1 else 2");
+    }
+
+    #[test]
+    fn steps_in_a_row_make_one_sum() {
+        assert_eq!(further("10 + 5", "-3"), "10 + 5 - 3");
+        assert_eq!(further("-d / 2", "2 * d"), "-d / 2 + (2 * d)");
+        assert_eq!(further("a.b(c)", "d.x"), "a.b(c) + d.x");
+    }
 }

@@ -111,6 +111,21 @@ fn operands_are_typed_as_draughtsmen_type_them() {
 }
 
 #[test]
+fn a_step_from_a_point_that_is_a_choice_goes_on_from_all_of_it() {
+    for first in [
+        "if d > 5 then 1 else 2, 0",
+        "let far = d > 5 in if far then 1 else 2, 0",
+        "if d > 5 then Point(1, 0) else Point(2, 0)",
+    ] {
+        let mut desk = Desk::of("use geometry\nd: Real = 10\n");
+        begin(&mut desk, "Circle.around(center,through)");
+        enter(&mut desk, first);
+        let text = made(enter(&mut desk, "@3,0"));
+        assert_eq!(value(&desk, "circle.radius"), "3", "{text}");
+    }
+}
+
+#[test]
 fn what_does_not_fit_is_refused_and_waited_for() {
     let mut desk = Desk::of(CORNER);
     begin(&mut desk, "Circle.tangent(first,second,radius)");

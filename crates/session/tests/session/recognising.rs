@@ -70,3 +70,24 @@ fn a_line_that_runs_the_other_way_is_recognised_too() {
     assert_eq!(desk.place("b.p1"), (30.0, 90.0), "{}", desk.text());
     assert!(desk.session.status(desk.id).satisfied);
 }
+
+#[test]
+fn a_disc_is_not_recognised_with_its_rim_as_its_centre() {
+    let text = |first: &str, second: &str| {
+        format!(
+            "use geometry
+class Disc {{ center: Point  rim: Point }}
+class Chain {{ one, two: Disc  constraint touching: one.rim.x = two.center.x }}
+a: Disc {{ center = {first}  rim = {second} }}
+b: Disc {{ center = (30, 0)  rim = (50, 0) }}
+"
+        )
+    };
+    let found = |desk: &Desk| {
+        let found = desk.session.recognise(desk.id, &[at("a"), at("b")]).expect("they are there");
+        found.into_iter().find(|r| r.class == "Chain").map(|r| r.members)
+    };
+    let members = "chain: Chain\nmerge a = chain.one\nmerge b = chain.two\n";
+    assert_eq!(found(&Desk::of(&text("(0, 0)", "(30, 40)"))), Some(members.into()));
+    assert_eq!(found(&Desk::of(&text("(30, 40)", "(0, 0)"))), None);
+}
