@@ -68,6 +68,8 @@ pub(crate) enum DiskError {
     TooLong,
     #[error("not UTF-8 text")]
     NotText,
+    #[error("this machine has no folder for drafts")]
+    NoDrafts,
     #[error("changed on disk since it was read")]
     Changed(Option<Stored>),
     #[error("{0}")]

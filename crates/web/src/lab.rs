@@ -35,6 +35,7 @@ mod jobs;
 mod prototype;
 mod views;
 
+use drafts::Journal;
 pub use drafts::{Draft, Offered};
 pub use jobs::{Jobs, Kind, Told};
 pub use prototype::Shown;
@@ -154,8 +155,8 @@ pub struct Lab {
     pub draft: RwSignal<Option<Offered>>,
     /// Whether the browser has refused to keep the latest draft.
     is_unkept: StoredValue<bool>,
-    /// What the server is still to keep, by place; nothing for what it is to forget.
-    journal: StoredValue<BTreeMap<String, Option<String>>>,
+    /// What the server is still to keep.
+    journal: StoredValue<Journal>,
     /// Whether the explanation panel is open.
     pub why: RwSignal<bool>,
     /// Whether the palette of actions is open.

@@ -153,7 +153,8 @@ pub async fn drafts(path: &str) -> Vec<(String, String)> {
     all.iter().map(|one| (text_field(&one, "tab"), text_field(&one, "draft"))).collect()
 }
 
-/// Has the server keep what a tab has not saved of a document, or nothing any more; returns whether it does.
+/// Has the server keep what a tab has not saved of a document, or nothing any more; returns whether it has answered.
+/// What it refuses it would refuse again.
 pub async fn keep_draft(path: &str, tab: &str, draft: Option<&str>) -> bool {
     let body = Object::new();
     let draft = draft.map_or(JsValue::NULL, JsValue::from);
@@ -161,5 +162,5 @@ pub async fn keep_draft(path: &str, tab: &str, draft: Option<&str>) -> bool {
         crate::js::set_option(&body, name, &value);
     }
     let body = JSON::stringify(&body).map(String::from).unwrap_or_default();
-    ask("PUT", "/api/draft", Some(&body)).await.0 == 200
+    ask("PUT", "/api/draft", Some(&body)).await.0 != 0
 }

@@ -366,6 +366,7 @@ fn disk_answer(error: DiskError) -> Answer {
         DiskError::NotPlain => StatusCode::FORBIDDEN,
         DiskError::TooLong => StatusCode::PAYLOAD_TOO_LARGE,
         DiskError::NotText => StatusCode::UNPROCESSABLE_ENTITY,
+        DiskError::NoDrafts => StatusCode::NOT_IMPLEMENTED,
         DiskError::Changed(_) => StatusCode::CONFLICT,
         DiskError::Io(_) => StatusCode::INTERNAL_SERVER_ERROR,
     };
@@ -380,6 +381,7 @@ fn disk_answer(error: DiskError) -> Answer {
         | DiskError::NotPlain
         | DiskError::TooLong
         | DiskError::NotText
+        | DiskError::NoDrafts
         | DiskError::Io(_) => refused(status, &sentence),
     }
 }

@@ -10,7 +10,7 @@ use crate::{js, server, theme, words};
 use js_sys::Array;
 use leptos::prelude::*;
 use session::Command;
-use std::collections::BTreeMap;
+use std::collections::VecDeque;
 
 /// Where drafts are kept: the tab and the document's path follow.
 const PLACE: &str = "thinglab/draft/";
@@ -48,9 +48,62 @@ pub struct Offered {
     place: String,
 }
 
-/// Where this tab keeps the draft of a document.
+/// What the server is still to keep: of each place the latest, nothing for what it is to forget.
+#[derive(Default)]
+pub(super) struct Journal {
+    /// The places in the order in which the server is told of them.
+    waiting: VecDeque<(String, Option<String>)>,
+    /// Whether it is being told.
+    is_telling: bool,
+}
+
+impl Journal {
+    /// Takes up what is to be kept in a place. Returns true where the server is to be told from now on.
+    fn put(&mut self, place: &str, draft: Option<&str>) -> bool {
+        let draft = draft.map(String::from);
+        match self.waiting.iter_mut().find(|(known, _)| known == place) {
+            Some((_, known)) => *known = draft,
+            None => self.waiting.push_back((String::from(place), draft)),
+        }
+        !std::mem::replace(&mut self.is_telling, true)
+    }
+
+    /// What the server is to be told next. When there is nothing more, telling is over.
+    fn next(&mut self) -> Option<(String, Option<String>)> {
+        let next = self.waiting.front().cloned();
+        self.is_telling = next.is_some();
+        next
+    }
+
+    /// The server has answered for what was next; it is done unless its place has something else by now.
+    fn answered(&mut self, told: &(String, Option<String>)) {
+        if self.waiting.front() == Some(told) {
+            self.waiting.pop_front();
+        }
+    }
+
+    /// The server has not answered: what was next waits behind the others, until telling begins again.
+    fn unanswered(&mut self) {
+        if let Some(first) = self.waiting.pop_front() {
+            self.waiting.push_back(first);
+        }
+        self.is_telling = false;
+    }
+
+    /// Whether the server does not know the latest of a place yet.
+    fn is_waiting(&self, place: &str) -> bool {
+        self.waiting.iter().any(|(known, _)| known == place)
+    }
+}
+
+/// Where a tab keeps the draft of a document.
+fn place(tab: &str, path: &str) -> String {
+    format!("{PLACE}{tab}/{path}")
+}
+
+/// Where this tab does.
 fn own_place(path: &str) -> String {
-    format!("{PLACE}{}/{path}", js::tab_name())
+    place(&js::tab_name(), path)
 }
 
 /// The tab and the path that a place is for; nothing where no draft is kept.
@@ -71,7 +124,7 @@ fn left_behind(
     };
     let places = theme::names().into_iter();
     let kept = places.filter_map(|place| theme::keep(&place).map(|kept| (place, kept)));
-    let on_disk = on_disk.into_iter().map(|(tab, kept)| (format!("{PLACE}{tab}/{path}"), kept));
+    let on_disk = on_disk.into_iter().map(|(tab, kept)| (place(&tab, path), kept));
     let mut all: Vec<Offered> = Vec::new();
     for (place, kept) in kept.chain(on_disk).filter(|(place, _)| is_left(place)) {
         let Some(draft) = Draft::read(&kept) else { continue };
@@ -134,41 +187,42 @@ impl Lab {
     /// Keeps a draft in a place, or nothing any more, here and with the server; returns false where the browser keeps
     /// nothing.
     fn put_draft(self, place: &str, draft: Option<&str>) -> bool {
-        let is_idle = self.journal.with_value(|journal| journal.is_empty());
-        self.journal.update_value(|journal| {
-            journal.insert(String::from(place), draft.map(String::from));
-        });
-        if is_idle {
+        let is_begun =
+            self.journal.try_update_value(|journal| journal.put(place, draft)).unwrap_or(false);
+        if is_begun {
             leptos::task::spawn_local(self.write_journal());
         }
         theme::put(place, draft)
     }
 
-    /// What the server keeps of a document, once it has been told all.
+    /// What the server keeps of a document, once it has been told all; without what it could not be told.
     async fn drafts_on_disk(self, path: &str) -> Vec<(String, String)> {
         loop {
-            let is_told = self.journal.with_value(BTreeMap::is_empty);
-            let found = server::drafts(path).await;
+            let is_told = self.journal.with_value(|journal| !journal.is_telling);
+            let mut found = server::drafts(path).await;
             if is_told {
+                self.journal.with_value(|journal| {
+                    found.retain(|(tab, _)| !journal.is_waiting(&place(tab, path)));
+                });
                 return found;
             }
         }
     }
 
-    /// Tells the server what is to be kept, one after the other, of each place the latest.
+    /// Tells the server what is to be kept, one after the other. Where it does not answer, the browser alone keeps the
+    /// rest, until the next draft.
     async fn write_journal(self) {
-        while let Some((place, draft)) = self.journal.with_value(|all| {
-            all.first_key_value().map(|(place, draft)| (place.clone(), draft.clone()))
-        }) {
-            if let Some((tab, path)) = place_of(&place) {
-                // without a server the browser alone keeps it
-                let _ = server::keep_draft(path, tab, draft.as_deref()).await;
+        while let Some(next) = self.journal.try_update_value(Journal::next).flatten() {
+            let (place, draft) = &next;
+            let is_answered = match place_of(place) {
+                Some((tab, path)) => server::keep_draft(path, tab, draft.as_deref()).await,
+                None => true,
+            };
+            if !is_answered {
+                self.journal.update_value(Journal::unanswered);
+                return;
             }
-            self.journal.update_value(|all| {
-                if all.get(&place) == Some(&draft) {
-                    all.remove(&place);
-                }
-            });
+            self.journal.update_value(|journal| journal.answered(&next));
         }
     }
 
@@ -196,7 +250,7 @@ impl Lab {
 
 #[cfg(test)]
 mod tests {
-    use super::{Draft, place_of};
+    use super::{Draft, Journal, place, place_of};
 
     #[test]
     fn a_draft_is_read_as_it_was_written() {
@@ -212,5 +266,36 @@ mod tests {
     fn a_place_tells_the_tab_and_the_document() {
         assert_eq!(place_of("thinglab/draft/7e-1/a/b.thing"), Some(("7e-1", "a/b.thing")));
         assert_eq!(place_of("thinglab/dock"), None);
+        assert_eq!(place_of(&place("7e-1", "a/b.thing")), Some(("7e-1", "a/b.thing")));
+    }
+
+    #[test]
+    fn a_draft_that_the_server_did_not_answer_for_is_told_again() {
+        let mut journal = Journal::default();
+        assert!(journal.put("a", Some("1")));
+        assert!(!journal.put("b", None));
+        let first = journal.next().expect("it waits");
+        assert_eq!(first, ("a".into(), Some("1".into())));
+        journal.unanswered();
+        assert!(journal.is_waiting("a") && journal.is_waiting("b"));
+        // the next draft begins anew; what was not answered does not stand in the way of the others
+        assert!(journal.put("c", Some("3")));
+        let mut told = Vec::new();
+        while let Some(next) = journal.next() {
+            journal.answered(&next);
+            told.push(next.0);
+        }
+        assert_eq!(told, ["b", "a", "c"]);
+        assert!(journal.put("a", None));
+    }
+
+    #[test]
+    fn a_draft_that_changes_while_the_server_is_told_is_told_again() {
+        let mut journal = Journal::default();
+        journal.put("a", Some("1"));
+        let first = journal.next().expect("it waits");
+        assert!(!journal.put("a", Some("2")));
+        journal.answered(&first);
+        assert_eq!(journal.next(), Some(("a".into(), Some("2".into()))));
     }
 }
