@@ -2,7 +2,7 @@
 
 use crate::answer::Answer;
 use crate::evaluator::{Evaluator, Given, Result};
-use crate::fault::Fault;
+use crate::fault::{Fault, FaultKind};
 use crate::measure;
 use crate::operate::finite;
 use crate::replay::{Binary, Unary};
@@ -309,7 +309,11 @@ impl<'a> Evaluator<'a> {
                 self.mean(middle, dimension).unwrap_or_else(|| Err(empty()))
             }
             ListMessage::Product => {
-                let (numbers, _) = self.numbers_of(&items)?;
+                let (numbers, dimension) = self.numbers_of(&items)?;
+                if dimension != Dimension::NONE {
+                    let message = "a product of a list is of plain numbers";
+                    return Err(Fault::new(FaultKind::WrongDimension, message));
+                }
                 let times = |x, y| self.binary_number(Binary::Multiply, x, y);
                 finite(joined(numbers, times).unwrap_or(1.0), Dimension::NONE)
             }

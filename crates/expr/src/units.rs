@@ -61,12 +61,8 @@ pub const NAMED_UNITS: &[NamedUnit] = &[
     lone("ly", "light year", scaled(Dimension::LENGTH, 9_460_730_472_580_800.0, 0)),
     lone("ha", "hectare", decimal(Dimension::AREA, 4)),
     si("L", "litre", decimal(Dimension::VOLUME, -3)),
-    // alone `l` is a name like any other: `{ d = 8  l = 40 }`
-    lone("hl", "hectolitre", decimal(Dimension::VOLUME, -1)),
-    lone("dl", "decilitre", decimal(Dimension::VOLUME, -4)),
-    lone("cl", "centilitre", decimal(Dimension::VOLUME, -5)),
+    // `l`, `dl` and `cl` are names like any other: `{ d = 8  l = 40 }`, `{ cd = 0.3  cl = 1.2 }`
     lone("ml", "millilitre", decimal(Dimension::VOLUME, -6)),
-    lone("ul", "microlitre", decimal(Dimension::VOLUME, -9)),
     lone("gal", "gallon", scaled(Dimension::VOLUME, 3_785_411_784.0, -12)),
     si("rad", "radian", decimal(Dimension::ANGLE, 0)),
     lone("deg", "degree", scaled(Dimension::ANGLE, PI / 180.0, 0)),

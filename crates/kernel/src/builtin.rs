@@ -265,7 +265,7 @@ table! {
     Mean "mean" List [] Element "The sum of its numbers by how many they are.";
     Median "median" List [] Element "The middle one of its numbers by size; of an even count the mean of the middle two.";
     Product "product" Plains [] Plain "The product of its numbers; 1 where it is empty.";
-    Sorted "sorted" List [] List "Its numbers, the smallest first.";
+    Sorted "sorted" List [] Same "Its numbers, the smallest first.";
     Min "min" List [] Element "The smallest of its numbers.";
     Max "max" List [] Element "The largest of its numbers.";
     Zip "zip" List [one("other", Kind::List)] List "Pairs of its elements and those of another list, as long as both last.";

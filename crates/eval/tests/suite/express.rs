@@ -41,6 +41,10 @@ fn what_has_no_value_says_why() {
         (call("sine", vec![num(0.0)]), "unknown-name: there is no function `sine`"),
         (call("sin", vec![]), "wrong-kind: `sin` wants angle, and here are 0 arguments"),
         (divide(num(9.0), num(0.0)), "no-answer: 9 divided by zero"),
+        (
+            send(list(vec![part("i")]), "product", vec![]),
+            "wrong-dimension: a product of a list is of plain numbers",
+        ),
         (call("sqrt", vec![num(-4.0)]), "no-answer: sqrt(-4), which is defined where x >= 0"),
         (call("ln", vec![num(0.0)]), "no-answer: ln(0), which is defined where x > 0"),
         (call("asin", vec![num(2.0)]), "no-answer: asin(2), which is defined where -1 <= x <= 1"),
