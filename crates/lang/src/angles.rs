@@ -4,7 +4,7 @@
 //! as an `Angle`, their sums and differences, and what is so many times as large.
 
 use crate::kinds::Kind;
-use crate::lower::{Lowerer, OWN};
+use crate::lower::Lowerer;
 use crate::scope::Scope;
 use syntax::ast::{BinaryOp, Expr, UnaryOp};
 
@@ -29,7 +29,7 @@ impl Lowerer<'_> {
         {
             return;
         }
-        let angle = self.visible.class(OWN, "Angle");
+        let angle = self.visible.of_language("Angle");
         self.document.classes[class].messages[index].class = angle;
     }
 
@@ -42,7 +42,12 @@ impl Lowerer<'_> {
             Expr::Paren(inner) => of(inner.inner()),
             Expr::Unary(unary) => unary.op() != Some(UnaryOp::Not) && of(unary.operand()),
             Expr::If(choice) => of(choice.then_value()) || of(choice.else_value()),
-            Expr::Let(bindings) => of(bindings.body()),
+            Expr::Let(bindings) => {
+                // what it binds is not looked into, nor what is further out by its names
+                let names = bindings.bindings().filter_map(|b| b.name());
+                let inner = names.fold(scope.clone(), |s, w| s.with_local(w.name(), Kind::Unknown));
+                bindings.body().is_some_and(|e| self.is_angle_within(&inner, &e, depth))
+            }
             Expr::Binary(binary) => {
                 let (left, right) = (of(binary.left()), of(binary.right()));
                 match binary.op() {
@@ -81,6 +86,6 @@ impl Lowerer<'_> {
         self.silent -= 1;
         self.references = references;
         let class = found.and_then(|(term, _)| self.declared_class(scope, &term));
-        class.is_some_and(|class| self.document.classes[class].name == *"Angle")
+        class.is_some() && class == self.visible.of_language("Angle")
     }
 }

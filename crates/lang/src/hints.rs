@@ -6,8 +6,9 @@ use crate::members::is_constant;
 use crate::names::LONGEST_WORD;
 use crate::scope::Scope;
 use base::{Diagnostic, Name, Place, Span};
+use expr::dimension::Dimension;
 use kernel::{Class, ClassId, Document, Message, Path};
-use syntax::ast::{self, AstNode, BinaryOp, Expr};
+use syntax::ast::{self, AstNode, BinaryOp, Expr, UnaryOp};
 
 /// How many names a hint lists.
 const MOST_LISTED: usize = 12;
@@ -95,16 +96,24 @@ impl Lowerer<'_> {
             Some(d) if d.code == "virtual-part" => (d.place.file, target.span()),
             _ => return,
         };
-        let [of, value] = [target, value].map(|e| e.syntax().text().to_string().trim().to_string());
-        if value.contains('\n') {
+        let [of, mut written] =
+            [target, value].map(|e| e.syntax().text().to_string().trim().to_string());
+        if written.contains('\n') {
             return;
+        }
+        let at = |at: u32| Place { file, span: Span::new(at, at) };
+        let mut edits = vec![(at(span.start), "constraint ".to_string())];
+        // `a = b < c` would be a chain, `a = b and c` two demands
+        if is_looser_than_equation(value) {
+            written = format!("({written})");
+            let inside = value.span();
+            edits.extend([(at(inside.start), "(".to_string()), (at(inside.end), ")".to_string())]);
         }
         let d = &self.diagnostics[before];
         let plain = Diagnostic::error(d.code, d.place, d.message.clone());
-        let start = Span::new(span.start, span.start);
         self.diagnostics[before] = plain
-            .hint(format!("what it shall be is a constraint: `constraint {of} = {value}`"))
-            .fix("write constraint", [(Place { file, span: start }, "constraint ".to_string())]);
+            .hint(format!("what it shall be is a constraint: `constraint {of} = {written}`"))
+            .fix("write constraint", edits);
     }
 
     /// Says how a part further out is named, where one of the thing itself has its name and is not what is wanted.
@@ -171,8 +180,8 @@ impl Lowerer<'_> {
         let written = value.syntax().text().to_string().trim().to_string();
         let place = d.place;
         match (found, wanted, value) {
-            (Kind::Number(_), Kind::Number(_), Expr::Binary(quotient))
-                if let Some(number) = fraction_of_unit(quotient) =>
+            (Kind::Number(_), Kind::Number(Some(dimension)), Expr::Binary(quotient))
+                if let Some(number) = fraction_of_unit(quotient, *dimension) =>
             {
                 d.hint(format!("a unit belongs to the number before it alone: write `{number}`"))
                     .fix(format!("write {number}"), [(place, number)])
@@ -326,15 +335,39 @@ fn written(asked: &str, message: &Message) -> String {
     }
 }
 
-/// Returns `0.25 in` for `1/4 in`, which is 1 divided by 4 inches.
-fn fraction_of_unit(quotient: &ast::BinaryExpr) -> Option<String> {
+/// Returns true for what an equation does not hold together without brackets: comparisons, and what joins these.
+fn is_looser_than_equation(value: &Expr) -> bool {
+    match value {
+        Expr::Chain(_) => true,
+        Expr::Unary(unary) => unary.op() == Some(UnaryOp::Not),
+        Expr::Binary(binary) => !matches!(
+            binary.op(),
+            Some(
+                BinaryOp::Add
+                    | BinaryOp::Subtract
+                    | BinaryOp::Union
+                    | BinaryOp::Multiply
+                    | BinaryOp::Divide
+                    | BinaryOp::Remainder
+                    | BinaryOp::Power
+            )
+        ),
+        _ => false,
+    }
+}
+
+/// Returns `0.25 in` for `1/4 in`, which is 1 divided by 4 inches, where a quantity of this dimension is wanted.
+fn fraction_of_unit(quotient: &ast::BinaryExpr, wanted: Dimension) -> Option<String> {
     let (BinaryOp::Divide, Expr::Number(above), Expr::Number(below)) =
         (quotient.op()?, quotient.left()?, quotient.right()?)
     else {
         return None;
     };
     let x = above.value().filter(|_| above.unit().is_none())? / below.value()?;
-    Some(format!("{} {}", base::number::shortest(x), below.unit()?.text()))
+    let word = below.unit()?;
+    let unit = expr::units::unit(word.text()).filter(|unit| unit.dimension == wanted);
+    unit.filter(|_| x.is_finite())?;
+    Some(format!("{} {}", base::number::shortest(x), word.text()))
 }
 
 /// Returns the unit in `5 h = 6`, which somebody may have meant for the name of the next part.

@@ -3,11 +3,14 @@
 //! In: the numbers with units that a text states, checks and tolerances apart. Out: powers of two for the base
 //! quantities. A text whose numbers are of everyday size in SI stays in SI.
 
+use base::Name;
 use expr::dimension::Dimension;
 use kernel::Scale;
+use kernel::builtin::{FUNCTIONS, NUMBER_MESSAGES, find};
 use kernel::quantity::is_of_the_sheet;
-use syntax::ast::{AstNode, NumberExpr, Part};
-use syntax::{Parse, SyntaxKind, WalkEvent};
+use std::collections::BTreeMap;
+use syntax::ast::{Arg, Assign, AstNode, Expr, NumberExpr, Param, Part, Type, Word};
+use syntax::{Parse, SyntaxKind, SyntaxNode, WalkEvent};
 
 /// Numbers between these, in units of SI, are of everyday size.
 const EVERYDAY: std::ops::Range<f64> = 1e-3..1e6;
@@ -52,20 +55,71 @@ fn names_a_length(dimension: Dimension) -> bool {
     is_plain && length != 0
 }
 
-/// Returns true for a text that writes places, or lengths by their class, without units.
+/// Returns true for a text that writes places or lengths without units. Where it does not say itself of which class a
+/// number is, this may be a length.
 fn has_bare_places(parse: &Parse) -> bool {
-    let is_bare = |number: &NumberExpr| number.unit().is_none();
+    let is_bare =
+        |number: &NumberExpr| number.unit().is_none() && number.value().is_some_and(|x| x != 0.0);
+    let root = parse.syntax();
+    let mut said: BTreeMap<Name, bool> = BTreeMap::new();
+    for part in root.descendants().filter_map(Part::cast) {
+        let is = is_length(part.class());
+        part.names().for_each(|word| *said.entry(word.name()).or_default() |= is);
+    }
+    let may_be_one = |word: &Word| said.get(&word.name()).copied().unwrap_or(true);
     stated(parse).iter().filter(|number| is_bare(number)).any(|number| {
+        let within = |kind| {
+            use SyntaxKind::{ListExpr, ParenExpr, UnaryExpr};
+            matches!(kind, UnaryExpr | ParenExpr | ListExpr)
+        };
         let mut above = number.syntax().ancestors().skip(1);
-        let Some(above) = above.find(|n| n.kind() != SyntaxKind::UnaryExpr) else { return false };
+        let Some(above) = above.find(|n| !within(n.kind())) else { return false };
         match above.kind() {
-            SyntaxKind::Part => {
-                let class = Part::cast(above).and_then(|part| part.class());
-                class.is_some_and(|class| class.syntax().text().to_string().trim() == "Length")
+            SyntaxKind::TupleExpr => true,
+            SyntaxKind::Part => is_length(Part::cast(above).and_then(|part| part.class())),
+            SyntaxKind::Param => is_length(Param::cast(above).and_then(|param| param.class())),
+            SyntaxKind::Assign => {
+                let target = Assign::cast(above).and_then(|assign| assign.target());
+                target.and_then(|e| last_word(&e)).is_some_and(|word| may_be_one(&word))
             }
-            kind => kind == SyntaxKind::TupleExpr,
+            SyntaxKind::Arg => {
+                let label = Arg::cast(above.clone()).and_then(|arg| arg.label());
+                !is_of_function(&above) && label.is_none_or(|word| may_be_one(&word))
+            }
+            _ => false,
         }
     })
+}
+
+/// Returns true for `Length` and lists of it.
+fn is_length(class: Option<Type>) -> bool {
+    let text = class.map(|class| class.syntax().text().to_string()).unwrap_or_default();
+    text.split_whitespace().last() == Some("Length")
+}
+
+/// Returns the last word of a path.
+fn last_word(path: &Expr) -> Option<Word> {
+    match path {
+        Expr::Name(name) => name.name(),
+        Expr::Field(field) => field.name(),
+        Expr::Index(index) => last_word(&index.receiver()?),
+        _ => None,
+    }
+}
+
+/// Returns true for an argument of a function, or of a message to a number: that of a class, a program or a message to
+/// a thing may be a length.
+fn is_of_function(arg: &SyntaxNode) -> bool {
+    let asked = arg.ancestors().nth(2).and_then(Expr::cast);
+    match asked {
+        Some(Expr::Call(call)) => {
+            call.name().is_some_and(|word| find(FUNCTIONS, word.text()).is_some())
+        }
+        Some(Expr::Field(field)) => {
+            field.name().is_some_and(|word| find(NUMBER_MESSAGES, word.text()).is_some())
+        }
+        _ => false,
+    }
 }
 
 fn best(mut quantities: Vec<(f64, Dimension)>, has_unit: bool) -> Scale {
@@ -173,6 +227,32 @@ mod tests {
         assert!(!writes("v: Velocity = 3 m/s\nd: Length = 20\n"));
         assert!(!writes("f: Force = 5 N\nx: Length = 20\n"));
         assert!(!writes("unit mm\nv: Velocity = 100 km/h\n"));
+    }
+    #[test]
+    fn bare_lengths_in_bodies_arguments_and_parameters_have_no_unit() {
+        let writes = |text: &str| {
+            let text = format!("v: Velocity = 3 m/s\n{text}\n");
+            of(&syntax::parse(base::FileId(0), &text), None).1
+        };
+        for bare in [
+            "c: Circle { radius = 20 }",
+            "c: Circle\nc.radius = -20",
+            "p = Point(10, 20)",
+            "c: Circle = Circle(radius: 20)",
+            "program P(r: Length = 40) { c = Circle(Point(0, 0), r) }",
+            "radii: List of 2 Length = [10, 20]",
+        ] {
+            assert!(!writes(bare), "{bare}");
+        }
+        for other in [
+            "c: Circle { radius = 0 }",
+            "class Wheel { weight: Mass }\nw: Wheel { weight = 20 }\nu: Wheel = Wheel(weight: 3)",
+            "x: Real = max(2, 3)",
+            "t: Text = (2 / 3).text(2)",
+            "program P(n: Integer = 4) { }",
+        ] {
+            assert!(writes(other), "{other}");
+        }
     }
     #[test]
     fn checks_and_tolerances_say_nothing_of_the_scale() {

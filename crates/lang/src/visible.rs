@@ -30,6 +30,10 @@ impl Visible {
         all.insert(used);
         self.uses.entry(file).or_default().extend(all);
     }
+    /// Returns the class of the language itself of a name.
+    pub(crate) fn of_language(&self, name: &str) -> Option<ClassId> {
+        self.classes.get(name)?.iter().find(|class| class.0.is_none()).map(|class| class.1)
+    }
     /// Returns the class that a name means in a text.
     pub(crate) fn class(&self, file: FileId, name: &str) -> Option<ClassId> {
         let all = self.classes.get(name)?.iter().rev();
