@@ -465,8 +465,13 @@ impl Lowerer<'_> {
         let mut numbers: BTreeMap<Span, f64> = BTreeMap::new();
         for e in value.syntax().descendants().filter_map(Expr::cast) {
             let number = match named(&e) {
-                Some((Of::Any, name)) if self.count_of_class(class, &name).is_some() => None,
-                Some((_, name)) => self.constant_named(scope, &name),
+                // a count is not given itself: by its name it is given that further out
+                Some((Of::Any, other))
+                    if other != *name && self.count_of_class(class, &other).is_some() =>
+                {
+                    None
+                }
+                Some((_, other)) => self.constant_named(scope, &other),
                 None => self.constant_count(scope, &e),
             };
             numbers.extend(number.map(|n| (e.span(), n as f64)));

@@ -168,7 +168,7 @@ impl Text<'_> {
         let Some(class) = self.class_at(target) else {
             return Err(self.unknown(target));
         };
-        match self.carried(members, &rest, class) {
+        match self.carried(members, (target, &rest), class) {
             Some(carried) => Ok(self.said_in(&home, SyntaxKind::Error, &carried)),
             None => Err(self.of_a_class(target)),
         }

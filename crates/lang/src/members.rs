@@ -51,6 +51,8 @@ pub(crate) struct Definition {
     pub(crate) scope: Scope,
     /// The loops that repeat it, the outermost first.
     pub(crate) loops: Vec<ast::For>,
+    /// The elements of the answer where it is a list that is written out, once they were asked for.
+    pub(crate) elements: OnceCell<Option<Rc<[Expr]>>>,
 }
 
 /// The word that a `for` begins with.
@@ -580,7 +582,8 @@ impl Lowerer<'_> {
         let key = (class, message.name.clone());
         self.named_at.insert(key.clone(), Place { file: scope.file, span: word.span() });
         let (answer, loops) = (answer.clone(), loops.to_vec());
-        let definition = Definition { answer, scope: scope.clone(), loops };
+        let elements = OnceCell::new();
+        let definition = Definition { answer, scope: scope.clone(), loops, elements };
         self.definitions.insert(key, definition.clone());
         let index = self.document.classes[class].messages.len();
         self.messages.insert((class, message.name.clone()), index);

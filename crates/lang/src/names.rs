@@ -70,16 +70,20 @@ impl Lowerer<'_> {
 
     /// Resolves the name of a constant of the text that a class stands in, or of a text that it uses.
     fn constant_of_text(&mut self, scope: &Scope, word: &ast::Word) -> Option<(Term, Kind)> {
-        let (class, things) = self.top_of(scope.file)?;
         let name = word.name();
-        let leads_there =
-            || self.file_things.values().any(|p| *p == things.then(Step::Part(name.clone())));
-        if !self.constants.contains(&(class, name.clone())) && !leads_there() {
-            return None;
-        }
+        let (class, things) = self.holder_of_constant(scope.file, &name)?;
         let kind = self.kind_of_part(class, &name)?;
         self.refer(Place { file: scope.file, span: word.span() }, &name, class);
         Some((Term::send(Term::at(Term::Document, &things), &name), kind))
+    }
+
+    /// Returns the class of the things at the top of a text, and where they are, if they have a constant of this name.
+    pub(crate) fn holder_of_constant(&self, file: FileId, name: &Name) -> Option<(ClassId, Path)> {
+        let (class, things) = self.top_of(file)?;
+        let leads_there =
+            || self.file_things.values().any(|p| *p == things.then(Step::Part(name.clone())));
+        let is_one = self.constants.contains(&(class, name.clone())) || leads_there();
+        is_one.then_some((class, things))
     }
 
     /// Returns the class of the things at the top of a text, and where they are in the document.
@@ -316,7 +320,8 @@ impl Lowerer<'_> {
         if self.depth > DEEPEST {
             return Kind::Unknown;
         }
-        let Some(Definition { answer, scope, loops }) = self.definitions.get(&key).cloned() else {
+        let Some(Definition { answer, scope, loops, .. }) = self.definitions.get(&key).cloned()
+        else {
             self.define_program_of(definer);
             return self.message_kinds.get(&key).cloned().flatten().unwrap_or(Kind::Unknown);
         };

@@ -30,7 +30,7 @@ impl Lowerer<'_> {
         }
     }
 
-    /// Returns true for a part of the thing itself whose name something further out has, too.
+    /// Returns true for a part of the thing itself whose name something further out has, too, or a constant of the text.
     fn is_further_out(&self, scope: &Scope, name: &Name) -> bool {
         let mut has = scope.classes.iter().map(|&class| {
             self.class_of_part(class, name).is_some()
@@ -40,7 +40,7 @@ impl Lowerer<'_> {
             && scope.element(name).is_none()
             && !scope.constants.contains_key(name)
             && has.next() == Some(true)
-            && has.any(|it| it)
+            && (has.any(|it| it) || self.holder_of_constant(scope.file, name).is_some())
     }
 
     /// Returns the name that a bare path begins with, where it leads to what cannot be given from the thing itself, and
@@ -78,7 +78,7 @@ impl Lowerer<'_> {
 }
 
 /// Returns the name that a bare path begins with.
-fn head(value: &Expr) -> Option<Name> {
+pub(crate) fn head(value: &Expr) -> Option<Name> {
     match value {
         Expr::Name(_) => word_of(value),
         Expr::Paren(inner) => head(&inner.inner()?),
@@ -88,13 +88,13 @@ fn head(value: &Expr) -> Option<Name> {
     }
 }
 
-fn word_of(e: &Expr) -> Option<Name> {
+pub(crate) fn word_of(e: &Expr) -> Option<Name> {
     let Expr::Name(name) = e else { return None };
     Some(name.name()?.name())
 }
 
 /// Returns true if a name stands in an expression as what is looked for.
-fn speaks_of(value: &Expr, name: &Name) -> bool {
+pub(crate) fn speaks_of(value: &Expr, name: &Name) -> bool {
     let mut names = value.syntax().descendants().filter_map(NameExpr::cast);
     names.any(|n| n.name().is_some_and(|word| word.name() == *name))
 }

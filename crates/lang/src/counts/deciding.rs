@@ -8,6 +8,7 @@ use crate::scope::Scope;
 use base::{Name, Span};
 use kernel::{ClassId, Document};
 use std::collections::BTreeMap;
+use syntax::WalkEvent;
 use syntax::ast::{self, AstNode, BinaryOp, Expr, TypeShape, UnaryOp};
 
 /// What a part may be that decides which parts there are.
@@ -155,13 +156,18 @@ impl Lowerer<'_> {
         known.truth(e)
     }
 
-    /// Returns the numbers that the names and paths in an expression stand for, by where they stand.
+    /// Returns the numbers that the names and paths in an expression stand for, by where they stand. What stands in an
+    /// index belongs to the element that it takes.
     pub(crate) fn constants_in(&mut self, scope: &Scope, e: &Expr) -> BTreeMap<Span, f64> {
         let mut known = BTreeMap::new();
-        for e in e.syntax().descendants().filter_map(Expr::cast) {
+        let mut walk = e.syntax().preorder();
+        while let Some(event) = walk.next() {
+            let WalkEvent::Enter(node) = event else { continue };
+            let Some(e) = Expr::cast(node) else { continue };
             let number = match &e {
                 Expr::Name(name) => name.name().and_then(|w| self.constant_named(scope, &w.name())),
                 Expr::Index(_) => {
+                    walk.skip_subtree();
                     known.extend(self.listed_number(scope, &e).map(|n| (e.span(), n)));
                     continue;
                 }

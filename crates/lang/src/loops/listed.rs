@@ -5,12 +5,21 @@
 
 use super::{Over, Written};
 use crate::lower::Lowerer;
+use crate::members::Definition;
 use crate::scope::Scope;
 use base::{Diagnostic, Place};
+use std::rc::Rc;
 use syntax::ast::{self, AstNode, Expr};
 
 /// Lists within lists are followed so far.
 const DEEPEST: usize = 16;
+
+/// What is written out as a list.
+pub(super) struct Listed {
+    pub(super) elements: Rc<[Expr]>,
+    /// What names mean in it, where that is not what they mean in the loop: a message answers the list.
+    scope: Option<Scope>,
+}
 
 impl Lowerer<'_> {
     /// Finds what a loop binds its names to where that is written, a row a turn.
@@ -18,11 +27,12 @@ impl Lowerer<'_> {
         &mut self,
         scope: &Scope,
         each: &ast::For,
-        written: &[Expr],
+        listed: &Listed,
     ) -> Option<(u32, Over)> {
         let named = each.names().count();
+        let there = listed.scope.as_ref().unwrap_or(scope);
         let mut rows = Vec::new();
-        for e in written {
+        for e in &*listed.elements {
             let row = match (named, e) {
                 (1, e) => vec![e.clone()],
                 (_, Expr::List(_) | Expr::Tuple(_)) => elements(e)?,
@@ -37,10 +47,10 @@ impl Lowerer<'_> {
                 self.refuse_names(scope, each, message);
                 return None;
             }
-            let row: Option<Vec<Written>> = row.iter().map(|e| self.written(scope, e)).collect();
+            let row: Option<Vec<Written>> = row.iter().map(|e| self.written(there, e)).collect();
             rows.push(row?);
         }
-        Some((written.len() as u32, Over::Written(rows)))
+        Some((listed.elements.len() as u32, Over::Written(rows)))
     }
 
     /// Reports a loop with other names than there are values in a turn.
@@ -65,17 +75,20 @@ impl Lowerer<'_> {
         }
     }
 
-    /// Returns the elements of a list that is written out, where it stands or in what a message of the scope's own
-    /// things answers.
-    pub(super) fn listed(&self, scope: &Scope, list: &Expr) -> Option<Vec<Expr>> {
-        let Expr::Name(name) = list else { return elements(list) };
+    /// Returns what a list is written out as, where it stands or in what a message of the scope's own things answers.
+    pub(super) fn listed(&self, scope: &Scope, list: &Expr) -> Option<Listed> {
+        let Expr::Name(name) = list else {
+            return Some(Listed { elements: elements(list)?.into(), scope: None });
+        };
         let name = name.name()?.name();
         if scope.local(&name).is_some() || scope.element(&name).is_some() {
             return None;
         }
         let mut line = self.document.primary_line(scope.class()).into_iter();
         let definition = line.find_map(|c| self.definitions.get(&(c, name.clone())))?;
-        elements(&definition.answer)
+        // the message may be inherited: its names are those of its own text, of the loop's thing
+        let there = Scope { classes: scope.classes.clone(), ..definition.scope.clone() };
+        Some(Listed { elements: definition.elements()?, scope: Some(there) })
     }
 
     /// Returns the number that an element of a list of written numbers is, `ends[i][0]`.
@@ -86,18 +99,28 @@ impl Lowerer<'_> {
             if indices.len() == DEEPEST {
                 return None;
             }
-            indices.push(self.constant(scope, &index.index()?)?);
+            indices.push(index.index()?);
             list = index.receiver()?;
         }
+        // before the indices, which may be long themselves
+        let mut items = self.listed(scope, &list)?.elements;
         let mut found = None;
-        for at in indices.into_iter().rev() {
-            let items = match found {
-                None => self.listed(scope, &list)?,
-                Some(inner) => elements(&inner)?,
-            };
-            found = Some(items.into_iter().nth(usize::try_from(at).ok()?)?);
+        for index in indices.into_iter().rev() {
+            if let Some(inner) = found {
+                items = elements(&inner)?.into();
+            }
+            let at = usize::try_from(self.constant(scope, &index)?).ok()?;
+            found = Some(items.get(at)?.clone());
         }
         crate::numbers::constant(&|_| None, &found?)
+    }
+}
+
+impl Definition {
+    /// Returns the elements of what it answers where that is written out as one list. They are collected once.
+    fn elements(&self) -> Option<Rc<[Expr]>> {
+        let written = || elements(&self.answer).filter(|_| self.loops.is_empty());
+        self.elements.get_or_init(|| written().map(Rc::from)).clone()
     }
 }
 

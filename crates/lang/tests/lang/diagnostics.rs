@@ -1,6 +1,6 @@
 //! Wrong documents: the code of what is wrong, and the text that it is at.
 
-use super::{lower, wrong};
+use super::{lower, right, wrong};
 
 #[track_caller]
 fn assert_wrong(text: &str, code: &str, at: &str) {
@@ -67,6 +67,11 @@ const WRONG: &[(&str, &str, &str)] = &[
     ("a: Length = 3\nb: Real = sin(a)", "dimension-mismatch", "a"),
     ("a: Real = sin(\"a\")", "value-of-wrong-class", "\"a\""),
     ("a: Length = max(1 m, 2 s)", "dimension-mismatch", "2 s"),
+    (
+        "l: List of 2 Length = [1 m, 2 m]\nv: Real = l.sorted.product",
+        "value-of-wrong-class",
+        "product",
+    ),
     ("a: Text = \"b\".width(3 V)", "dimension-mismatch", "3 V"),
     ("a: Length = 3\nb: Real = a.round", "dimension-mismatch", "round"),
     ("use shapes\np: Point = Point(1, 2, 3)", "wrong-arity", "Point"),
@@ -233,7 +238,7 @@ const WRONG: &[(&str, &str, &str)] = &[
         "not-a-count",
         "x",
     ),
-    ("class C { n: Integer = 3  l: List of n C { n = n - 1 } }", "not-a-count", "n - 1"),
+    ("class C { n: Integer = 3  l: List of n Real }\nc: C { n = n - 1 }", "not-a-count", "n - 1"),
     (
         "class C { n: Integer = 3  l: List of n C { n = owner.n + 1 } }",
         "endless-parts",
@@ -364,4 +369,49 @@ fn a_wrong_member_leaves_the_others() {
     assert_eq!(root.givens.len(), 1);
     assert_eq!(root.constraints.len(), 1);
     assert_wrong("a: Real = 1\nconstraint a = bee", "unknown-name", "bee");
+}
+
+/// Applies the first fix of the first diagnostic.
+fn fixed(text: &str) -> String {
+    let lowered = lower(text);
+    let fix = &lowered.diagnostics[0].fixes[0];
+    let edits = fix.edits.iter();
+    let edits: Vec<_> = edits
+        .map(|(place, insert)| syntax::TextEdit { span: place.span, insert: insert.clone() })
+        .collect();
+    syntax::edit::apply(text, &edits)
+}
+
+#[test]
+fn a_comparison_becomes_a_constraint_in_brackets() {
+    let gauge = "class G { a: Length  small: Bool => a < 5 }\ng: G\ng.small = ";
+    for value in ["g.a < 3", "1 < g.a < 3", "g.a < 3 and true", "not (g.a < 3)"] {
+        let constraint = format!("g.small = ({value})");
+        let text = fixed(&format!("{gauge}{value}  // so"));
+        assert!(text.ends_with(&format!("constraint {constraint}  // so")), "{text}");
+        right(&text);
+    }
+    assert!(fixed(&format!("{gauge}true")).ends_with("constraint g.small = true"));
+}
+
+#[test]
+fn a_fraction_of_a_unit_is_meant_where_it_fits() {
+    let hint = |text: &str| lower(text).diagnostics[0].hint.clone();
+    assert!(hint("d: Length = 1/4 in").is_some_and(|hint| hint.contains("`0.25 in`")));
+    for other in ["t: Time = 1/4 in", "d: Length = 1/0 in"] {
+        assert!(hint(other).is_none_or(|hint| !hint.contains(" in`")), "{other}");
+    }
+}
+
+#[test]
+fn a_row_of_an_inherited_message_is_wrong_where_it_stands() {
+    let frames = "class Frame { a, b: Real  ends => [(a, b), (b, nowhere)] }";
+    let text = "use frames\nclass Mine is Frame { for p, q in ends { constraint p = q } }";
+    let load = |_: &str| Some(frames.to_string());
+    let lowered = lang::lower(text, &load, None);
+    let at = |d: &base::Diagnostic| &lowered.files[d.place.file].text[d.place.span.range()];
+    assert!(!lowered.diagnostics.is_empty());
+    for d in &lowered.diagnostics {
+        assert_eq!((d.code, at(d)), ("unknown-name", "nowhere"));
+    }
 }

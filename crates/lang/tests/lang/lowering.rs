@@ -373,3 +373,40 @@ fn a_library_does_not_see_the_classes_of_the_document() {
     let codes: Vec<&str> = lowered.diagnostics.iter().map(|d| d.code).collect();
     assert_eq!(codes, ["unknown-class"]);
 }
+
+#[test]
+fn an_index_within_indices_is_looked_at_once() {
+    let mut index = "0".to_string();
+    for _ in 0..64 {
+        index = format!("next[{index}]");
+    }
+    let lowered = right(&format!("next => [1, 2, 0]\nl: List of 3 Real\nl[{index}] = 7\n"));
+    let path = Path(vec![Step::Part("l".into()), Step::Index(1)]);
+    assert!(root(&lowered).givens.iter().any(|given| given.path == path));
+}
+
+#[test]
+fn rows_of_an_inherited_message_have_the_names_of_their_own_text() {
+    let frames = "constant far: Real = 2\nclass Frame { a, b: Real  ends => [(a, b)] }";
+    let text = "use frames\nclass Mine is Frame { for p, q in ends { constraint p = q } }\nm: Mine";
+    let lowered = lang::lower(text, &|_| Some(frames.to_string()), None);
+    assert!(lowered.diagnostics.is_empty(), "{:#?}", lowered.diagnostics);
+    assert_eq!(class(&lowered, "Mine").constraints.len(), 1);
+}
+
+#[test]
+fn what_let_binds_is_no_angle_by_a_name_further_out() {
+    let class_of = |text: &str| {
+        let lowered = right(text);
+        let answer = root(&lowered).messages.iter().find(|m| m.name == *"x").and_then(|m| m.class);
+        answer.map(|class| lowered.document.classes[class].name.to_string())
+    };
+    let text = |answer: &str| format!("turn: Angle = 30 deg\nk: Real = 2\nx => {answer}");
+    assert_eq!(class_of(&text("let a = k in turn * a")).as_deref(), Some("Angle"));
+    assert_eq!(class_of(&text("let turn = k in turn * k")), None);
+    assert_eq!(class_of(&text("turn * k")).as_deref(), Some("Angle"));
+    let own = "class Angle { size: Real }\na: Angle\nclass B { f: Angle }\nb: B\nx => 2 * 30 deg";
+    let lowered = right(own);
+    let answer = root(&lowered).messages.iter().find(|m| m.name == *"x").and_then(|m| m.class);
+    assert_ne!(answer, lowered.document.class_named("Angle"));
+}
