@@ -36,7 +36,7 @@ impl Journal {
 
     /// A journal in a folder.
     #[cfg(test)]
-    fn at(folder: &std::path::Path) -> Self {
+    fn at(folder: &Path) -> Self {
         Self(Some(folder.to_path_buf()))
     }
 
