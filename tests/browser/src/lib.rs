@@ -6,11 +6,10 @@
 
 pub mod hands;
 
-use std::io::{BufRead, BufReader, ErrorKind, Read, Write};
+use std::io::{BufRead, BufReader, Read, Write};
 use std::net::TcpStream;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
-use std::sync::Mutex;
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::time::Duration;
 use std::{env, fs};
@@ -19,33 +18,18 @@ use fantoccini::{Client, ClientBuilder, Locator};
 use hyper_util::client::legacy::connect::HttpConnector;
 use serde_json::{Value, json};
 
-/// A browser on a server of its own, over a folder of its own. Server and folder are gone with the value; the
-/// browser is lent to the next visit.
+/// One browser on one server, over a folder of its own. All are gone with the value.
 #[derive(Debug)]
 pub struct Visit {
     /// The browser.
     pub client: Client,
-    /// The address that the server printed: it carries the token, and a port that no other visit has, so that
-    /// what the page keeps in the browser is this visit's alone.
+    /// The address that the server printed: it carries the token.
     pub address: String,
-    browser: Option<Browser>,
-    // Dropped in this order: a folder is gone only after who writes into it.
+    // Dropped in this order: a folder is gone only after those who write into it.
+    _session: Session,
+    _driver: Process,
     server: Option<Process>,
     folder: Folder,
-}
-
-/// The size of a visit's window, in CSS pixels.
-const WINDOW: (u32, u32) = (1400, 900);
-
-/// Browsers that nobody visits with: starting one costs as much as a short test.
-static RESTING: Mutex<Vec<Browser>> = Mutex::new(Vec::new());
-
-/// A session with a driver of its own. The driver ends when this program does, and the browser with its driver.
-#[derive(Debug)]
-struct Browser {
-    _driver: Process,
-    port: u16,
-    session: String,
 }
 
 /// A program that ends with its value.
@@ -54,15 +38,13 @@ struct Process(Child);
 
 impl Drop for Process {
     fn drop(&mut self) {
-        // What waits for the end of its input cleans up behind itself; it may have ended by itself.
-        if self.0.stdin.take().is_none() {
-            let _ = self.0.kill();
-        }
+        // It may have ended by itself.
+        let _ = self.0.kill();
         let _ = self.0.wait();
     }
 }
 
-/// What the server shows: a copy of the gallery, in `gallery/`.
+/// What the server shows: a copy of the gallery, in `gallery/`; the browser's profile beside it.
 #[derive(Debug)]
 struct Folder(PathBuf);
 
@@ -72,63 +54,23 @@ impl Drop for Folder {
     }
 }
 
-impl Drop for Visit {
-    fn drop(&mut self) {
-        // one that showed a failure is not lent again
-        let Some(browser) = self.browser.take().filter(|_| !std::thread::panicking()) else {
-            return;
-        };
-        if browser.leave().is_ok() {
-            RESTING.lock().expect("no holder panics").push(browser);
-        }
-    }
+/// The browser's session with its driver; dropped before the driver, it closes the browser.
+#[derive(Debug)]
+struct Session {
+    port: u16,
+    name: String,
 }
 
-impl Browser {
-    /// One that rests, or a new one; and a client in a window without a past.
-    async fn lent() -> (Browser, Client) {
-        let resting = RESTING.lock().expect("no holder panics").pop();
-        let connector = HttpConnector::new();
-        let Some(browser) = resting else {
-            let profile = new_folder();
-            let (driver, port) = start_driver(&profile);
-            let client = ClientBuilder::new(connector)
-                .capabilities(capabilities(&profile))
-                .connect(&format!("http://127.0.0.1:{port}"))
-                .await
-                .expect("chromedriver opens Chromium");
-            client.persist().await.expect("the session outlives its client");
-            let session = client.session_id().await.ok().flatten();
-            let session = session.expect("an open session has a name");
-            return (Browser { _driver: driver, port, session }, client);
-        };
-        let address = format!("http://127.0.0.1:{}", browser.port);
-        let client = Client::with_existing_session(&address, &browser.session, connector)
-            .await
-            .expect("the session goes on");
-        client.persist().await.expect("the session outlives its client");
-        let old = client.windows().await.expect("its windows");
-        let new = client.new_window(false).await.expect("a new window");
-        for window in old {
-            client.switch_to_window(window).await.expect("an old window");
-            client.close_window().await.expect("it closes");
-        }
-        client.switch_to_window(new.handle).await.expect("the new window");
-        client.set_window_size(WINDOW.0, WINDOW.1).await.expect("of the usual size");
-        (browser, client)
-    }
-
-    /// Leaves the page. Asked by hand, because what is dropped awaits nothing.
-    fn leave(&self) -> std::io::Result<()> {
-        let mut driver = TcpStream::connect(("127.0.0.1", self.port))?;
-        let Browser { port, session, .. } = self;
-        let (path, body) = (format!("/session/{session}/url"), r#"{"url":"about:blank"}"#);
-        let head = format!("POST {path} HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\n");
-        driver.set_read_timeout(Some(Duration::from_secs(5)))?;
-        write!(driver, "{head}Content-Length: {}\r\n\r\n{body}", body.len())?;
-        let mut answer = [0; 12];
-        driver.read_exact(&mut answer)?;
-        if answer.ends_with(b" 200") { Ok(()) } else { Err(ErrorKind::InvalidData.into()) }
+impl Drop for Session {
+    fn drop(&mut self) {
+        // Asked by hand, because a test that panics awaits nothing; the answer comes once the
+        // browser has ended.
+        let Ok(mut driver) = TcpStream::connect(("127.0.0.1", self.port)) else { return };
+        let Session { port, name } = self;
+        let ask = format!("DELETE /session/{name} HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\n\r\n");
+        let _ = driver.set_read_timeout(Some(Duration::from_secs(5)));
+        let _ = driver.write_all(ask.as_bytes());
+        let _ = driver.read(&mut [0; 64]);
     }
 }
 
@@ -140,14 +82,22 @@ impl Visit {
     pub async fn open(document: Option<&str>) -> Visit {
         let folder = copy_of_the_gallery();
         let (server, address) = serve(&folder, document);
-        let (browser, client) = Browser::lent().await;
+        let (driver, port) = start_driver();
+        let client = ClientBuilder::new(HttpConnector::new())
+            .capabilities(capabilities(&folder.0))
+            .connect(&format!("http://127.0.0.1:{port}"))
+            .await
+            .expect("chromedriver opens Chromium");
+        let name = client.session_id().await.ok().flatten().expect("an open session has a name");
         // whoever comes here has had the first minute
         let beside = address.replace("/#", "/favicon.svg#");
         client.goto(&beside).await.expect("the server answers");
         let over = "localStorage.setItem('thinglab/first-minute', 'over')";
         client.execute(over, Vec::new()).await.expect("the browser keeps it");
         client.goto(&address).await.expect("the page's address answers");
-        Visit { client, address, browser: Some(browser), server: Some(server), folder }
+        let session = Session { port, name };
+        let server = Some(server);
+        Visit { client, address, _session: session, _driver: driver, server, folder }
     }
 
     /// Kills the server in the midst of whatever it does, and starts another over the same folder; the page stays.
@@ -261,17 +211,11 @@ fn serve(folder: &Folder, document: Option<&str>) -> (Process, String) {
     (server, format!("http://{}", line.split_once("http://").expect("an address").1))
 }
 
-/// Starts chromedriver and gives its port; a shell ends it, and removes the browser's profile, once this program
-/// is gone. It takes a port that is free for one kind of address and ends where another program has it for the
-/// other kind: then it is asked again.
-fn start_driver(profile: &Path) -> (Process, u16) {
+/// Starts chromedriver and gives its port. It takes a port that is free for one kind of address and
+/// ends where another program has it for the other kind: then it is asked again.
+fn start_driver() -> (Process, u16) {
     let mark = "started successfully on port ";
-    let watch = r#"chromedriver --port=0 & exec >/dev/null 2>&1; read -r end; kill $!; wait $!
-        for i in 1 2 3 4 5; do sleep 0.2; rm -rf "$0" && break; done"#;
-    let started = (0..5).find_map(|_| {
-        let mut shell = Command::new("sh");
-        start(shell.args(["-c", watch]).arg(profile).stdin(Stdio::piped()), mark)
-    });
+    let started = (0..5).find_map(|_| start(Command::new("chromedriver").arg("--port=0"), mark));
     let (driver, line) = started.expect("chromedriver says that it runs");
     let port = line.rsplit(' ').next().and_then(|word| word.trim_end_matches('.').parse().ok());
     (driver, port.expect("chromedriver names its port"))
@@ -290,15 +234,11 @@ fn start(command: &mut Command, mark: &str) -> Option<(Process, String)> {
     Some((child, line))
 }
 
-/// A place for files that no other visit has.
-fn new_folder() -> PathBuf {
+fn copy_of_the_gallery() -> Folder {
     static NUMBER: AtomicU32 = AtomicU32::new(0);
     let number = NUMBER.fetch_add(1, Ordering::Relaxed);
-    env::temp_dir().join(format!("thinglab-visit-{}-{number}", std::process::id()))
-}
-
-fn copy_of_the_gallery() -> Folder {
-    let folder = Folder(new_folder());
+    let name = format!("thinglab-visit-{}-{number}", std::process::id());
+    let folder = Folder(env::temp_dir().join(name));
     let gallery = folder.0.join("gallery");
     fs::create_dir_all(&gallery).expect("a new folder");
     let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../gallery");
@@ -310,9 +250,8 @@ fn copy_of_the_gallery() -> Folder {
     folder
 }
 
-fn capabilities(profile: &Path) -> serde_json::Map<String, Value> {
-    let profile = format!("--user-data-dir={}", profile.display());
-    let window = format!("--window-size={},{}", WINDOW.0, WINDOW.1);
+fn capabilities(folder: &Path) -> serde_json::Map<String, Value> {
+    let profile = format!("--user-data-dir={}", folder.join(".profile").display());
     let arguments = [
         "--headless=new",
         "--no-sandbox",
@@ -324,8 +263,7 @@ fn capabilities(profile: &Path) -> serde_json::Map<String, Value> {
         "--disable-background-networking",
         "--disable-component-update",
         "--disable-sync",
-        "--remote-debugging-pipe",
-        &window,
+        "--window-size=1400,900",
         &profile,
     ];
     let wanted = json!({
