@@ -156,7 +156,7 @@ fn Open(lab: Lab, wish: Wish) -> impl IntoView {
                 <input id="asked" node_ref=input type="text" prop:value=value spellcheck="false"
                     autocomplete="off" on:input=change aria-invalid=move || error.with(Option::is_some).to_string() />
                 {move || error.get().map(|error| view! { <p class="error" role="alert">{error}</p> })}
-                {move || foreseen.get().map(|says| view! { <p class="quiet" aria-live="polite">{says}</p> })}
+                {move || foreseen.get().filter(|_| error.with(Option::is_none)).map(|says| view! { <p class="quiet" aria-live="polite">{says}</p> })}
                 <p class="choices">
                     <button class="primary" type="submit">{words::DONE}</button>
                     <button type="button" on:click=move |_| lab.wish.set(None)>{words::CANCEL}</button>

@@ -257,26 +257,10 @@ pub fn ghosts(list: &mut DisplayList, drawn: &[Drawing]) {
 
 /// Adds what is drawn for construction alone, faint and dashed: straights without ends as far as the screen reaches.
 pub fn guides(list: &mut DisplayList, drawn: &Drawing, picture: &Drawing) {
-    let reach = LazyCell::new(|| Reach::of(picture));
-    for element in &drawn.elements {
-        match element.shape {
-            Shape::Dot(at) => {
-                begin(list, Hue::Faint as i32, -1, Line::Solid, USUAL_WIDTH, Space::Screen);
-                sign(list, Sign::Disc, at, POINT);
-            }
-            Shape::Segment(..)
-            | Shape::Polyline { .. }
-            | Shape::Circle { .. }
-            | Shape::Arc { .. }
-            | Shape::Ellipse { .. }
-            | Shape::Spline(_)
-            | Shape::Region(_)
-            | Shape::Text { .. } => {
-                begin(list, Hue::Faint as i32, -1, Line::Dashed, USUAL_WIDTH, Space::Sheet);
-                shown(list, element, &reach);
-            }
-        }
-    }
+    let faint = Hue::Faint as i32;
+    let dot = |list: &mut _| begin(list, faint, -1, Line::Solid, USUAL_WIDTH, Space::Screen);
+    let line = |list: &mut _, _| begin(list, faint, -1, Line::Dashed, USUAL_WIDTH, Space::Sheet);
+    sketched(list, (drawn, picture), dot, line);
 }
 
 /// Adds where places went.
@@ -289,25 +273,27 @@ pub fn loci(list: &mut DisplayList, drawn: &Drawing) {
 
 /// Adds what a tool would make.
 pub fn preview(list: &mut DisplayList, drawn: &Drawing, picture: &Drawing) {
-    let accent = Hue::Accent as i32;
+    let (paper, accent) = (Hue::Paper as i32, Hue::Accent as i32);
+    let dot = |list: &mut _| begin(list, paper, accent, Line::Solid, 1.5, Space::Screen);
+    let line = |list: &mut _, line| begin(list, accent, -1, line, USUAL_WIDTH, Space::Sheet);
+    sketched(list, (drawn, picture), dot, line);
+}
+
+/// Adds what is no part of the picture that it lies over: dots and lines, each begun as its function says.
+fn sketched(
+    list: &mut DisplayList,
+    (drawn, picture): (&Drawing, &Drawing),
+    dot: impl Fn(&mut DisplayList),
+    line: impl Fn(&mut DisplayList, Line),
+) {
     let reach = LazyCell::new(|| Reach::of(picture));
     for element in &drawn.elements {
-        match element.shape {
-            Shape::Dot(at) => {
-                begin(list, Hue::Paper as i32, accent, Line::Solid, 1.5, Space::Screen);
-                sign(list, Sign::Disc, at, POINT);
-            }
-            Shape::Segment(..)
-            | Shape::Polyline { .. }
-            | Shape::Circle { .. }
-            | Shape::Arc { .. }
-            | Shape::Ellipse { .. }
-            | Shape::Spline(_)
-            | Shape::Region(_)
-            | Shape::Text { .. } => {
-                begin(list, accent, -1, element.style.line, USUAL_WIDTH, Space::Sheet);
-                shown(list, element, &reach);
-            }
+        if let Shape::Dot(at) = element.shape {
+            dot(list);
+            sign(list, Sign::Disc, at, POINT);
+        } else {
+            line(list, element.style.line);
+            shown(list, element, &reach);
         }
     }
 }

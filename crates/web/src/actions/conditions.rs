@@ -1,0 +1,67 @@
+//! What an action needs before it can be done; where that lacks, the reason in words.
+
+use crate::lab::Lab;
+use crate::words;
+use leptos::prelude::*;
+use session::view::{RowKind, StructureRow};
+
+/// Whether things of a class can be made.
+pub(super) fn class(lab: Lab, name: &str) -> Result<(), &'static str> {
+    document(lab)?;
+    lab.text.track();
+    let there = lab.id().is_some_and(|id| lab.ask(|session| session.has_class(id, name)));
+    if there { Ok(()) } else { Err(words::NO_CLASS) }
+}
+
+/// Whether there is a document, and then whether it has unsaved changes.
+pub(super) fn document(lab: Lab) -> Result<bool, &'static str> {
+    lab.document.with(|document| document.as_ref().map(|d| d.dirty)).ok_or(words::NO_DOCUMENT)
+}
+
+/// The row of the selected thing.
+pub(super) fn selected(lab: Lab) -> Result<StructureRow, &'static str> {
+    document(lab)?;
+    let path = lab.selected.get().ok_or(words::NOTHING_SELECTED)?;
+    lab.structure
+        .with(|rows| rows.iter().find(|r| r.path == path && r.kind.has_own_path()).cloned())
+        .ok_or(words::NOTHING_SELECTED)
+}
+
+/// The paths of what is selected, where there is something.
+pub(super) fn several(lab: Lab) -> Result<Vec<String>, &'static str> {
+    document(lab)?;
+    let selection = lab.selection();
+    if selection.is_empty() { Err(words::NOTHING_SELECTED) } else { Ok(selection) }
+}
+
+/// The thing that a program draws which is selected, or of which something is.
+pub(super) fn drawn(lab: Lab) -> Result<String, &'static str> {
+    document(lab)?;
+    let path = lab.selected.get().ok_or(words::NOTHING_SELECTED)?;
+    lab.ask_of_shown(|session, id| session.instance_of(id, &path)).flatten().ok_or(words::NOT_DRAWN)
+}
+
+/// The placed thing of a program which is selected, or of which something is; and whether it is held in its place.
+pub(super) fn instance(lab: Lab) -> Result<(String, bool), &'static str> {
+    let thing = drawn(lab)?;
+    let held = lab.ask_of_shown(|session, id| session.is_held_in_place(id, &thing)).flatten();
+    held.map(|held| (thing, held)).ok_or(words::NOT_PLACED)
+}
+
+/// Whether a row is that of a thing of the document itself.
+pub(super) fn is_thing(row: &StructureRow) -> bool {
+    row.kind == RowKind::Part && row.depth == 1
+}
+
+/// Whether a constraint is selected that is on, or off, as is wanted.
+pub(super) fn constraint(lab: Lab, on: bool) -> Result<(), &'static str> {
+    let row = selected(lab)?;
+    match row.kind {
+        RowKind::Constraint if row.enabled == on => Ok(()),
+        RowKind::Constraint if on => Err(words::IS_OFF),
+        RowKind::Constraint => Err(words::IS_ON),
+        RowKind::Part | RowKind::Virtual | RowKind::Merge | RowKind::Side => {
+            Err(words::NOT_A_CONSTRAINT)
+        }
+    }
+}
