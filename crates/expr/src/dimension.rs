@@ -14,7 +14,7 @@ use std::fmt;
 pub struct Dimension(pub [i8; 7]);
 
 /// Names of quantities; of several names for one dimension the first is shown.
-const NAMES: [(&str, Dimension); 71] = [
+const NAMES: [(&str, Dimension); 88] = [
     ("Real", Dimension::NONE),
     ("Angle", Dimension::ANGLE),
     ("Length", Dimension::LENGTH),
@@ -86,6 +86,23 @@ const NAMES: [(&str, Dimension); 71] = [
     ("ThermalExpansion", Dimension::THERMAL_EXPANSION),
     ("Permittivity", Dimension::PERMITTIVITY),
     ("Permeability", Dimension::PERMEABILITY),
+    ("ThermalResistance", Dimension::THERMAL_RESISTANCE),
+    ("ThermalConductance", Dimension::THERMAL_CONDUCTANCE),
+    ("HeatFlow", Dimension::POWER),
+    ("BendingStiffness", Dimension::BENDING_STIFFNESS),
+    ("RotationalStiffness", Dimension::ENERGY),
+    ("LineLoad", Dimension::STIFFNESS),
+    ("SurfaceTension", Dimension::STIFFNESS),
+    ("LineDensity", Dimension::LINE_DENSITY),
+    ("SpecificVolume", Dimension::SPECIFIC_VOLUME),
+    ("SpecificWeight", Dimension::PRESSURE_GRADIENT),
+    ("PressureGradient", Dimension::PRESSURE_GRADIENT),
+    ("FlowResistance", Dimension::FLOW_RESISTANCE),
+    ("Jerk", Dimension::JERK),
+    ("Curvature", Dimension::CURVATURE),
+    ("WaveNumber", Dimension::CURVATURE),
+    ("CurrentDensity", Dimension::CURRENT_DENSITY),
+    ("MagneticField", Dimension::MAGNETIC_FIELD),
 ];
 
 /// The base units in the order in which they are written, each with its place in a dimension.
@@ -205,6 +222,28 @@ impl Dimension {
     pub const PERMEABILITY: Self = Self([1, 1, -2, -2, 0, 0, 0]);
     /// Illuminance, lx.
     pub const ILLUMINANCE: Self = Self([-2, 0, 0, 0, 0, 0, 1]);
+    /// Thermal resistance, K/W.
+    pub const THERMAL_RESISTANCE: Self = Self([-2, -1, 3, 0, 1, 0, 0]);
+    /// Thermal conductance, W/K.
+    pub const THERMAL_CONDUCTANCE: Self = Self([2, 1, -3, 0, -1, 0, 0]);
+    /// Bending stiffness of a beam, N·m².
+    pub const BENDING_STIFFNESS: Self = Self([3, 1, -2, 0, 0, 0, 0]);
+    /// Mass of a metre, kg/m.
+    pub const LINE_DENSITY: Self = Self([-1, 1, 0, 0, 0, 0, 0]);
+    /// Volume of a kilogram, m³/kg.
+    pub const SPECIFIC_VOLUME: Self = Self([3, -1, 0, 0, 0, 0, 0]);
+    /// Pressure lost on a metre, Pa/m; weight of a volume, N/m³.
+    pub const PRESSURE_GRADIENT: Self = Self([-2, 1, -2, 0, 0, 0, 0]);
+    /// Resistance to a flow, Pa·s/m³.
+    pub const FLOW_RESISTANCE: Self = Self([-4, 1, -1, 0, 0, 0, 0]);
+    /// Jerk, m/s³.
+    pub const JERK: Self = Self([1, 0, -3, 0, 0, 0, 0]);
+    /// Curvature, refractive power, wave number, 1/m.
+    pub const CURVATURE: Self = Self([-1, 0, 0, 0, 0, 0, 0]);
+    /// Current through an area, A/m².
+    pub const CURRENT_DENSITY: Self = Self([-2, 0, 0, 1, 0, 0, 0]);
+    /// Magnetic field, A/m.
+    pub const MAGNETIC_FIELD: Self = Self([-1, 0, 0, 1, 0, 0, 0]);
 
     /// Returns true for a plain number.
     pub fn is_none(self) -> bool {

@@ -168,7 +168,7 @@ fn simple(word: &str) -> Option<Unit> {
 
 /// Returns the unit of a spelling, simple or compound: `mm`, `m/s^2`, `N*m`, `kg/m^3`.
 ///
-/// Compound spellings are `unit(^whole)?((*|/)unit(^whole)?)*`, read from left to right, without
+/// Compound spellings are `(1/)?unit(^whole)?((*|/)unit(^whole)?)*`, read from left to right, without
 /// spaces.
 ///
 /// ```
@@ -176,14 +176,17 @@ fn simple(word: &str) -> Option<Unit> {
 /// assert_eq!(unit("m/s^2").map(|u| u.dimension), Some(Dimension::ACCELERATION));
 /// assert_eq!(unit("N*m").map(|u| u.dimension), Some(Dimension::MOMENT));
 /// assert_eq!(unit("kΩ"), unit("kohm"));
+/// assert_eq!(unit("1/min"), unit("min^-1"));
 /// assert_eq!(unit("furlong"), None);
 /// ```
 pub fn unit(spelling: &str) -> Option<Unit> {
     // the two letters µ and the sign Ω are other spellings of u and ohm
     let plain = spelling.replace(['µ', 'μ'], "u").replace('Ω', "ohm");
     let mut whole = decimal(Dimension::NONE, 0);
-    let mut rest = plain.as_str();
-    let mut above = true;
+    let (mut rest, mut above) = match plain.strip_prefix("1/") {
+        Some(rest) => (rest, false),
+        None => (plain.as_str(), true),
+    };
     loop {
         let end = rest.find(['*', '/']).unwrap_or(rest.len());
         let (name, power) = match rest[..end].split_once('^') {
@@ -357,7 +360,7 @@ fn shifted(number: &str, exponent: i32) -> Option<f64> {
 ///
 /// It is always the unit of SI, so that the number shown is the number kept.
 pub fn preferred(dimension: Dimension) -> Option<&'static str> {
-    const PREFERRED: [(Dimension, &str); 51] = [
+    const PREFERRED: [(Dimension, &str); 61] = [
         (Dimension::AREA, "m^2"),
         (Dimension::VOLUME, "m^3"),
         (Dimension::MASS, "kg"),
@@ -409,6 +412,16 @@ pub fn preferred(dimension: Dimension) -> Option<&'static str> {
         (Dimension::THERMAL_EXPANSION, "m/m/K"),
         (Dimension::PERMITTIVITY, "F/m"),
         (Dimension::PERMEABILITY, "H/m"),
+        (Dimension::THERMAL_RESISTANCE, "K/W"),
+        (Dimension::THERMAL_CONDUCTANCE, "W/K"),
+        (Dimension::BENDING_STIFFNESS, "N*m^2"),
+        (Dimension::LINE_DENSITY, "kg/m"),
+        (Dimension::SPECIFIC_VOLUME, "m^3/kg"),
+        (Dimension::PRESSURE_GRADIENT, "Pa/m"),
+        (Dimension::FLOW_RESISTANCE, "Pa*s/m^3"),
+        (Dimension::JERK, "m/s^3"),
+        (Dimension::CURRENT_DENSITY, "A/m^2"),
+        (Dimension::MAGNETIC_FIELD, "A/m"),
     ];
     PREFERRED.iter().find(|(d, _)| *d == dimension).map(|(_, unit)| *unit)
 }

@@ -318,6 +318,8 @@ mod tests {
         check("30deg", "Number 30 | Unit deg");
         check("5\nm", "Number 5 | Ident m");
         check("x m", "Ident x | Ident m");
+        check("5 1/s^2", "Number 5 | Unit 1/s^2");
+        check("1/2", "Number 1 | Slash / | Number 2");
     }
     #[test]
     fn an_inch_is_told_from_the_word() {

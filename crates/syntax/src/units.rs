@@ -7,13 +7,16 @@
 /// ```
 /// assert_eq!(syntax::units::unit_length("m/s^2 + 1"), 5);
 /// assert_eq!(syntax::units::unit_length("m/width"), 1);
+/// assert_eq!(syntax::units::unit_length("1/s^2"), 5);
 /// assert_eq!(syntax::units::unit_length("metre"), 0);
 /// ```
 pub fn unit_length(text: &str) -> usize {
-    let mut end = power_length(text);
-    if end == 0 {
+    let above = if text.starts_with("1/") { "1/".len() } else { 0 };
+    let first = power_length(&text[above..]);
+    if first == 0 {
         return 0;
     }
+    let mut end = above + first;
     while text[end..].starts_with(['*', '/']) {
         let next = power_length(&text[end + 1..]);
         if next == 0 {
