@@ -6,6 +6,7 @@ use crate::program::Program;
 use crate::term::{OriginId, Search};
 use base::number::Toward;
 use base::{IdVec, Name};
+use expr::dimension::Dimension;
 use geometry::Made;
 use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
@@ -37,6 +38,9 @@ pub struct Document {
     /// True if its text writes lengths with their units and names no unit of the sheet: then bare lengths are metres
     /// to people, too.
     pub writes_lengths: bool,
+    /// The units in which the text writes quantities, where it writes them in none of SI with a prefix of a thousand:
+    /// feet, days, litres.
+    pub usual: BTreeMap<Dimension, Vec<Name>>,
     /// The units of given numbers as they are written, by where that is; bare numbers have none.
     pub units: BTreeMap<OriginId, Name>,
 }

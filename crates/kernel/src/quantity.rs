@@ -1,10 +1,11 @@
 //! How values are put to people: a number of base units in, six digits and an engineer's unit out.
 //!
 //! All that people read of numbers (tables, explanations, refusals, texts with values in them) comes from here, and
-//! can be typed back. The unit is the one that the value was written in, where it reads well; else that of its class,
-//! with a prefix by steps of a thousand. Angles are in degrees.
+//! can be typed back. The unit is the one that the value was written in, where it reads well; else the one in which the
+//! text writes such quantities; else that of its class, with a prefix by steps of a thousand. Angles are in degrees.
 
 use crate::Document;
+use base::Name;
 use base::number::{shortest, significant};
 use expr::dimension::Dimension;
 use expr::units::{self, Unit};
@@ -26,6 +27,9 @@ const PREFIXES: [(&str, i8, f64); 10] = [
     ("T", 12, 1e12),
 ];
 
+/// A value between these reads well in a unit in which the text writes others.
+const READABLE: std::ops::Range<f64> = 1e-2..1e6;
+
 /// What is known of a number beside its value.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub struct Quantity<'a> {
@@ -40,7 +44,16 @@ pub struct Quantity<'a> {
 impl Quantity<'_> {
     /// Returns true for a class that tells more of a number than what it measures.
     pub fn is_told_by(class: &str) -> bool {
-        matches!(class, "Angle" | "Torque" | "Moment" | "AngularVelocity" | "AngularAcceleration")
+        matches!(
+            class,
+            "Angle"
+                | "Torque"
+                | "Moment"
+                | "RotationalStiffness"
+                | "AngularVelocity"
+                | "AngularAcceleration"
+                | "MassFlow"
+        )
     }
 }
 
@@ -95,11 +108,15 @@ pub fn spelling_for(x: f64, quantity: Quantity<'_>, document: &Document) -> Stri
     {
         return spelling.into();
     }
+    if let Some(spelling) = usual(class, dimension, document, size) {
+        return spelling;
+    }
     if is_of_the_sheet(dimension) {
         return of_the_sheet(dimension, document, size);
     }
     let spelling = match class {
-        "Torque" | "Moment" => "N*m",
+        "MassFlow" => "kg/s",
+        "Torque" | "Moment" | "RotationalStiffness" => "N*m",
         "AngularVelocity" => "rad/s",
         "AngularAcceleration" => "rad/s^2",
         _ => match units::preferred(dimension) {
@@ -108,6 +125,51 @@ pub fn spelling_for(x: f64, quantity: Quantity<'_>, document: &Document) -> Stri
         },
     };
     prefixed(spelling, size)
+}
+
+/// The unit in which the text writes such quantities, where it is none that a prefix of a thousand makes of that of SI:
+/// of several the largest in which the number is not below one. A sheet's own unit of length comes first.
+fn usual(
+    class: &str,
+    dimension: Dimension,
+    document: &Document,
+    size: impl Fn(&str) -> f64,
+) -> Option<String> {
+    if dimension == Dimension::LENGTH && document.unit.is_some() {
+        return None;
+    }
+    // newton metres are no joules to people
+    let is_turning = matches!(class, "Torque" | "Moment" | "RotationalStiffness");
+    let fits = |unit: &&Name| dimension != Dimension::ENERGY || unit.contains('*') == is_turning;
+    let written = document.usual.get(&dimension)?.iter().filter(fits);
+    let mut sized: Vec<(f64, &Name)> = written.map(|unit| (size(unit), unit)).collect();
+    sized.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let readable = |x: f64| x == 0.0 || READABLE.contains(&x);
+    let best = sized.iter().find(|(x, _)| *x >= 1.0).or(sized.last());
+    best.filter(|(x, _)| readable(*x)).map(|(_, unit)| unit.to_string())
+}
+
+/// Returns true for a unit that a prefix of a thousand makes of the one of SI in which a quantity is shown.
+///
+/// ```
+/// use kernel::quantity::is_of_si;
+/// assert!(is_of_si("kN") && is_of_si("mm") && is_of_si("m/s"));
+/// assert!(!is_of_si("ft") && !is_of_si("day") && !is_of_si("N/mm") && !is_of_si("L"));
+/// ```
+pub fn is_of_si(spelling: &str) -> bool {
+    let Some(unit) = units::unit(spelling) else { return false };
+    let stem = match unit.dimension {
+        Dimension::LENGTH => "m",
+        Dimension::MASS => "g",
+        other => units::preferred(other).unwrap_or_default(),
+    };
+    let turning = match unit.dimension {
+        Dimension::FREQUENCY => "rad/s",
+        Dimension::ENERGY => "N*m",
+        _ => stem,
+    };
+    let is_stem = |rest: &str| rest == stem || rest == turning;
+    PREFIXES.iter().any(|(prefix, ..)| spelling.strip_prefix(prefix).is_some_and(is_stem))
 }
 
 /// The unit of a plain number, a length, an area, …: that of the sheet, where it has one and the number
@@ -122,7 +184,7 @@ fn of_the_sheet(
         return match (document.writes_lengths, power) {
             (false, _) | (true, 0) => String::new(),
             (true, 1) => prefixed("m", size),
-            (true, _) => raised(power, size),
+            (true, _) => raised(power, "", size),
         };
     };
     if power != 1 {
@@ -139,14 +201,15 @@ fn of_the_sheet(
     if shown == 0.0 || (least..1e5).contains(&shown) { own.into() } else { prefixed("m", size) }
 }
 
-/// Returns the power of the largest unit of length with which a number is not below a tenth.
-fn raised(power: i8, size: impl Fn(&str) -> f64) -> String {
-    let mut spellings = ["km", "m", "cm", "mm"].map(|unit| format!("{unit}^{power}")).into_iter();
-    if size(&format!("m^{power}")) == 0.0 || power < 0 {
-        return format!("m^{power}");
+/// Returns the power of the largest unit of length with which a number is not below a tenth, and `rest` behind it.
+fn raised(power: i8, rest: &str, size: impl Fn(&str) -> f64) -> String {
+    let spelling = |unit: &str| format!("{unit}^{power}{rest}");
+    if size(&spelling("m")) == 0.0 || power < 0 {
+        return spelling("m");
     }
     let reads = |spelling: &String| size(spelling) >= 0.1;
-    spellings.find(reads).unwrap_or_else(|| format!("mm^{power}"))
+    let mut spellings = ["km", "m", "cm", "mm"].map(spelling).into_iter();
+    spellings.find(reads).unwrap_or_else(|| spelling("mm"))
 }
 
 /// Returns a unit of SI with the largest prefix with which the number is not below one.
@@ -159,6 +222,11 @@ fn prefixed(spelling: &str, size: impl Fn(&str) -> f64) -> String {
         "g" | "m/s" => 3,
         _ => i8::MAX,
     };
+    // a flow, a diffusivity: nobody counts in square kilometres a second
+    if let Some(per) = ["m^3/s", "m^2/s"].into_iter().find(|s| *s == spelling) {
+        let (power, rest) = (per.as_bytes()[2] - b'0', &per[3..]);
+        return if size(per) < 1.0 { raised(power as i8, rest, size) } else { per.into() };
+    }
     if size(spelling) == 0.0
         || first.contains('^')
         || matches!(first, "K" | "rad")

@@ -128,7 +128,7 @@ fn lower_in(
     let mut best: Option<Lowered> = None;
     for grain in [Grain::Inner, Grain::Outer] {
         let (patched, patches) = crate::restore::restore(&first, &before.effective_parse, grain);
-        let mut mended = lower_text(&patched, load, (Some(before), counting));
+        let mut mended = lower_text(&patched, load, (Some(before), counting.clone()));
         mended.patches = patches;
         if errors(&mended) < best.as_ref().map_or(errors(&first), errors) {
             best = Some(mended);
@@ -144,7 +144,11 @@ fn lower_in(
 }
 
 fn counting_of(document: &Document) -> Counting {
-    (document.scale, document.writes_lengths)
+    Counting {
+        scale: document.scale,
+        writes_lengths: document.writes_lengths,
+        usual: document.usual.clone(),
+    }
 }
 
 fn errors(lowered: &Lowered) -> usize {
@@ -348,6 +352,7 @@ impl<'l> Lowerer<'l> {
                 scale: Scale::default(),
                 unit: None,
                 writes_lengths: false,
+                usual: BTreeMap::new(),
                 units: BTreeMap::new(),
             },
             visible: Visible::default(),
@@ -398,8 +403,11 @@ impl<'l> Lowerer<'l> {
     fn run(&mut self, text: &str) -> Blocks {
         self.read("", text);
         let before = self.before.map(|before| before.document.scale);
-        let counting = self.counting.unwrap_or_else(|| scale::of(&self.files[OWN].parse, before));
-        (self.document.scale, self.document.writes_lengths) = counting;
+        let known = self.counting.take();
+        let counting = known.unwrap_or_else(|| scale::of(&self.files[OWN].parse, before));
+        self.document.scale = counting.scale;
+        self.document.writes_lengths = counting.writes_lengths;
+        self.document.usual = counting.usual;
         let scale = self.document.scale;
         // what was read in other units is read anew
         self.before = self.before.filter(|before| before.document.scale == scale);

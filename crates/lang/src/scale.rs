@@ -7,7 +7,7 @@ use base::Name;
 use expr::dimension::Dimension;
 use kernel::Scale;
 use kernel::builtin::{FUNCTIONS, NUMBER_MESSAGES, find};
-use kernel::quantity::is_of_the_sheet;
+use kernel::quantity::{is_of_si, is_of_the_sheet};
 use std::collections::BTreeMap;
 use syntax::ast::{Arg, Assign, AstNode, Expr, NumberExpr, Param, Part, Type, Word};
 use syntax::{Parse, SyntaxKind, SyntaxNode, WalkEvent};
@@ -26,38 +26,87 @@ const TOGETHER: f64 = 300.0;
 /// How many base quantities there are.
 const BASES: usize = 7;
 
-/// How a text counts: its scale, and whether it writes lengths with their units and names no unit of its sheet.
-pub(crate) type Counting = (Scale, bool);
+/// How a text counts.
+#[derive(Clone, Debug)]
+pub(crate) struct Counting {
+    pub(crate) scale: Scale,
+    /// Whether it writes lengths with their units and names no unit of its sheet.
+    pub(crate) writes_lengths: bool,
+    /// The units of its quantities that are none of SI.
+    pub(crate) usual: BTreeMap<Dimension, Vec<Name>>,
+}
 
 /// Returns how a text counts; the scale is that of the text `before` where it is near.
 ///
 /// It is the one in which the logarithms of its numbers are nearest to zero, in the sense of least squares. Lengths
 /// are scaled only where the text writes some with a unit and names no unit of its sheet.
 pub(crate) fn of(parse: &Parse, before: Option<Scale>) -> Counting {
-    let quantities = quantities(parse);
+    let stated = stated(parse);
+    let quantities: Vec<(f64, Dimension)> = stated.iter().filter_map(quantity).collect();
     let has_unit = parse.outline().any(|(kind, _)| kind == SyntaxKind::UnitLine);
     let any = |is: fn(Dimension) -> bool| quantities.iter().any(|(_, d)| is(*d));
-    let writes_lengths =
-        !has_unit && (any(is_of_the_sheet) || any(names_a_length) && !has_bare_places(parse));
+    let writes_lengths = !has_unit
+        && (any(is_of_the_sheet) || any(names_a_length) && !has_bare_places(parse, &stated));
+    let usual = usual(&stated);
     let best = best(quantities, has_unit);
     let is_near = |scale: &Scale| scale.0.iter().zip(best.0).all(|(a, b)| a.abs_diff(b) <= NEAR);
-    (
-        before.filter(|scale| *scale != Scale::default()).filter(is_near).unwrap_or(best),
-        writes_lengths,
-    )
+    let before = before.filter(|scale| *scale != Scale::default()).filter(is_near);
+    Counting { scale: before.unwrap_or(best), writes_lengths, usual }
 }
 
-/// Returns true for what is written with a unit of length, `m/s`, `kg/m^3`; not for a newton, which the writer of a
-/// bare length may well have.
+/// Returns the units that a text writes for each quantity, if it writes it in none of SI with a prefix of a thousand.
+fn usual(stated: &[NumberExpr]) -> BTreeMap<Dimension, Vec<Name>> {
+    let mut found: BTreeMap<Dimension, Option<Vec<Name>>> = BTreeMap::new();
+    for unit in stated.iter().filter_map(NumberExpr::unit) {
+        let Some(known) = expr::units::unit(unit.text()) else { continue };
+        if known.dimension.is_none() {
+            continue;
+        }
+        let units = found.entry(known.dimension).or_insert_with(|| Some(Vec::new()));
+        match units {
+            _ if is_of_si(unit.text()) => *units = None,
+            Some(units) if !units.iter().any(|u| **u == *unit.text()) => {
+                units.push(unit.text().into());
+            }
+            _ => {}
+        }
+    }
+    let mut usual: BTreeMap<Dimension, Vec<Name>> =
+        found.iter().filter_map(|(dimension, units)| Some((*dimension, units.clone()?))).collect();
+    if !found.contains_key(&Dimension::TIME)
+        && let Some(time) = time_within(stated)
+    {
+        usual.insert(Dimension::TIME, vec![time]);
+    }
+    usual
+}
+
+/// Returns the unit of time in all units that a text joins, `min` of `L/min`; nothing where it is the second, or there
+/// are several.
+fn time_within(stated: &[NumberExpr]) -> Option<Name> {
+    let units = stated.iter().filter_map(NumberExpr::unit);
+    let factors = units.flat_map(|unit| {
+        let factors = unit.text().split(['*', '/']).map(|f| f.split('^').next().unwrap_or(f));
+        factors.map(Name::new).collect::<Vec<_>>()
+    });
+    let is_time =
+        |unit: &Name| expr::units::unit(unit).is_some_and(|u| u.dimension == Dimension::TIME);
+    let mut times = factors.filter(is_time);
+    let first = times.next().filter(|unit| !is_of_si(unit))?;
+    times.all(|unit| unit == first).then_some(first)
+}
+
+/// Returns true for what is written with a unit of length, `m/s`, `kg/m^3`, and for a pressure; not for a newton, which
+/// the writer of a bare length may well have.
 fn names_a_length(dimension: Dimension) -> bool {
     let [length, mass, time, others @ ..] = dimension.0;
     let is_plain = others.iter().all(|&exponent| exponent == 0) && (mass == 0 || time == 0);
-    is_plain && length != 0
+    is_plain && length != 0 || dimension == Dimension::PRESSURE
 }
 
 /// Returns true for a text that writes places or lengths without units. Where it does not say itself of which class a
 /// number is, this may be a length.
-fn has_bare_places(parse: &Parse) -> bool {
+fn has_bare_places(parse: &Parse, stated: &[NumberExpr]) -> bool {
     let is_bare =
         |number: &NumberExpr| number.unit().is_none() && number.value().is_some_and(|x| x != 0.0);
     let root = parse.syntax();
@@ -67,7 +116,7 @@ fn has_bare_places(parse: &Parse) -> bool {
         part.names().for_each(|word| *said.entry(word.name()).or_default() |= is);
     }
     let may_be_one = |word: &Word| said.get(&word.name()).copied().unwrap_or(true);
-    stated(parse).iter().filter(|number| is_bare(number)).any(|number| {
+    stated.iter().filter(|number| is_bare(number)).any(|number| {
         let within = |kind| {
             use SyntaxKind::{ListExpr, ParenExpr, UnaryExpr};
             matches!(kind, UnaryExpr | ParenExpr | ListExpr)
@@ -148,11 +197,6 @@ fn best(mut quantities: Vec<(f64, Dimension)>, has_unit: bool) -> Scale {
     Scale(powers.map(|x| (shrink * x).round() as i16))
 }
 
-/// Returns the sizes of the numbers with units that a text states, and what they measure.
-fn quantities(parse: &Parse) -> Vec<(f64, Dimension)> {
-    stated(parse).iter().filter_map(quantity).collect()
-}
-
 /// Returns the numbers that a text states, checks and tolerances apart.
 pub(crate) fn stated(parse: &Parse) -> Vec<NumberExpr> {
     let mut found = Vec::new();
@@ -173,6 +217,7 @@ pub(crate) fn stated(parse: &Parse) -> Vec<NumberExpr> {
     found
 }
 
+/// Returns the size of a number with a unit, and what it measures.
 fn quantity(number: &NumberExpr) -> Option<(f64, Dimension)> {
     let (digits, unit) = (number.digits()?, number.unit()?);
     let (si, dimension) = expr::units::read_quantity(digits.text(), unit.text())?;
@@ -210,7 +255,7 @@ mod tests {
     use base::number::shortest;
 
     fn scale(text: &str) -> Scale {
-        of(&syntax::parse(base::FileId(0), text), None).0
+        of(&syntax::parse(base::FileId(0), text), None).scale
     }
 
     #[test]
@@ -220,9 +265,10 @@ mod tests {
     }
     #[test]
     fn lengths_have_a_unit_where_a_velocity_has() {
-        let writes = |text: &str| of(&syntax::parse(base::FileId(0), text), None).1;
+        let writes = |text: &str| of(&syntax::parse(base::FileId(0), text), None).writes_lengths;
         assert!(writes("v: Velocity = 100 km/h\nd: Length = v^2 / (2 * 8 m/s^2)\n"));
         assert!(writes("rho: Density = 1000 kg/m^3\n"));
+        assert!(writes("p: Pressure = 2 bar\n"));
         assert!(!writes("rho: Density = 1000 kg/m^3\np: Point = (10, 20.5)\n"));
         assert!(!writes("v: Velocity = 3 m/s\nd: Length = 20\n"));
         assert!(!writes("f: Force = 5 N\nx: Length = 20\n"));
@@ -232,7 +278,7 @@ mod tests {
     fn bare_lengths_in_bodies_arguments_and_parameters_have_no_unit() {
         let writes = |text: &str| {
             let text = format!("v: Velocity = 3 m/s\n{text}\n");
-            of(&syntax::parse(base::FileId(0), &text), None).1
+            of(&syntax::parse(base::FileId(0), &text), None).writes_lengths
         };
         for bare in [
             "c: Circle { radius = 20 }",

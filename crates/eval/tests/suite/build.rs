@@ -50,6 +50,7 @@ impl Build {
             scale: Default::default(),
             unit: None,
             writes_lengths: false,
+            usual: std::collections::BTreeMap::new(),
             units: std::collections::BTreeMap::new(),
         };
         let mut b = Self {

@@ -87,6 +87,7 @@ impl Builder {
             scale: Default::default(),
             unit: None,
             writes_lengths: false,
+            usual: std::collections::BTreeMap::new(),
             units: std::collections::BTreeMap::new(),
         }
     }

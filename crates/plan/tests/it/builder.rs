@@ -47,6 +47,7 @@ impl Builder {
             scale: Default::default(),
             unit: None,
             writes_lengths: false,
+            usual: std::collections::BTreeMap::new(),
             units: std::collections::BTreeMap::new(),
         };
         let mut builder = Self { document };
