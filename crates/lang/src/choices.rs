@@ -6,7 +6,7 @@
 use crate::kinds::Kind;
 use crate::lower::Lowerer;
 use crate::names::owners;
-use crate::scope::Scope;
+use crate::scope::{Constant, Scope};
 use base::{Diagnostic, FileId, Name, Place};
 use kernel::{ClassId, ClassKind, Document, Primitive, Term};
 use syntax::ast::{self, AstNode, BinaryOp, Expr};
@@ -62,7 +62,8 @@ impl Lowerer<'_> {
             let mut all = owners(scope).into_iter();
             all.any(|(class, _)| l.kind_of_part(class, &name).as_ref() == Some(wanted))
         };
-        let is_bound = scope.local(&name) == Some(wanted);
+        let is_bound = scope.local(&name) == Some(wanted)
+            || matches!(scope.constants.get(&name), Some(Constant::Value(_, kind)) if kind == wanted);
         (!is_bound && !is_part(self)).then_some((Term::Option(*choice, at), Kind::Option(*choice)))
     }
 

@@ -146,7 +146,7 @@ impl Lowerer<'_> {
     /// Returns the number that a name stands for where an expression of constants is wanted: a variable
     /// of `for`, or a count of the thing or of one around it. A count is held from now on.
     pub(crate) fn constant_named(&mut self, scope: &Scope, name: &Name) -> Option<i64> {
-        if let Some(&n) = scope.constants.get(name) {
+        if let Some(n) = scope.whole(name) {
             return Some(n);
         }
         for &class in &scope.classes {

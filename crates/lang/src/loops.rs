@@ -8,11 +8,12 @@ mod listed;
 
 use crate::lower::Lowerer;
 use crate::members::Pending;
-use crate::scope::Scope;
+use crate::scope::{Constant, Scope};
 use base::{Diagnostic, Name, Place};
 pub(crate) use declared::Repeated;
 use declared::{declared_names, is_declaration};
 use kernel::{ClassId, Path, Step};
+use listed::Listed;
 use std::rc::Rc;
 use syntax::ast::{self, AstNode, Expr, Member};
 
@@ -31,7 +32,7 @@ pub(crate) struct Turns {
 
 /// What a loop binds its name to in one turn, where the text lists it.
 enum Written {
-    Number(i64),
+    Constant(Constant),
     Thing { path: Path, class: Option<ClassId> },
 }
 
@@ -134,11 +135,16 @@ impl Lowerer<'_> {
             other => (Some(other.clone()), 1),
         };
         let named = each.names().count();
+        if let Some(options) = self.all_options(scope, &range).filter(|_| named == 1) {
+            return Some(options);
+        }
         if let Some(rows) = over.as_ref().filter(|_| together == 1) {
             let written = self.listed(scope, rows);
             // names of things are looked for where they stand
             let is_here = matches!(rows, Expr::List(_) | Expr::Tuple(_));
-            if let Some(written) = written.filter(|_| is_here || named > 1) {
+            let are_constants =
+                |l: &mut Self, written: &Listed| named > 1 || l.are_constants(scope, written);
+            if let Some(written) = written.filter(|w| is_here || are_constants(self, w)) {
                 return self.written_rows(scope, each, &written);
             }
         }
@@ -295,9 +301,14 @@ pub(crate) fn turn_of(scope: &Scope, turns: &Turns, turn: u32) -> Scope {
     let mut inner = scope.clone();
     for (i, name) in (0..).zip(&turns.bound) {
         match &turns.over {
-            Over::Numbers(from) => inner.bind_number(name.clone(), from + i64::from(turn)),
+            Over::Numbers(from) => {
+                let number = Constant::Whole(from + i64::from(turn));
+                inner.bind_constant(name.clone(), number);
+            }
             Over::Written(rows) => match &rows[turn as usize][i as usize] {
-                Written::Number(number) => inner.bind_number(name.clone(), *number),
+                Written::Constant(constant) => {
+                    inner.bind_constant(name.clone(), constant.clone());
+                }
                 Written::Thing { path, class } => {
                     inner.bind_element(name.clone(), path.clone(), *class);
                 }

@@ -161,7 +161,15 @@ impl Lowerer<'_> {
             Member::View(_) => "views of a single part are",
             Member::Toolbox(_) => "toolboxes inside of classes are",
             Member::Lesson(_) => "lessons inside of classes are",
-            Member::Program(_) => "programs inside of others are",
+            Member::Program(program) => {
+                let place = Place { file, span: self.first_line(file, span) };
+                let message = "a program stands at the top of a text, not in a class";
+                let d = Diagnostic::error("misplaced-program", place, message);
+                let name = program.name().map_or("Name".into(), |word| word.name());
+                return self.report(d.hint(format!(
+                    "write it beside the class; a part of it is drawn in each thing: `drawn: {name} {{ … }}`"
+                )));
+            }
             Member::Family(_) => "families inside of others are",
             Member::Class(_) => "classes inside of others are",
             Member::Choice(_) => "choices inside of classes are",
@@ -398,8 +406,16 @@ impl Lowerer<'_> {
     pub(crate) fn is_new(&mut self, scope: &Scope, word: &ast::Word) -> bool {
         let key = (scope.class(), word.name());
         let Some(&before) = self.named_at.get(&key) else { return true };
-        let message = format!("there is a part or message {} already", word.text());
         let place = Place { file: scope.file, span: word.span() };
+        if before == place && !scope.turns.is_empty() {
+            let message =
+                format!("{} stands under an `if` that holds in several turns", word.text());
+            let d = Diagnostic::error("duplicate-name", place, message);
+            let hint = "declare it in a loop over these turns alone, `for i in 0..1 { … }`: there it is a list";
+            self.report(d.hint(hint));
+            return false;
+        }
+        let message = format!("there is a part or message {} already", word.text());
         let d = Diagnostic::error("duplicate-name", place, message);
         self.report(d.label(before, "here").hint("give one of them another name"));
         false

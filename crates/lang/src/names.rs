@@ -3,11 +3,11 @@
 use crate::kinds::Kind;
 use crate::lower::{Lowered, Lowerer, OWN};
 use crate::members::{Definition, FOR, FOR_AS_VALUE};
-use crate::scope::{Element, Scope};
+use crate::scope::{Constant, Element, Scope};
 use base::{Diagnostic, FileId, Name, Place};
 use kernel::builtin;
 use kernel::{ClassId, ClassKind, Document, PartRef, PartRole, Path, Step, Term};
-use syntax::ast;
+use syntax::ast::{self, AstNode, BinaryOp, Expr};
 
 /// How many expressions may stand inside one another before a message's worth is left open.
 const DEEPEST: u32 = 200;
@@ -32,8 +32,12 @@ impl Lowerer<'_> {
             let kind = self.kind_of_element(scope, element);
             return Some((Term::at(Term::Me, &scope.path_to(element)), kind));
         }
-        if let Some(&i) = scope.constants.get(&name) {
-            return Some((Term::number(i as f64), Kind::Number(None)));
+        match scope.constants.get(&name) {
+            Some(Constant::Whole(i)) => {
+                return Some((Term::number(*i as f64), Kind::Number(None)));
+            }
+            Some(Constant::Value(value, kind)) => return Some((value.clone(), kind.clone())),
+            None => {}
         }
         if scope.is_program && self.is_step_elsewhere(scope, word) {
             return None;
@@ -131,7 +135,12 @@ impl Lowerer<'_> {
         }
         let takes: Vec<&str> = b.parameters.iter().map(|p| p.label).collect();
         let message = format!("{name} is a function: `{name}({})`", takes.join(", "));
-        self.error("wrong-arity", scope.file, word.span(), message);
+        let place = Place { file: scope.file, span: word.span() };
+        let d = Diagnostic::error("wrong-arity", place, message);
+        self.report(match per_unit(word) {
+            Some(hint) => d.hint(hint),
+            None => d,
+        });
         None
     }
 
@@ -175,9 +184,14 @@ impl Lowerer<'_> {
         }
         let message = format!("there is nothing called {} here", word.text());
         let mut d = Diagnostic::error("unknown-name", place, message);
-        if self.visible.class(scope.file, word.text()).is_some() {
-            let made = format!("it is a class: `{}(…)` makes a thing of it", word.text());
-            d = d.hint(made);
+        if let Some(class) = self.visible.class(scope.file, word.text()) {
+            let (name, class) = (word.text(), &self.document.classes[class]);
+            d = d.hint(match class.options.first() {
+                Some(option) => format!("it is a choice: `{name}.{option}` is one of its options"),
+                None => format!("it is a class: `{name}(…)` makes a thing of it"),
+            });
+        } else if let Some(hint) = per_unit(word) {
+            d = d.hint(hint);
         } else if let Some(hint) = crate::hints::called_otherwise(word.text()) {
             d = d.hint(hint);
         } else if let Some(hint) =
@@ -460,4 +474,20 @@ pub(crate) fn class_at(document: &Document, class: ClassId, path: &Path) -> Opti
         },
         Step::Owner => None,
     })
+}
+
+/// Says how `5/s` is written where a number is divided by what is a unit and no name.
+fn per_unit(word: &ast::Word) -> Option<String> {
+    expr::units::unit(word.text())?;
+    let name = word.token.parent()?;
+    let quotient = ast::BinaryExpr::cast(name.parent()?)?;
+    let (Some(BinaryOp::Divide), Expr::Number(number)) = (quotient.op(), quotient.left()?) else {
+        return None;
+    };
+    let digits = number.digits()?;
+    let unit = match number.unit() {
+        Some(above) => format!("{}/{}", above.text(), word.text()),
+        None => format!("1/{}", word.text()),
+    };
+    Some(format!("a unit stands behind its number: `{} {unit}`", digits.text()))
 }

@@ -2,7 +2,7 @@
 
 use crate::kinds::Kind;
 use base::{FileId, Name};
-use kernel::{ClassId, Path, Step};
+use kernel::{ClassId, Path, Step, Term};
 use std::collections::BTreeMap;
 use syntax::ast::Expr;
 
@@ -15,8 +15,8 @@ pub(crate) struct Scope {
     pub(crate) classes: Vec<ClassId>,
     /// Names that `let`, lambdas and parameters bind, the innermost last.
     pub(crate) locals: Vec<(Name, Kind)>,
-    /// Names that stand for whole numbers: the variables of `for`.
-    pub(crate) constants: BTreeMap<Name, i64>,
+    /// Names that stand for constants: the variables of `for`.
+    pub(crate) constants: BTreeMap<Name, Constant>,
     /// Names that stand for elements of lists, the innermost last.
     pub(crate) elements: Vec<Element>,
     /// The turns of the loops around, in the same body, the outermost first.
@@ -25,6 +25,15 @@ pub(crate) struct Scope {
     pub(crate) is_program: bool,
     /// The name that is not looked for in the innermost class: a value of a body means what is further out by it.
     pub(crate) outwards: Option<Name>,
+}
+
+/// What a variable of `for` stands for where it is known as the text stands.
+#[derive(Clone, Debug)]
+pub(crate) enum Constant {
+    /// A whole number: it may be an index.
+    Whole(i64),
+    /// Any other number, a text, a truth value, an option.
+    Value(Term, Kind),
 }
 
 /// An element of a list that `for` goes through.
@@ -73,9 +82,16 @@ impl Scope {
     pub(crate) fn passed_over(&self, name: &str) -> usize {
         usize::from(self.outwards.as_ref().is_some_and(|outwards| *outwards == name))
     }
-    /// Makes a name stand for a number.
-    pub(crate) fn bind_number(&mut self, name: Name, value: i64) {
+    /// Makes a name stand for a constant.
+    pub(crate) fn bind_constant(&mut self, name: Name, value: Constant) {
         self.constants.insert(name, value);
+    }
+    /// Returns the whole number that a name stands for.
+    pub(crate) fn whole(&self, name: &str) -> Option<i64> {
+        match self.constants.get(name)? {
+            Constant::Whole(number) => Some(*number),
+            Constant::Value(..) => None,
+        }
     }
     /// Makes a name stand for an element of a list, of this class if that is known.
     pub(crate) fn bind_element(&mut self, name: Name, path: Path, class: Option<ClassId>) {
@@ -90,10 +106,10 @@ impl Scope {
         let outwards = self.classes.len().saturating_sub(element.depth);
         Path(vec![Step::Owner; outwards]).join(&element.path)
     }
-    /// Returns the number that a variable of `for` stands for.
+    /// Returns the whole number that a variable of `for` stands for.
     pub(crate) fn constant(&self, name: &Expr) -> Option<f64> {
         let Expr::Name(name) = name else { return None };
-        self.constants.get(&name.name()?.name()).map(|&i| i as f64)
+        self.whole(&name.name()?.name()).map(|i| i as f64)
     }
     pub(crate) fn local(&self, name: &str) -> Option<&Kind> {
         self.locals.iter().rev().find(|(n, _)| *n == name).map(|(_, kind)| kind)

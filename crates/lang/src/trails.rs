@@ -60,7 +60,7 @@ impl Sum {
             Expr::Paren(inner) => Self::of(scope, &inner.inner()?),
             Expr::Name(name) => {
                 let name = name.name()?.name();
-                let is_bound = scope.constants.contains_key(&name);
+                let is_bound = scope.whole(&name).is_some();
                 is_bound.then(|| Self { constant: 0, terms: vec![(name, 1)] })
             }
             Expr::Unary(unary) => match unary.op()? {
@@ -99,7 +99,7 @@ impl Sum {
     fn index(&self, scope: &Scope) -> Option<u32> {
         let mut sum = self.constant;
         for (name, times) in &self.terms {
-            let bound = *scope.constants.get(name)?;
+            let bound = scope.whole(name)?;
             sum = sum.checked_add(bound.checked_mul(*times).filter(|x| x.abs() < LARGEST)?)?;
         }
         u32::try_from(sum).ok()

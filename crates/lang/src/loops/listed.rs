@@ -4,10 +4,12 @@
 //! `ends[i][0]`, are constants.
 
 use super::{Over, Written};
+use crate::kinds::Kind;
 use crate::lower::Lowerer;
 use crate::members::Definition;
-use crate::scope::Scope;
+use crate::scope::{Constant, Scope};
 use base::{Diagnostic, Place};
+use kernel::{ClassKind, Primitive, Term};
 use std::rc::Rc;
 use syntax::ast::{self, AstNode, Expr};
 
@@ -62,17 +64,54 @@ impl Lowerer<'_> {
         ));
     }
 
-    /// Finds what a loop binds its name to where it is written: a whole number, or a part.
+    /// Finds what a loop binds its name to where it is written: a constant, or a part.
     fn written(&mut self, scope: &Scope, e: &Expr) -> Option<Written> {
-        match self.constant(scope, e) {
-            Some(number) if !matches!(e, Expr::Name(_)) || scope.constant(e).is_some() => {
-                Some(Written::Number(number))
-            }
-            _ => {
-                let (path, class) = self.path(scope, e)?;
-                Some(Written::Thing { path, class })
-            }
+        if let Some(constant) = self.written_constant(scope, e) {
+            return Some(Written::Constant(constant));
         }
+        if !matches!(e, Expr::Name(_) | Expr::Field(_) | Expr::Index(_) | Expr::Paren(_)) {
+            let place = Place { file: scope.file, span: e.span() };
+            let message = "a `for` goes through parts, and what is known as the text stands";
+            let d = Diagnostic::error("not-a-path", place, message);
+            self.report_whole(d.hint("go through numbers, and compute it from them in the loop"));
+            return None;
+        }
+        let (path, class) = self.path(scope, e)?;
+        Some(Written::Thing { path, class })
+    }
+
+    /// Returns the constant that an expression is as the text stands: a number, a text, a truth value, an option.
+    fn written_constant(&mut self, scope: &Scope, e: &Expr) -> Option<Constant> {
+        let is_name = matches!(e, Expr::Name(_));
+        match self.constant(scope, e) {
+            Some(number) if !is_name || scope.constant(e).is_some() => {
+                return Some(Constant::Whole(number));
+            }
+            _ => {}
+        }
+        self.silent += 1;
+        let found = self.expr(scope, e);
+        self.silent -= 1;
+        let (term, kind) = found?;
+        is_literal(&term).then_some(Constant::Value(term, kind))
+    }
+
+    /// Returns true for a list that a message answers, each element of which is a constant.
+    pub(super) fn are_constants(&mut self, scope: &Scope, listed: &Listed) -> bool {
+        let there = listed.scope.as_ref().unwrap_or(scope);
+        listed.elements.iter().all(|e| self.written_constant(there, e).is_some())
+    }
+
+    /// Returns the turns of a loop over a choice, one for each of its options: `for fit in Fit`.
+    pub(super) fn all_options(&mut self, scope: &Scope, range: &Expr) -> Option<(u32, Over)> {
+        let class = self.class_as_receiver(scope, range)?;
+        let ClassKind::Primitive(Primitive::Choice(of)) = self.document.classes[class].kind else {
+            return None;
+        };
+        let count = self.document.classes[of].options.len() as u32;
+        let option = |at| Constant::Value(Term::Option(of, at), Kind::Option(of));
+        let rows = (0..count).map(|at| vec![Written::Constant(option(at))]);
+        Some((count, Over::Written(rows.collect())))
     }
 
     /// Returns what a list is written out as, where it stands or in what a message of the scope's own things answers.
@@ -121,6 +160,20 @@ impl Definition {
     fn elements(&self) -> Option<Rc<[Expr]>> {
         let written = || elements(&self.answer).filter(|_| self.loops.is_empty());
         self.elements.get_or_init(|| written().map(Rc::from)).clone()
+    }
+}
+
+/// Returns true for a term that is worth the same whatever the values are, written with operators and functions alone.
+fn is_literal(term: &Term) -> bool {
+    match term {
+        Term::Number { .. } | Term::Text(_) | Term::Bool(_) | Term::Option(..) => true,
+        Term::Unary(_, operand) => is_literal(operand),
+        Term::Binary(_, left, right) => is_literal(left) && is_literal(right),
+        Term::Tuple(terms) | Term::List(terms) => terms.iter().all(is_literal),
+        Term::Call { arguments, .. } | Term::Make { arguments, .. } => {
+            arguments.iter().all(|a| is_literal(&a.value))
+        }
+        _ => false,
     }
 }
 

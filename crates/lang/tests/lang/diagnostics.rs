@@ -213,7 +213,7 @@ const WRONG: &[(&str, &str, &str)] = &[
     ("for i in 0..0 { class D { } }", "not-yet", "class D { }"),
     ("for i in 0..1 { x, y, x: Real }", "duplicate-name", "x"),
     ("l: List of Real\nfor a in l.map(x => x) { }", "not-a-path", "l.map(x => x)"),
-    ("for a in [1, 2.5] { }", "not-a-path", "2.5"),
+    ("x: Real\nfor a in [1, x + 1] { }", "not-a-path", "x + 1"),
     // counts
     ("class C { n: Real = 3  l: List of n Real }", "not-a-count", "n"),
     (

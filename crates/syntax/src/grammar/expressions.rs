@@ -54,6 +54,11 @@ pub(super) fn range(p: &mut Parser<'_>) {
     operators(p, Power::Range);
 }
 
+/// A sum of products, the count of a list.
+pub(super) fn sum(p: &mut Parser<'_>) {
+    operators(p, Power::Add);
+}
+
 /// A path: names, fields, indices.
 pub(super) fn path(p: &mut Parser<'_>) {
     if p.line_ended(0) && p.names_itself(1) && p.nth(1) == Colon {

@@ -2,8 +2,8 @@
 
 use super::expressions::{self, expression};
 use crate::kind::SyntaxKind::{
-    Colon, Comma, Domain, Dot, DottedName, Eq, Ident, LParen, Number, Param, ParamList, RParen,
-    Text, Type, Unit,
+    Colon, Comma, Domain, Dot, DottedName, Eq, Ident, LParen, Minus, Number, Param, ParamList,
+    Plus, RParen, Slash, Star, Text, Type, Unit,
 };
 use crate::parser::Parser;
 
@@ -37,10 +37,13 @@ pub(super) fn class_name(p: &mut Parser<'_>) {
     });
 }
 
-/// The number of elements in `List of 12 C`, `List of n C`, `List of (2 * n) C`.
+/// The number of elements in `List of 12 C`, `List of n C`, `List of n + 1 C`, `List of (2 * n) C`.
 ///
 /// A name counts where it is small and a class follows on its line.
 fn count(p: &mut Parser<'_>) {
+    if is_sum(p) {
+        return expressions::sum(p);
+    }
     let small = p.at(Ident) && p.word(0).starts_with(char::is_lowercase);
     let counts = p.at(Number)
         || p.at(LParen)
@@ -48,6 +51,20 @@ fn count(p: &mut Parser<'_>) {
     if counts {
         expressions::count(p);
     }
+}
+
+/// Returns true where names and numbers with operators between them stand before a class, on one line.
+fn is_sum(p: &Parser<'_>) -> bool {
+    let is_operand = |n: usize| {
+        p.nth(n) == Number || p.nth(n) == Ident && p.word(n).starts_with(char::is_lowercase)
+    };
+    let is_operator = |n: usize| matches!(p.nth(n), Plus | Minus | Star | Slash);
+    let goes_on = |n: usize| is_operator(n) && is_operand(n + 1) && !p.begins_line(n + 1);
+    let mut end = 1;
+    while is_operand(0) && goes_on(end) {
+        end += 2;
+    }
+    end > 1 && p.nth(end) == Ident && !p.begins_line(end)
 }
 
 /// `geometry.parts`
