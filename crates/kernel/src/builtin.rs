@@ -257,7 +257,7 @@ table! {
     Count "count" List [] Plain "How many elements it has.";
     Turns "turns" List [] Plain "How many turns a loop took.";
     Map "map" List [one("function", Kind::Function)] List "What a function answers for every element.";
-    Filter "filter" List [one("function", Kind::Function)] List "The elements for which a function is true.";
+    Filter "filter" List [one("function", Kind::Function)] Same "The elements for which a function is true.";
     First "first" List [] Element "Its first element.";
     Last "last" List [] Element "Its last element.";
     All "all" List [one("function", Kind::Function)] Bool "Whether a function is true for every element.";
@@ -271,7 +271,7 @@ table! {
     Zip "zip" List [one("other", Kind::List)] List "Pairs of its elements and those of another list, as long as both last.";
     Neighbours "neighbours" List [] List "Every pair of an element and the next.";
     Union "union" List [one("other", Kind::List)] List "Its elements and then those of another list that it has not, each once.";
-    Reversed "reversed" List [] List "Its elements from the last to the first.";
+    Reversed "reversed" List [] Same "Its elements from the last to the first.";
 }
 
 table! {

@@ -18,8 +18,14 @@ pub(crate) struct Arg {
     pub(crate) label: Option<ast::Word>,
     pub(crate) value: Term,
     pub(crate) kind: Kind,
+    /// What a function answers.
+    answers: Kind,
     expr: Expr,
 }
+
+/// How what runs in time is written.
+const STEPS_OF_TIME: &str = "take steps: `states: List of 101 State  for a, b in states.neighbours { constraint \
+                             b.x = a.x + h * a.v }`, or `repeat n times with x = … { next x = … }` in a program";
 
 /// Something that is wanted of a call: its label, its name inside, what it may be.
 struct Wanted {
@@ -340,6 +346,7 @@ impl Lowerer<'_> {
             return None;
         }
         let mut first = receiver;
+        let mut answers = Kind::Unknown;
         let mut bound = Vec::new();
         for (position, arg) in args.into_iter().enumerate() {
             let place = match &arg.label {
@@ -374,13 +381,19 @@ impl Lowerer<'_> {
                 _ => arg.value,
             };
             bound.push(Argument { label: arg.label.map(|w| w.name()), value });
+            answers = arg.answers;
             first = Some(first.map_or(arg.kind.clone(), |known| known.joined(arg.kind)));
         }
         let first = first.unwrap_or(Kind::Unknown);
         let is_list_message = matches!(b.receiver, Builtin::List | Builtin::Plains);
         let element =
             if let Kind::List(element) = &first { (**element).clone() } else { first.clone() };
-        let kind = self.builtin_kind(b.result, if is_list_message { &first } else { &element });
+        let kind = match (b.result, answers) {
+            // what a list is mapped to; bare numbers may measure whatever is wanted
+            (Builtin::List, Kind::Number(None)) => Kind::List(Box::new(Kind::Unknown)),
+            (Builtin::List, answers) => Kind::List(Box::new(answers)),
+            _ => self.builtin_kind(b.result, if is_list_message { &first } else { &element }),
+        };
         Some((bound, kind))
     }
 
@@ -390,6 +403,8 @@ impl Lowerer<'_> {
             Builtin::Number => Kind::Unknown,
             // the measures of a text are lengths
             Builtin::Same if *first == Kind::Text => Kind::LENGTH,
+            // some of the elements, in another order
+            Builtin::Same if matches!(first, Kind::Tuple(_)) => Kind::List(Box::new(Kind::Unknown)),
             Builtin::Same | Builtin::Numbers => first.clone(),
             Builtin::Root => match first {
                 Kind::Number(Some(d)) => d.root(2).map_or(Kind::Unknown, |d| Kind::Number(Some(d))),
@@ -419,11 +434,17 @@ impl Lowerer<'_> {
         let mut arguments = Vec::new();
         for arg in args.into_iter().flat_map(|a| a.args()) {
             let e = arg.value()?;
-            let (value, kind) = match &e {
-                Expr::Lambda(lambda) => self.lambda(scope, lambda, element)?,
-                other => self.expr(scope, other)?,
+            let (value, kind, answers) = match &e {
+                Expr::Lambda(lambda) => {
+                    let (value, answers) = self.lambda(scope, lambda, element)?;
+                    (value, Kind::Function, answers)
+                }
+                other => {
+                    let (value, kind) = self.expr(scope, other)?;
+                    (value, kind, Kind::Unknown)
+                }
             };
-            arguments.push(Arg { label: arg.label(), value, kind, expr: e });
+            arguments.push(Arg { label: arg.label(), value, kind, answers, expr: e });
         }
         Some(arguments)
     }
@@ -435,7 +456,13 @@ impl Lowerer<'_> {
         // `moved(by: way)` is what every thing answers; of a place it is a task of a lesson
         let labelled =
             call.args().and_then(|a| a.args().next()).is_some_and(|a| a.label().is_some());
-        if matches!(word.text(), "der" | "moved" | "all" | "plot") && !labelled {
+        if word.text() == "der" && !labelled {
+            let place = Place { file: scope.file, span: call.span() };
+            let d = Diagnostic::error("not-yet", place, "`der(…)` is not supported yet");
+            self.report(d.hint(STEPS_OF_TIME));
+            return None;
+        }
+        if matches!(word.text(), "moved" | "all" | "plot") && !labelled {
             self.not_yet(scope.file, call.span(), &format!("`{name}(…)` is"));
             return None;
         }

@@ -30,6 +30,7 @@ mod calls;
 mod checks;
 mod choices;
 mod classes;
+mod colours;
 mod components;
 mod connections;
 mod constraints;

@@ -47,7 +47,10 @@ impl Lowerer<'_> {
             }
             Expr::Field(field) => self.field(scope, field),
             Expr::Call(call) => self.call(scope, call),
-            Expr::Lambda(lambda) => self.lambda(scope, lambda, &Kind::Unknown),
+            Expr::Lambda(lambda) => {
+                let (term, _) = self.lambda(scope, lambda, &Kind::Unknown)?;
+                Some((term, Kind::Function))
+            }
             Expr::Index(index) => self.index(scope, index),
             Expr::Unary(unary) => self.unary(scope, unary),
             Expr::Binary(binary) => {
@@ -258,6 +261,7 @@ impl Lowerer<'_> {
         });
     }
 
+    /// Lowers a function of elements of this kind; what it answers is told beside it.
     pub(crate) fn lambda(
         &mut self,
         scope: &Scope,
@@ -267,8 +271,8 @@ impl Lowerer<'_> {
         let names: Vec<Name> = lambda.params().map(|w| w.name()).collect();
         let kind = if names.len() == 1 { element } else { &Kind::Unknown };
         let inner = names.iter().fold(scope.clone(), |s, n| s.with_local(n.clone(), kind.clone()));
-        let (body, _) = self.expr(&inner, &lambda.body()?)?;
-        Some((Term::Lambda(names, Box::new(body)), Kind::Function))
+        let (body, answer) = self.expr(&inner, &lambda.body()?)?;
+        Some((Term::Lambda(names, Box::new(body)), answer))
     }
 
     fn index(&mut self, scope: &Scope, index: &ast::IndexExpr) -> Lowered {
@@ -492,6 +496,12 @@ impl Lowerer<'_> {
         let has_parts = |k: &Kind| matches!(k, Kind::Thing(_) | Kind::Tuple(_));
         if has_parts(&ka) || has_parts(&kb) {
             let made = self.by_component(operator, (&a, &ka), (&b, &kb));
+            if made.is_some() {
+                return made;
+            }
+        }
+        if ka == Kind::Text || kb == Kind::Text {
+            let made = self.of_colours(scope, operator, (&a, &ka), (&b, &kb));
             if made.is_some() {
                 return made;
             }
