@@ -8,6 +8,7 @@
 //! those of `session::view`.
 
 use crate::documents::{self, OpenError, Opened, find, open};
+use crate::rows;
 use serde_json::{Value, json};
 use session::view::{Advice, CheckReport, DiagnosticView, Explanation, ValueRow};
 use std::collections::BTreeSet;
@@ -248,15 +249,7 @@ pub(crate) fn run(path: &Path, which: Rows, form: Form) -> Result<Report, OpenEr
     let rows: Vec<ValueRow> = opened.session.values(opened.id);
     let listed: Vec<&ValueRow> =
         rows.iter().filter(|row| which == Rows::All || !row.is_layout).collect();
-    let width = listed.iter().map(|r| r.shortest.chars().count()).max().unwrap_or(0);
-    let numbers = listed.iter().filter(|row| row.number.is_some());
-    let digits = numbers.map(|r| before_point(&r.text)).max().unwrap_or(0);
-    for row in &listed {
-        let unit = if row.unit.is_empty() { String::new() } else { format!(" {}", row.unit) };
-        let pad = if row.number.is_some() { digits - before_point(&row.text) } else { 0 };
-        let (path, mark, text) = (&row.shortest, mark(row, &arbitrary), &row.text);
-        let _ = writeln!(words, "{path:width$} {mark} {:pad$}{text}{unit}", "");
-    }
+    words.push_str(&rows::written(&listed, &|row| mark(row, &arbitrary)));
     if listed.iter().any(|row| mark(row, &arbitrary) == '~') {
         words.push_str("~ arbitrary: nothing decides it\n");
     }
@@ -289,14 +282,6 @@ fn mark(row: &ValueRow, arbitrary: &BTreeSet<String>) -> char {
         '~'
     } else {
         ' '
-    }
-}
-
-/// Returns how many letters of a number stand before its decimal point; none of what is no number.
-fn before_point(text: &str) -> usize {
-    match text.parse::<f64>() {
-        Ok(_) => text.find(['.', 'e']).unwrap_or(text.len()),
-        Err(_) => 0,
     }
 }
 

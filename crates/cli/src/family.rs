@@ -40,8 +40,8 @@ pub(crate) enum Format {
 pub(crate) struct Arguments {
     /// The document.
     file: PathBuf,
-    /// The program, or a family of it.
-    program: String,
+    /// The program, or a family of it; without it the only family of the document.
+    program: Option<String>,
     /// The table: CSV with a header of parameters, `inner [mm]`; of a family, its own without it.
     #[arg(long)]
     table: Option<PathBuf>,
@@ -66,6 +66,21 @@ struct Done {
     outcome: String,
 }
 
+/// Returns the name of what draws: the one that is asked for, else the only family there is.
+fn which<'n>(asked: Option<&'n str>, families: &[&'n str]) -> Result<&'n str, OpenError> {
+    match (asked, families) {
+        (Some(asked), _) => Ok(asked),
+        (None, [only]) => Ok(only),
+        (None, []) => Err(OpenError::Refused(
+            "the document has no family: name the program, and its table by `--table`".into(),
+        )),
+        (None, several) => Err(OpenError::Refused(format!(
+            "the document has several families: name one of {}",
+            several.join(", ")
+        ))),
+    }
+}
+
 /// Draws every row.
 ///
 /// # Errors
@@ -74,18 +89,20 @@ pub(crate) fn run(arguments: &Arguments, form: Form) -> Result<Report, OpenError
     let opened = open(&arguments.file)?;
     let refused = |refusal: session::view::Refusal| OpenError::Refused(refusal.message);
     let families = opened.session.families(opened.id);
-    let family = families.iter().find(|f| f.name == arguments.program);
+    let named: Vec<&str> = families.iter().map(|f| f.name.as_str()).collect();
+    let program = which(arguments.program.as_deref(), &named)?;
+    let family = families.iter().find(|f| f.name == program);
     let beside = arguments.file.parent().unwrap_or(Path::new("."));
     let named = family.and_then(|f| f.table.as_ref()).map(|table| beside.join(table));
     let table = match arguments.table.clone().or(named) {
         Some(path) => Some(read(&path)?),
         None => None,
     };
-    let rows = opened.session.family_rows(opened.id, &arguments.program, table.as_deref());
+    let rows = opened.session.family_rows(opened.id, program, table.as_deref());
     let mut rows = rows.map_err(refused)?;
     if let Some(path) = &arguments.compare {
         let second = read(path)?;
-        let told = opened.session.family_differences(opened.id, &arguments.program, &rows, &second);
+        let told = opened.session.family_differences(opened.id, program, &rows, &second);
         rows.notes.extend(told.map_err(refused)?);
     }
     if let Some(out) = &arguments.out {
@@ -93,7 +110,7 @@ pub(crate) fn run(arguments: &Arguments, form: Form) -> Result<Report, OpenError
     }
     let has = |format| arguments.out.is_some() && arguments.format.contains(&format);
     let formats = RowFormats { svg: has(Format::Svg), dxf: has(Format::Dxf) };
-    let source = format!("{}\n{}\n{:?}\n", opened.meaning(), arguments.program, arguments.format);
+    let source = format!("{}\n{}\n{:?}\n", opened.meaning(), program, arguments.format);
     let source = mixed(FNV, &source);
     let hashes: Vec<String> = rows
         .rows
@@ -112,7 +129,8 @@ pub(crate) fn run(arguments: &Arguments, form: Form) -> Result<Report, OpenError
     let mut lines: BTreeMap<usize, Value> =
         (0..rows.rows.len()).filter_map(|at| Some((at, is_done(at)?))).collect();
     let skipped = lines.len();
-    let work = Work { arguments, rows: &rows.rows, hashes: &hashes, files: &files, formats };
+    let work =
+        Work { arguments, program, rows: &rows.rows, hashes: &hashes, files: &files, formats };
     let failure = work.draw(&todo, &mut lines);
     // what was drawn before something failed is kept
     let manifest: String = lines.values().map(|line| format!("{line}\n")).collect();
@@ -124,16 +142,18 @@ pub(crate) fn run(arguments: &Arguments, form: Form) -> Result<Report, OpenError
         return Err(failure);
     }
     if let Some(out) = &arguments.out {
-        let index = index_page(&arguments.program, &lines, &rows.notes);
+        let index = index_page(program, &lines, &rows.notes);
         write(&out.join("index.html"), &index)?;
     }
-    Ok(report(arguments, &lines, (&rows.notes, skipped), form))
+    Ok(report((arguments, program), &lines, (&rows.notes, skipped), form))
 }
 
 /// Rows to be drawn, and how.
 #[derive(Clone, Copy)]
 struct Work<'w> {
     arguments: &'w Arguments,
+    /// The program, or a family of it.
+    program: &'w str,
     rows: &'w [FamilyRow],
     /// Of each row the hash of what it depends on.
     hashes: &'w [String],
@@ -169,7 +189,7 @@ impl Work<'_> {
                             }
                             for &at in &todo[from..(from + CHUNK).min(todo.len())] {
                                 let row = &self.rows[at];
-                                let (session, program) = (&opened.session, &self.arguments.program);
+                                let (session, program) = (&opened.session, self.program);
                                 let outcome =
                                     session.draw_row(opened.id, program, row, self.formats);
                                 let outcome = outcome.map_err(|r| OpenError::Refused(r.message))?;
@@ -245,7 +265,7 @@ impl Work<'_> {
 
 /// Says what came of the rows.
 fn report(
-    arguments: &Arguments,
+    (arguments, program): (&Arguments, &str),
     lines: &BTreeMap<usize, Value>,
     (notes, skipped): (&[String], usize),
     form: Form,
@@ -277,7 +297,7 @@ fn report(
         }
     );
     let json = json!({
-        "program": arguments.program,
+        "program": program,
         "rows": lines.values().collect::<Vec<_>>(),
         "notes": notes,
         "skipped": skipped,

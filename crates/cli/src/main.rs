@@ -16,6 +16,7 @@ mod family;
 mod import;
 mod journal;
 mod plot;
+mod rows;
 mod serve;
 
 /// A constraint laboratory: documents whose constraints stay true.

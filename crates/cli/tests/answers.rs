@@ -127,6 +127,17 @@ fn what_has_no_place_is_drawn_apart() {
 }
 
 #[test]
+fn alike_things_of_a_list_are_a_table() {
+    let text = "class Post { x: Length  name: Text }\nposts: List of 3 Post = [(2 mm, \"a\"), (13 mm, \"b\"), (1.5 mm, \"c\")]\n\
+                two: List of 2 Post = [(2 mm, \"a\"), (13 mm, \"b\")]\nnumbers: List of 3 Real = [1, 2, 3]\n";
+    let printed = printed("run-table", text, "run", &[]);
+    let wanted = "posts     x          name\nposts[0]  =  2 mm    = a\nposts[1]  = 13 mm    = b\n\
+                  posts[2]  =  1.5 mm  = c\ntwo[0].x    =  2 mm\n";
+    assert!(printed.starts_with(wanted), "{printed}");
+    assert!(printed.contains("numbers[0]  =  1\n"), "{printed}");
+}
+
+#[test]
 fn the_book_shows_what_is_printed() {
     let top = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");
     let page = std::fs::read_to_string(format!("{top}/book/reading.md")).expect("it is there");

@@ -115,6 +115,15 @@ fn a_name_that_is_wrong_is_answered_with_those_that_there_are() {
 }
 
 #[test]
+fn the_only_family_need_not_be_named() {
+    let folder = folder("unnamed", TABLE);
+    let mut thinglab = Command::new(env!("CARGO_BIN_EXE_thinglab"));
+    let said = thinglab.current_dir(&folder).args(["family", "disc.thing"]).output();
+    let said = String::from_utf8(said.expect("the command starts").stdout).expect("words");
+    assert!(said.contains("3 rows: 3 could be drawn"), "{said}");
+}
+
+#[test]
 fn a_second_table_is_compared() {
     let folder = folder("compare", TABLE);
     let other = "disc,r [cm],hole [mm]\nsmall,0.2,1\nmiddle,0.5,\nhuge,4,2\n";

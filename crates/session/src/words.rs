@@ -15,7 +15,7 @@ use plan::{Acting, ActingKind, Decided, EditReport, NotDecided, RefusalReason, S
 use std::collections::BTreeSet;
 
 /// A computed coordinate is rounding where it is a smaller part than this of the largest of its place.
-const ROUNDING: f64 = 1e-12;
+pub(crate) const ROUNDING: f64 = 1e-12;
 
 /// Makes a refusal of one sentence.
 pub(crate) fn refuse(message: String) -> Refusal {
@@ -225,7 +225,12 @@ pub(crate) fn sides_in_words(state: &State, source: Source, values: &Values) -> 
         (!written.starts_with(|c: char| c.is_ascii_digit()))
             .then(|| format!("{written} is {value}"))
     };
-    match (said(left, written_left.trim()), said(right, written_right.trim())) {
+    // nor does an option
+    let speaks = |term: &Term| !matches!(term, Term::Text(_) | Term::Bool(_) | Term::Option(..));
+    let [is_left, is_right] = [left, right].map(speaks);
+    let left = said(left, written_left.trim()).filter(|_| is_left);
+    let right = said(right, written_right.trim()).filter(|_| is_right);
+    match (left, right) {
         (Some(left), Some(right)) => Some(format!("{left}, {right}")),
         (one, other) => one.or(other),
     }
@@ -510,7 +515,9 @@ pub(crate) fn show_slot(state: &State, slot: SlotId, values: &Values) -> Shown {
 fn is_rounding(state: &State, slot: SlotId, values: &Values) -> bool {
     let s = &state.structure.slots[slot];
     let x = values.numbers[slot].abs();
-    let Some(place) = s.place.filter(|_| s.given.is_none() && x > 0.0) else { return false };
+    // what a class gives is often no more than how a thing looks at first
+    let is_computed = state.structure.given(slot).is_none_or(|given| given.of_class);
+    let Some(place) = s.place.filter(|_| is_computed && x > 0.0) else { return false };
     let all = state.structure.slots_under(place);
     let largest = all.into_iter().map(|slot| values.numbers[slot].abs()).fold(0.0, f64::max);
     x < ROUNDING * largest

@@ -2,6 +2,7 @@
 
 use crate::document::Open;
 use crate::session::parse_path;
+use crate::state::State;
 use crate::texts::Texts;
 use crate::view::{Analysis, Choice, ContradictionView, MotionView, RedundantView, Velocity};
 use crate::words;
@@ -67,6 +68,9 @@ fn redundant(open: &Open, r: &Redundant) -> Option<RedundantView> {
     Some(RedundantView { constraint, implied_by, because })
 }
 
+/// The names of coordinates.
+const AXES: [&str; 3] = ["x", "y", "z"];
+
 /// What moves no faster beside the fastest rests.
 const STILL: f64 = 1e-12;
 
@@ -75,7 +79,8 @@ fn motion(open: &Open, motion: &Motion) -> MotionView {
     let mut things: BTreeMap<ThingId, Vec<(SlotId, f64)>> = BTreeMap::new();
     for &(slot, speed) in &motion.moves {
         let s = &structure.slots[slot];
-        things.entry(s.place.unwrap_or(s.thing)).or_default().push((slot, speed));
+        let place = s.place.filter(|&place| has_axes(state, place));
+        things.entry(place.unwrap_or(s.thing)).or_default().push((slot, speed));
     }
     let velocity = |(&thing, moves): (&ThingId, &Vec<(SlotId, f64)>)| {
         let speed = |s: &SlotId| moves.iter().find(|m| m.0 == *s).map_or(0.0, |m| m.1);
@@ -100,7 +105,7 @@ fn motion(open: &Open, motion: &Motion) -> MotionView {
         let moving: Vec<usize> = (0..rounded.len()).filter(|&i| rounded[i] != "0").collect();
         match moving[..] {
             // along an axis there is no need for numbers
-            [axis] => ["x", "y", "z"][axis].to_string(),
+            [axis] => AXES[axis].to_string(),
             _ => format!("({})", rounded.join(", ")),
         }
     };
@@ -128,6 +133,17 @@ fn motion(open: &Open, motion: &Motion) -> MotionView {
         }
     };
     MotionView { summary, moves }
+}
+
+/// Returns true for a thing whose numbers are its coordinates; what else belongs together is told number by number.
+fn has_axes(state: &State, place: ThingId) -> bool {
+    let parts = state.structure.slots_under(place).into_iter();
+    let name = |slot: SlotId| {
+        let thing = state.structure.slots[slot].thing;
+        state.structure.path(&state.lowered.document, thing).0.pop()
+    };
+    let is_axis = |(slot, axis): (SlotId, &str)| matches!(name(slot), Some(kernel::Step::Part(name)) if *name == *axis);
+    parts.zip(AXES).all(is_axis)
 }
 
 /// Says how several places and numbers move together: what goes the same way in one breath.

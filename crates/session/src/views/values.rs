@@ -358,6 +358,7 @@ impl Maker<'_> {
     /// Adds the rows of what a program drew: the numbers of its figures, turn by turn.
     fn add_drawn(&mut self, answer: &Answer<'_>, path: &mut String, most: usize) {
         let (document, rows) = (&self.state.lowered.document, &mut self.work.rows);
+        let from = rows.len();
         walk(document, (answer, Standing::Result), path, &mut |answer, _, path| {
             if rows.len() >= most {
                 return false;
@@ -367,6 +368,27 @@ impl Maker<'_> {
             rows.extend(row);
             !is_value
         });
+        let beside = |a: &ValueRow, b: &ValueRow| a.class == b.class && around(a) == around(b);
+        rows[from..].chunk_by_mut(beside).for_each(|rows| settle(document, rows));
+    }
+}
+
+/// Returns the path of what has a value.
+fn around(row: &ValueRow) -> &str {
+    row.path.rsplit_once('.').map_or("", |(whole, _)| whole)
+}
+
+/// Shows numbers of one thing as nothing that are no more than rounding beside the others.
+fn settle(document: &Document, rows: &mut [ValueRow]) {
+    let size = |row: &ValueRow| row.number.map_or(0.0, f64::abs);
+    let largest = rows.iter().map(size).fold(0.0, f64::max);
+    for row in
+        rows.iter_mut().filter(|row| size(row) > 0.0 && size(row) < words::ROUNDING * largest)
+    {
+        let Some(dimension) = expr::Dimension::by_name(&row.class) else { continue };
+        let quantity = Quantity { dimension, class: &row.class, written: "" };
+        let nothing = kernel::show_quantity(0.0, quantity, document);
+        (row.text, row.unit) = (nothing.text, nothing.unit);
     }
 }
 
