@@ -59,8 +59,8 @@ impl Lowerer<'_> {
         let mut part = prefix;
         let mut class = self.class_at(scope.class(), &part);
         if let Some(target) = target {
-            let mut own = Scope { outwards: None, ..scope.clone() };
-            own.classes = vec![class.filter(|_| !part.is_empty()).unwrap_or(scope.class())];
+            let of = class.filter(|_| !part.is_empty()).unwrap_or(scope.class());
+            let own = scope.of_target(of, !part.is_empty());
             let (rest, of) = self.path(&own, target)?;
             (part, class) = (part.join(&rest), of);
         }

@@ -70,8 +70,7 @@ impl Lowerer<'_> {
 
     /// Returns what the part that is given a value may be given.
     fn wanted_by(&mut self, scope: &Scope, prefix: &Path, target: &Expr) -> Option<Kind> {
-        let mut own = scope.clone();
-        own.classes = vec![self.class_at(scope.class(), prefix)?];
+        let own = scope.of_target(self.class_at(scope.class(), prefix)?, !prefix.is_empty());
         let (_, class) = self.path(&own, target)?;
         Some(Kind::of_class(&self.document, class?))
     }

@@ -150,11 +150,8 @@ impl Lowerer<'_> {
         let mut class = self.class_at(scope.class(), &path);
         if let Some(target) = target {
             // what is given belongs to the thing itself, not to one around it
-            let mut own = Scope { outwards: None, ..scope.clone() };
-            own.classes = match class {
-                Some(c) if !path.is_empty() => vec![c],
-                _ => vec![scope.class()],
-            };
+            let of = class.filter(|_| !path.is_empty()).unwrap_or(scope.class());
+            let own = scope.of_target(of, !path.is_empty());
             let before = self.diagnostics.len();
             let Some((rest, kind)) = self.path(&own, target) else {
                 return self.hint_target(before, &own, target, value);

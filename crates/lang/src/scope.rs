@@ -97,6 +97,14 @@ impl Scope {
     pub(crate) fn bind_element(&mut self, name: Name, path: Path, class: Option<ClassId>) {
         self.elements.push(Element { name, path, class, depth: self.classes.len() });
     }
+    /// Returns the scope in which is looked for what is given a value: the parts of a thing of this class. In the body of
+    /// a part no variable of a loop around it is one of these.
+    pub(crate) fn of_target(&self, class: ClassId, is_in_body: bool) -> Self {
+        let depth = self.classes.len();
+        let mut own = Self { outwards: None, classes: vec![class], ..self.clone() };
+        own.elements.retain(|element| !is_in_body && element.depth == depth);
+        own
+    }
     /// Returns the element that a variable of `for` stands for.
     pub(crate) fn element(&self, name: &str) -> Option<&Element> {
         self.elements.iter().rev().find(|e| e.name == *name)
