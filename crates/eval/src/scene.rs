@@ -57,6 +57,11 @@ struct Drawn {
 }
 
 impl Scene {
+    /// What is drawn of what a document computes: each by its name, with the places of its elements.
+    pub fn computed(&self) -> impl Iterator<Item = (&Name, &[u32])> {
+        let all = self.sources.iter();
+        all.filter_map(|source| Some((source.computed.as_ref()?, source.at.as_slice())))
+    }
     /// Returns what was drawn from these slots: what moves where they change, unless a picture turns to others.
     pub fn drawn_from(&self, slots: &[SlotId]) -> Moved {
         let read = slots.iter().flat_map(|&slot| &self.readers[slot]);
@@ -239,7 +244,7 @@ impl Evaluator<'_> {
     /// Names what a document computes that is drawn with its parts: things that are made, as by a construction.
     ///
     /// Where the document says itself how it is drawn, that is all.
-    fn computed_figures(&self, thing: ThingId) -> Vec<Name> {
+    pub fn computed_figures(&self, thing: ThingId) -> Vec<Name> {
         if thing != DOCUMENT || self.parts_drawn(thing).is_none() {
             return Vec::new();
         }

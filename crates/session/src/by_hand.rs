@@ -15,7 +15,7 @@ use crate::view::{
 };
 use crate::ways_out;
 use crate::{Session, views, words};
-use kernel::{Command, Literal, Path, SlotId, Step, ThingId};
+use kernel::{ClassId, Command, Literal, Path, SlotId, Step, ThingId};
 use lang::Wanted;
 
 /// At most so many values of one thing are looked for.
@@ -79,12 +79,17 @@ impl Session {
     /// Returns what can be said of some things, and is not said yet: the constraints that fit them, and merging them;
     /// what can be made of an outline.
     pub fn offers(&self, id: DocumentId, paths: &[Path]) -> Vec<Offer> {
+        self.offers_and_held(id, paths).0
+    }
+
+    /// The same, and in words what is true of them already, because something says so or it follows.
+    pub fn offers_and_held(&self, id: DocumentId, paths: &[Path]) -> (Vec<Offer>, Vec<String>) {
         let beside = Beside::of(&*self.host, &self.documents, id);
         let open = self.document(id);
         let found = offers::offers(&open.state, paths);
-        let mut offers = offers::new_ones(open, &beside, found);
+        let (mut offers, held) = offers::told_apart(open, &beside, found);
         offers.extend(outlines::offers(open, paths));
-        offers
+        (offers, held)
     }
 
     /// Returns the command that says what is offered, with a value where one goes there.
@@ -100,7 +105,10 @@ impl Session {
         let beside = Beside::of(&*self.host, &self.documents, id);
         let open = self.document(id);
         match &offer.deed {
-            Deed::Add => Ok(offer.command(value)),
+            Deed::Add => {
+                let command = offer.command(value);
+                Ok(ways_out::said_anew(open, &beside, &command).unwrap_or(command))
+            }
             Deed::Round(of) => {
                 let radius = value.or(offer.value.as_deref()).unwrap_or_default();
                 outlines::rounded_by(open, &beside, of, radius).ok_or_else(|| {
@@ -111,6 +119,12 @@ impl Session {
                 words::refuse(format!("{path} says more than four lines would say"))
             }),
         }
+    }
+
+    /// Returns the command for a dimension that only reads what an offered one would set; nothing where there is none.
+    pub fn only_read(&self, id: DocumentId, offer: &Offer) -> Option<Command> {
+        let members = ways_out::reference(&self.document(id).state, &offer.members)?;
+        Some(Command::Edit { target: Path::default(), members })
     }
 
     /// Returns what a command would move, by path, without doing it.
@@ -298,6 +312,17 @@ impl Session {
         let wants = self.host.read(library).and_then(|text| is_y(&text)) == Some(true);
         let y = if is_empty && !is_told && wants { "\ny down" } else { "" };
         Command::Edit { target: Path::default(), members: format!("use {library}{y}") }
+    }
+}
+
+/// Returns the class of what a path leads to: a thing, or a figure that is computed.
+pub(crate) fn class_at(state: &State, path: &Path) -> Option<ClassId> {
+    if let Some(thing) = thing_at(state, path) {
+        return Some(state.structure.things[thing].class);
+    }
+    match state.evaluator(&state.values).at(path) {
+        Ok(eval::Answer::Made(made)) => Some(made.class),
+        Ok(_) | Err(_) => None,
     }
 }
 

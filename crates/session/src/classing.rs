@@ -4,6 +4,7 @@
 //! others too stays, and reaches them through the new thing. Of each part, value, constraint and merge a person
 //! decides whether it is of the class, of this one thing only, or, where it says a number, a parameter.
 
+use crate::by_hand::class_at;
 use crate::document::Open;
 use crate::host::Host;
 use crate::recognise;
@@ -109,12 +110,13 @@ fn chosen(paths: &[Path]) -> Result<BTreeSet<String>, Refusal> {
     }
 }
 
-/// The names of all things of the document.
+/// The names of all things of the document, and of the figures that it computes.
 pub(crate) fn known(state: &State) -> BTreeSet<String> {
     let document = &state.lowered.document;
     let parts = state.structure.parts(DOCUMENT);
     let name = |part| state.structure.field_name(document, part).map(ToString::to_string);
-    parts.filter_map(name).collect()
+    let figures = state.evaluator(&state.values).computed_figures(DOCUMENT);
+    parts.filter_map(name).chain(figures.iter().map(ToString::to_string)).collect()
 }
 
 /// Whether a member is, or speaks of, the chosen things alone.
@@ -131,6 +133,9 @@ pub(crate) fn goes(
                 return Err(words::refuse(message.into()));
             }
             Ok(names.contains(&true))
+        }
+        Member::Message(message) => {
+            Ok(message.name().is_some_and(|name| chosen.contains(name.text())))
         }
         Member::Constraint(_)
         | Member::Merge(_)
@@ -310,6 +315,18 @@ fn rewritten(
     Ok(apply(text, &edits))
 }
 
+/// What the document computes as a part that is bound to it, which things of a class draw: `foot => …` is
+/// `foot: Point = …`.
+fn bound(state: &State, member: &Member) -> Option<String> {
+    let Member::Message(message) = member else { return None };
+    let name = message.name()?.text().to_string();
+    let class = class_at(state, &parse_path(&name)?)?;
+    let class = &state.lowered.document.classes[state.lowered.document.named_class(class)].name;
+    let text = member.syntax().text().to_string();
+    let (_, answer) = text.split_once("=>")?;
+    Some(format!("{name}: {class} = {}", answer.trim()))
+}
+
 /// Writes a member where it belongs.
 fn sort(
     state: &State,
@@ -319,6 +336,9 @@ fn sort(
 ) {
     let text = member.syntax().text().to_string();
     let start = u32::from(member.syntax().text_range().start());
+    if let Some(bound) = bound(state, member) {
+        return written.members.push(bound);
+    }
     let Some(_) = kind(member) else { return written.members.push(text.trim().into()) };
     let scope = scopes.next().unwrap_or_default();
     let mut changes = Vec::new();

@@ -27,6 +27,7 @@ mod remove;
 mod repeat;
 mod scene;
 mod steps;
+mod synonyms;
 mod text;
 mod typed;
 pub mod view;

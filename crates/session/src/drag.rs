@@ -1,6 +1,7 @@
 //! A drag: from press to release nothing is written, and nothing but numbers is computed.
 
 use crate::apply::{self, Aim};
+use crate::by_hand::class_at;
 use crate::document::Open;
 use crate::general;
 use crate::host::Host;
@@ -81,6 +82,8 @@ fn begin_several(open: &mut Open, paths: &[Path]) -> Result<(f64, f64), Refusal>
             Aim::Thing(thing) if !places(&state.structure, &[thing]).is_empty() => {
                 things.push(thing);
             }
+            // what is computed goes along with what it is computed from
+            Aim::Term(_) if paths.len() > 1 && is_figure(&state, path) => {}
             Aim::Thing(_) | Aim::Term(_) => {
                 let message =
                     format!("{path} has no place of its own: it is not dragged with others");
@@ -96,6 +99,11 @@ fn begin_several(open: &mut Open, paths: &[Path]) -> Result<(f64, f64), Refusal>
     let handle = drag.handle();
     open.drag = Some(drag);
     Ok(handle)
+}
+
+/// Whether a path leads to a figure that the document computes.
+fn is_figure(state: &State, path: &Path) -> bool {
+    path.0.len() == 1 && class_at(state, path).is_some()
 }
 
 /// Begins a drag: of a number, of a place, or of things with all the places that they are made of.

@@ -6,6 +6,7 @@
 //! number is told what it is now, so that nothing moves before a person types another.
 
 use crate::apply;
+use crate::by_hand::class_at;
 use crate::document::Open;
 use crate::host::Host;
 use crate::joining;
@@ -27,10 +28,11 @@ use kernel::{
 /// The most things that offers are made for.
 const MOST: usize = 8;
 
-/// A selected thing.
+/// A selected thing, or a figure that is computed.
 struct Selected {
     path: Path,
-    thing: ThingId,
+    /// Nothing for what is computed: it can be spoken of, and not be merged.
+    thing: Option<ThingId>,
     class: ClassId,
 }
 
@@ -39,8 +41,7 @@ pub(crate) fn offers(state: &State, paths: &[Path]) -> Vec<Offer> {
     let found: Option<Vec<Selected>> = paths
         .iter()
         .map(|path| {
-            let thing = thing_at(state, path)?;
-            let class = state.structure.things[thing].class;
+            let (thing, class) = (thing_at(state, path), class_at(state, path)?);
             Some(Selected { path: path.clone(), thing, class })
         })
         .collect();
@@ -72,6 +73,11 @@ impl Offerer<'_> {
     fn rule(label: &str, rules: &[String]) -> Offer {
         let members: Vec<String> = rules.iter().map(|rule| format!("constraint {rule}")).collect();
         Offer { label: label.into(), members: members.join("\n"), ..Offer::default() }
+    }
+
+    /// Whether one of the things is computed: no part of anything can be merged with it.
+    fn is_computed(&self) -> bool {
+        self.things.iter().any(|one| one.thing.is_none())
     }
 
     fn is_place(&self, class: ClassId) -> bool {
@@ -109,16 +115,16 @@ impl Offerer<'_> {
 
     /// The ends of a thing that is drawn between two places.
     fn ends(&self, one: &Selected) -> Option<(Path, Path)> {
-        let structure = &self.state.structure;
-        let places: Vec<ThingId> = structure
-            .parts(one.thing)
-            .filter(|&part| self.is_place(structure.things[part].class))
-            .collect();
+        let document = &self.state.lowered.document;
+        if document.classes[one.class].kind != ClassKind::Composite {
+            return None;
+        }
+        let fields = document.layout(one.class).into_iter();
+        let places: Vec<_> = fields.filter(|&f| self.is_place(document.field_class(f))).collect();
         let [a, b] = places[..] else { return None };
-        let name = |part| structure.field_name(&self.state.lowered.document, part).cloned();
-        let end = |part| Some(one.path.then(Step::Part(name(part)?)));
+        let end = |field| one.path.then(Step::Part(document.field_name(field).clone()));
         let has_length = self.message(one.class, "length").is_some();
-        Some((end(a)?, end(b)?)).filter(|_| has_length)
+        Some((end(a), end(b))).filter(|_| has_length)
     }
 
     /// What may be true of one thing alone, and is not offered yet.
@@ -169,7 +175,8 @@ impl Offerer<'_> {
             return Vec::new();
         }
         let has = |one: &Selected, name: &str| {
-            self.state.structure.part_named(one.thing, name).is_some()
+            one.thing.is_some_and(|t| self.state.structure.part_named(t, name).is_some())
+                || self.has_field(one.class, name)
                 || self.message(one.class, name).is_some_and(|m| m.parameters.is_empty())
         };
         let equal = |name: &str| {
@@ -180,6 +187,13 @@ impl Offerer<'_> {
             all.then(|| Self::rule(&format!("equal {name}"), &rules))
         };
         ["length", "radius"].into_iter().filter_map(equal).take(1).collect()
+    }
+
+    /// Whether things of a class have a part of a name.
+    fn has_field(&self, class: ClassId, name: &str) -> bool {
+        let document = &self.state.lowered.document;
+        document.classes[class].kind == ClassKind::Composite
+            && document.layout(class).into_iter().any(|f| **document.field_name(f) == *name)
     }
 
     /// A place halfway along a line.
@@ -212,6 +226,11 @@ impl Offerer<'_> {
             let [a, b] = self.things else { return None };
             let both = self.is_place(a.class) && self.is_place(b.class);
             let now = self.number(&asked(a, "distance", "to", b)).filter(|_| both)?;
+            if self.is_computed() {
+                let members = format!("constraint {}.distance(to: {}) = {{}}", a.path, b.path);
+                let value = Some(self.written(now));
+                return Some(Offer { label: "distance".into(), members, value, ..Offer::default() });
+            }
             // it is drawn as what it is
             let class = document.class_named("Distance")?;
             let name = recognise::free_name(self.state, &document.classes[class].name);
@@ -278,6 +297,9 @@ impl Offerer<'_> {
 
     /// Classes that say something of such things and draw nothing of their own.
     fn classes(&self, known: &[Offer]) -> Vec<Offer> {
+        if self.is_computed() {
+            return Vec::new();
+        }
         let document = &self.state.lowered.document;
         let classes = document.classes.iter();
         let made = classes.filter(|&(id, class)| {
@@ -288,7 +310,7 @@ impl Offerer<'_> {
         let mut offers: Vec<Offer> = Vec::new();
         for (id, class) in made {
             let label = words_of(&class.name);
-            if known.iter().chain(&offers).any(|offer| label.starts_with(&offer.label)) {
+            if known.iter().chain(&offers).any(|offer| says_the_same(&label, &offer.label)) {
                 continue;
             }
             let fields = document.layout(id);
@@ -344,11 +366,16 @@ impl Offerer<'_> {
 /// Documents of more numbers than this are offered what holds already.
 const MOST_TRIED: usize = 400;
 
-/// Leaves out what holds already, because something says so: adding it would leave as much free as before.
-pub(crate) fn new_ones(open: &Open, host: &dyn Host, mut offers: Vec<Offer>) -> Vec<Offer> {
+/// Takes apart what is new and what holds already, because something says so: adding that would leave as much free as
+/// before. Of the latter it returns what it is called.
+pub(crate) fn told_apart(
+    open: &Open,
+    host: &dyn Host,
+    mut offers: Vec<Offer>,
+) -> (Vec<Offer>, Vec<String>) {
     let state = &open.state;
     if state.structure.slots.len() > MOST_TRIED || open.pane.is_some() {
-        return offers;
+        return (offers, Vec::new());
     }
     let holds = |rules: &[&str]| {
         let Ok(terms) = plotting::read(state, host, rules) else { return false };
@@ -359,18 +386,37 @@ pub(crate) fn new_ones(open: &Open, host: &dyn Host, mut offers: Vec<Offer>) -> 
     let is_said = |offer: &Offer| {
         let rules: Option<Vec<&str>> =
             offer.members.lines().map(|line| line.strip_prefix("constraint ")).collect();
-        let Some(rules) = rules.filter(|_| offer.value.is_none()) else {
+        if offer.value.is_some() || offer.members.starts_with("merge ") {
             return false;
-        };
-        if !holds(&rules) {
+        }
+        // a thing that says something is tried, a rule first looked at
+        if rules.is_some_and(|rules| !holds(&rules)) {
             return false;
         }
         let mut trial = Open::of(&open.name, state.text.clone(), host);
         let added = apply::apply(&mut trial, host, &offer.command(None));
-        added.is_ok() && trial.status.freedom == open.status.freedom
+        added.is_ok()
+            && trial.status.satisfied
+            && trial.status.freedom == open.status.freedom
+            && is_unmoved(state, &trial.state)
     };
-    offers.retain(|offer| !is_said(offer));
-    offers
+    let held: Vec<bool> = offers.iter().map(is_said).collect();
+    let labels = offers.iter().zip(&held).filter(|(_, held)| **held).map(|(o, _)| o.label.clone());
+    let labels = labels.collect();
+    let mut of = held.iter();
+    offers.retain(|_| !of.next().copied().unwrap_or_default());
+    (offers, labels)
+}
+
+/// Whether every number that a state has is the same in another.
+fn is_unmoved(was: &State, is: &State) -> bool {
+    was.structure.slots.ids().all(|slot| {
+        let then = thing_at(is, &was.slot_path(slot)).and_then(|t| is.structure.slot_of(t));
+        then.is_none_or(|then| match (was.values.get(slot), is.values.get(then)) {
+            (kernel::Value::Number(a), kernel::Value::Number(b)) => base::number::close(a, b),
+            (a, b) => a.same_bits(&b),
+        })
+    })
 }
 
 /// An angle as a person writes it.
@@ -398,6 +444,13 @@ fn is_truth(term: &Term) -> bool {
         Term::If(_, one, other) => is_truth(one) && is_truth(other),
         _ => false,
     }
+}
+
+/// Whether what a class says is offered by another label: `tangent outside` is `tangent`, `equal radii` `equal radius`.
+fn says_the_same(label: &str, other: &str) -> bool {
+    const ENDING: usize = 2;
+    let stem = other.get(..other.len().saturating_sub(ENDING)).unwrap_or(other);
+    label.starts_with(other) || stem.contains(' ') && label.starts_with(stem)
 }
 
 /// A name as words: `isParallelogram` is `parallelogram`, `EqualRadii` is `equal radii`.

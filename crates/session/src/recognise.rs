@@ -145,9 +145,19 @@ pub(crate) fn free_name_in(state: &State, within: &Path, class: &Name) -> String
     let is_free = |name: &String| {
         let path = Path(vec![Step::Part(Name::new(name))]);
         let is_part = words::find(state, &within.join(&path)).is_ok();
-        Name::new(name) != *class && words::find(state, &path).is_err() && !is_part
+        Name::new(name) != *class && !is_taken(state, &path) && !is_part
     };
     { names }.find(is_free).unwrap_or_default()
+}
+
+/// Whether a path of the document leads to a part, or to what the document computes by that name.
+pub(crate) fn is_taken(state: &State, path: &Path) -> bool {
+    let document = &state.lowered.document;
+    let is_computed = match path.0.as_slice() {
+        [Step::Part(name)] => document.find_message(document.root, name, None).is_some(),
+        _ => false,
+    };
+    is_computed || words::find(state, path).is_ok()
 }
 
 /// A class's name as things are called: with a small first letter.

@@ -406,7 +406,7 @@ pub(crate) fn of_classes(text: &str) -> String {
 }
 
 /// What a text says of one of its things.
-fn member_of(text: &str, name: &str) -> String {
+pub(crate) fn member_of(text: &str, name: &str) -> String {
     let file = syntax::parse(base::FileId(0), text).file();
     let is_it = |m: &Member| match m {
         Member::Part(part) => part.names().any(|word| word.text() == name),

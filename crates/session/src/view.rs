@@ -207,7 +207,8 @@ pub enum Freedom {
 pub struct PictureView {
     /// What to paint.
     pub drawing: drawing::Drawing,
-    /// For every tag, the path of the thing that it pictures; of what a program drew, that of the entity.
+    /// For every tag, the path of the thing that it pictures; of what a program drew, that of the entity; of what the
+    /// document computes, its name.
     pub paths: Vec<String>,
     /// For every tag, the path of the thing whose program drew it, where one did.
     pub drawn_by: Vec<Option<String>>,
@@ -332,7 +333,7 @@ pub struct StructureRow {
 pub enum RowKind {
     /// The document or a part.
     Part,
-    /// What a program drew.
+    /// What a program drew, or the document computes.
     Virtual,
     /// A constraint.
     Constraint,

@@ -13,9 +13,11 @@ use crate::session::{parse_path, thing_at};
 use crate::state::State;
 use crate::view::{Choice, Question};
 use crate::{views, words};
-use base::Name;
+use base::{Name, Span};
 use kernel::{Command, Path};
 use std::collections::BTreeSet;
+use syntax::ast::{AstNode, Member};
+use syntax::edit::TextEdit;
 
 /// At most so many others are offered to be replaced.
 const MOST_REPLACED: usize = 4;
@@ -150,17 +152,50 @@ fn sources(state: &State) -> impl Iterator<Item = plan::Source> {
     (0u32..).take(state.structure.constraints.len()).map(plan::Source::Constraint)
 }
 
-/// What a constraint is called, with its rule where it has no name of its own.
+/// Returns the command that gives a dimension another value, where a constraint of the document says one already and
+/// that holds; nothing where it would be a new one, or contradict others.
+pub(crate) fn said_anew(open: &Open, host: &dyn Host, command: &Command) -> Option<Command> {
+    let Command::Edit { target, members } = command else { return None };
+    let (left, _) = members.strip_prefix("constraint ")?.split_once(" = ")?;
+    if !target.is_empty() || open.pane.is_some() || members.contains('\n') {
+        return None;
+    }
+    let text = &open.state.text;
+    let file = syntax::parse(base::FileId(0), text).file();
+    let rule = file.members().find_map(|member| match member {
+        Member::Constraint(constraint) => constraint.rule().filter(|rule| {
+            let said = rule.syntax().text().to_string();
+            said.split_once(" = ").is_some_and(|(other, _)| other.trim() == left)
+        }),
+        _ => None,
+    })?;
+    let range = rule.syntax().text_range();
+    let span = Span::new(range.start().into(), range.end().into());
+    let insert = members.strip_prefix("constraint ")?.to_string();
+    let edited = syntax::edit::apply(text, &[TextEdit { span, insert }]);
+    let mut trial = copy(open, host);
+    let command = Command::Text(edited);
+    apply::apply(&mut trial, host, &command).ok()?;
+    trial.status.satisfied.then_some(command)
+}
+
+/// What a constraint is called; its rule, where it has no name of its own.
 fn in_words(state: &State, name: &str) -> String {
     let is_it = |source: &plan::Source| {
         words::source_name(state, *source).is_some_and(|known| known == name)
     };
     let found = sources(state).find(is_it).and_then(|source| words::source_in_words(state, source));
-    found.unwrap_or_else(|| name.to_string())
+    let found = found.unwrap_or_else(|| name.to_string());
+    // a number says less than the rule after it
+    let rule = found.strip_prefix("constraint").and_then(|rest| rest.split_once(" ("));
+    match rule.filter(|(number, _)| number.chars().all(|c| c.is_ascii_digit())) {
+        Some((_, rule)) => rule.strip_suffix(')').unwrap_or(rule).to_string(),
+        None => found,
+    }
 }
 
 /// Returns the members of a dimension that only reads what another would set.
-fn reference(state: &State, members: &str) -> Option<String> {
+pub(crate) fn reference(state: &State, members: &str) -> Option<String> {
     let named = |class: &str| {
         state.lowered.document.class_named(class)?;
         Some(recognise::free_name(state, &Name::new(class)))
@@ -174,25 +209,22 @@ fn reference(state: &State, members: &str) -> Option<String> {
     }
     let rule = members.strip_prefix("constraint ")?;
     let (left, _) = rule.split_once(" = ")?;
-    if let Some((from, to)) = left.split_once(".angle(to: ") {
-        let (class, to) = ("ReferenceAngle", to.strip_suffix(')')?);
-        let new = named(class)?;
-        return Some(format!("{new}: {class}\nmerge {from} = {new}.from\nmerge {to} = {new}.to"));
+    // what is stored becomes one with the dimension's parts, what is computed is read
+    let between = |message: &str, class: &str| {
+        let (from, to) = left.split_once(message)?;
+        let to = to.strip_suffix(')')?;
+        Some(format!("{}: {class} {{ from = {from}  to = {to} }}", named(class)?))
+    };
+    let two = between(".angle(to: ", "ReferenceAngle")
+        .or_else(|| between(".distance(to: ", "ReferenceDistance"));
+    if two.is_some() {
+        return two;
     }
     let (whole, what) = left.rsplit_once('.')?;
-    match what {
-        "length" => {
-            let class = "ReferenceDistance";
-            let new = named(class)?;
-            Some(format!(
-                "{new}: {class}\nmerge {whole}.p1 = {new}.from\nmerge {whole}.p2 = {new}.to"
-            ))
-        }
-        "radius" => {
-            let class = "ReferenceRadius";
-            let new = named(class)?;
-            Some(format!("{new}: {class}\nmerge {whole} = {new}.circle"))
-        }
-        _ => None,
-    }
+    let (class, parts) = match what {
+        "length" => ("ReferenceDistance", format!("from = {whole}.p1  to = {whole}.p2")),
+        "radius" => ("ReferenceRadius", format!("circle = {whole}")),
+        _ => return None,
+    };
+    Some(format!("{}: {class} {{ {parts} }}", named(class)?))
 }

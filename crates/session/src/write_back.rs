@@ -84,8 +84,21 @@ pub(crate) fn write_back(
     }
 }
 
-/// Has the text give places as they are that gave way to what a hand has just said, so that they open as they
-/// are seen. Places that a class gives, and numbers that are no places, stay as they are written.
+/// Whether a number is how large something is drawn: a length that stands beside a place, as a radius beside a centre.
+fn is_size(state: &State, slot: SlotId) -> bool {
+    let structure = &state.structure;
+    let s = &structure.slots[slot];
+    let is_length = s.primitive == Primitive::Real(expr::Dimension::LENGTH);
+    let owner = structure.things[s.thing].owner.filter(|&owner| owner != kernel::DOCUMENT);
+    let document = &state.lowered.document;
+    is_length
+        && owner.is_some_and(|owner| {
+            structure.parts(owner).any(|part| document.is_place(structure.things[part].class))
+        })
+}
+
+/// Has the text give places, and sizes beside them, as they are that gave way to what a hand has just said, so that
+/// they open as they are seen. What a class gives, and other numbers, stay as they are written.
 pub(crate) fn settle_places(
     before: &State,
     state: State,
@@ -108,7 +121,8 @@ pub(crate) fn settle_places(
     };
     let is_told = |slot: &SlotId| {
         let s = &state.structure.slots[*slot];
-        s.place.is_some() && state.structure.given(*slot).is_some_and(|given| !given.of_class)
+        let is_own = state.structure.given(*slot).is_some_and(|given| !given.of_class);
+        is_own && (s.place.is_some() || is_size(&state, *slot))
     };
     let slots = state.gave_way.iter().map(|(slot, _)| *slot).filter(is_told);
     let units: BTreeSet<ThingId> = slots.map(|slot| unit_of_writing(&state, slot)).collect();

@@ -148,6 +148,13 @@ fn Open(lab: Lab, wish: Wish) -> impl IntoView {
         }
     };
     let name = label.clone();
+    let only_read = wish.with_value(|wish| match wish {
+        Wish::Dimension(offer) => {
+            lab.ask_of_shown(|session, id| session.only_read(id, offer)).flatten()
+        }
+        _ => None,
+    });
+    let only_read = StoredValue::new(only_read);
     view! {
         <div class="shade" on:pointerdown=move |_| lab.wish.set(None)>
             <div role="dialog" aria-modal="true" aria-label=name on:pointerdown=|e| e.stop_propagation()>
@@ -159,6 +166,12 @@ fn Open(lab: Lab, wish: Wish) -> impl IntoView {
                 {move || foreseen.get().filter(|_| error.with(Option::is_none)).map(|says| view! { <p class="quiet" aria-live="polite">{says}</p> })}
                 <p class="choices">
                     <button class="primary" type="submit">{words::DONE}</button>
+                    {only_read.get_value().map(|command| view! {
+                        <button type="button" title=words::ONLY_READ_HELP on:click=move |_| {
+                            lab.wish.set(None);
+                            lab.apply(&command);
+                        }>{words::ONLY_READ}</button>
+                    })}
                     <button type="button" on:click=move |_| lab.wish.set(None)>{words::CANCEL}</button>
                 </p>
             </form>

@@ -17,18 +17,23 @@ pub fn Strip(
     /// The lab.
     lab: Lab,
 ) -> impl IntoView {
-    let offers = Memo::new(move |_| {
+    let found = Memo::new(move |_| {
         let idle = lab.drafting.prompt.with(Option::is_none)
             && lab.tool.with(Option::is_none)
             && lab.dragging.with(Option::is_none);
-        if idle { lab.offers() } else { Vec::new() }
+        if idle { lab.offers_and_held() } else { Default::default() }
     });
+    let offers = Memo::new(move |_| found.with(|(offers, _)| offers.clone()));
+    let held = Memo::new(move |_| found.with(|(_, held)| held.clone()));
     view! {
-        <Show when=move || !offers.with(Vec::is_empty)>
+        <Show when=move || !(offers.with(Vec::is_empty) && held.with(Vec::is_empty))>
             <div class="strip" role="toolbar" aria-label=words::CONSTRAIN
                 on:pointerleave=move |_| lab.foresee(None)>
                 <For each=move || offers.get() key=key let(offer)>
                     <Button lab=lab offer=offer />
+                </For>
+                <For each=move || held.get() key=Clone::clone let(label)>
+                    <span class="held" title=words::HOLDS_ALREADY>"✓ "{label}</span>
                 </For>
                 <button data-action="class-of" title=words::CLASS_OF
                     on:click=move |_| actions::run(actions::named("class-of"), lab)>{words::CLASS}</button>
@@ -72,6 +77,11 @@ fn to_read(value: &str) -> String {
 impl Lab {
     /// What can be said of the selection; nothing of constraints.
     pub fn offers(self) -> Vec<Offer> {
+        self.offers_and_held().0
+    }
+
+    /// The same, and in words what is true of the selection already.
+    fn offers_and_held(self) -> (Vec<Offer>, Vec<String>) {
         let selection = self.selection();
         let is_said = self.structure.with(|rows| {
             selection.iter().any(|path| {
@@ -81,8 +91,10 @@ impl Lab {
         let paths: Option<Vec<_>> =
             selection.iter().map(|path| session::parse_path(path)).collect();
         match (self.document.with(|d| d.as_ref().map(|d| d.id)), paths) {
-            (Some(id), Some(paths)) if !is_said => self.ask(|session| session.offers(id, &paths)),
-            _ => Vec::new(),
+            (Some(id), Some(paths)) if !is_said => {
+                self.ask(|session| session.offers_and_held(id, &paths))
+            }
+            _ => Default::default(),
         }
     }
 
@@ -128,7 +140,8 @@ impl Lab {
         };
         let command = said?;
         Ok(match offer.deed {
-            Deed::Add => self.apply(&command),
+            Deed::Add if !matches!(command, Command::Text(_)) => self.apply(&command),
+            Deed::Add => self.apply_called(&command, &offer.label),
             Deed::Round(_) | Deed::InLines(_) => self.apply_called(&command, &offer.label),
         })
     }

@@ -3,8 +3,8 @@
 //! Whatever a class answers to itself is a construction, and so is what its things answer by making another of
 //! their kind. A new one in a library is a new tool.
 
-use super::Home;
 use super::view::ConstructionRow;
+use super::{Home, synonyms};
 use crate::recognise;
 use crate::state::State;
 use base::Name;
@@ -183,6 +183,7 @@ impl Tool {
             label: self.label.clone(),
             operands: slots.join(", "),
             doc: self.doc.clone(),
+            also: synonyms::of(&self.id),
         }
     }
 }

@@ -192,12 +192,15 @@ impl Session {
     /// There is none of that name in scope.
     pub fn begin(&mut self, id: DocumentId, tool: &str) -> Result<Prompt, Refusal> {
         let open = self.document_mut(id);
-        not_in_a_pane(open)?;
         blocks::settle(open);
         let home = home(open);
         let found = catalogue::tool(&open.state, &home, tool);
         let found =
             found.ok_or_else(|| words::refuse(format!("there is no construction {tool}")))?;
+        if open.state.lowered.document.class_named(&found.class).is_none() {
+            // a class has no word for sets of figures
+            not_in_a_pane(open)?;
+        }
         let is_guide = open.dialogue.as_ref().is_some_and(|d| d.is_guide && d.goal.is_none());
         let goal = match open.dialogue.take() {
             Some(waiting) if waiting.is_begun && fits_slot(&open.state, &found, &waiting) => {
@@ -257,6 +260,7 @@ impl Session {
     pub fn point(&mut self, id: DocumentId, pointer: &Pointer) -> Result<Turn, Refusal> {
         let (open, beside) = self.beside_others(id);
         let turn = pointed(open, &beside, pointer)?;
+        let turn = self.said_of_class(id, turn)?;
         Ok(self.reached(id, turn))
     }
 
@@ -267,6 +271,7 @@ impl Session {
     pub fn enter(&mut self, id: DocumentId, typed: &str) -> Result<Turn, Refusal> {
         let (open, beside) = self.beside_others(id);
         let turn = entered(open, &beside, typed)?;
+        let turn = self.said_of_class(id, turn)?;
         Ok(self.reached(id, turn))
     }
 
@@ -278,6 +283,21 @@ impl Session {
         let (open, beside) = self.beside_others(id);
         let turn = answered(open, &beside, (None, None))?;
         Ok(self.reached(id, turn))
+    }
+
+    /// Says of a class what was drawn in a pane that shows its prototype: the pane alone has it so far.
+    fn said_of_class(&mut self, id: DocumentId, turn: Turn) -> Result<Turn, Refusal> {
+        if self.document(id).pane.is_none() {
+            return Ok(turn);
+        }
+        let Turn::Made { name, text, next, .. } = turn else { return Ok(turn) };
+        let members = crate::tools::member_of(&self.document(id).state.text, &name);
+        let command = Command::Edit { target: kernel::Path::default(), members };
+        let carried = self.apply_in_pane(id, &command);
+        if carried.is_err() {
+            self.renew_pane(id);
+        }
+        Ok(Turn::Made { change: Box::new(carried?), name, text, next })
     }
 
     pub(super) fn reached(&mut self, id: DocumentId, turn: Turn) -> Turn {

@@ -42,6 +42,8 @@ pub(crate) fn line(
             let operands: Vec<String> = operands.iter().map(|o| o.text.clone()).collect();
             let text = match dialogue.tool.call {
                 Call::Placed => dialogue.tool.thing(&name, &operands),
+                // things of a class draw their parts: there it is one that is bound
+                _ if open.pane.is_some() => format!("{name}: {} = {made}", dialogue.tool.class),
                 Call::Class(_) | Call::Make | Call::Message(_) | Call::Pattern(_) | Call::Value => {
                     format!("{name} => {made}")
                 }

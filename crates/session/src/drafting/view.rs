@@ -15,6 +15,8 @@ pub struct ConstructionRow {
     pub operands: String,
     /// What the library says of it.
     pub doc: String,
+    /// Other words by which it is found: those of textbooks.
+    pub also: &'static str,
 }
 
 /// What is waited for: an operand of a construction, an answer, a condition.

@@ -1,5 +1,6 @@
 //! What a pointer finds for a place: a part to join, a midpoint, a line to lie on, a level to keep.
 
+use crate::by_hand::class_at;
 use crate::joining;
 use crate::session::{parse_path, thing_at};
 use crate::state::State;
@@ -96,9 +97,8 @@ fn at_shape(sight: &Sight<'_>, pointer: &Pointer) -> Option<Catch> {
     let mut nearest: Option<(f64, Catch)> = None;
     for element in &sight.picture.drawing.elements {
         let Some(path) = sight.picture.paths.get(element.tag.0 as usize) else { continue };
-        let thing = parse_path(path).and_then(|path| thing_at(sight.state, &path));
-        let Some(thing) = thing else { continue };
-        let class = sight.state.structure.things[thing].class;
+        let class = parse_path(path).and_then(|path| class_of(sight.state, &path));
+        let Some(class) = class else { continue };
         let answers = |name: &str| document.find_message(class, &Name::new(name), None).is_some();
         let foot = match &element.shape {
             Shape::Segment(a, b) => {
@@ -112,6 +112,15 @@ fn at_shape(sight: &Sight<'_>, pointer: &Pointer) -> Option<Catch> {
                 on_segment(pointer.at, *a, *b)
             }
             Shape::Circle { center, radius } => on_circle(pointer.at, *center, *radius),
+            // a point that a construction makes
+            Shape::Dot(p) if document.is_place(class) => {
+                if hypot(p.x - x, p.y - y) > pointer.reach {
+                    continue;
+                }
+                let rules = vec![format!("{} = {path}", sight.own)];
+                let word = Some(format!("at {path}"));
+                return Some(Catch { rules, word, ..Catch::at((p.x, p.y)) });
+            }
             Shape::Dot(_)
             | Shape::Polyline { .. }
             | Shape::Arc { .. }
@@ -129,6 +138,12 @@ fn at_shape(sight: &Sight<'_>, pointer: &Pointer) -> Option<Catch> {
         }
     }
     nearest.map(|(_, catch)| catch)
+}
+
+/// The class of a thing or of what the document computes; what a program drew is not looked for, pointer by pointer.
+fn class_of(state: &State, path: &Path) -> Option<ClassId> {
+    let is_near = path.0.len() == 1 || thing_at(state, path).is_some();
+    is_near.then(|| class_at(state, path)).flatten()
 }
 
 /// The foot of a place on a segment, where that lies between its ends.
@@ -168,8 +183,7 @@ fn shapes<'s>(
 ) -> impl Iterator<Item = (&'s Shape, &'s String)> {
     let document = &sight.state.lowered.document;
     let answers = move |path: &String| {
-        let thing = parse_path(path).and_then(|path| thing_at(sight.state, &path));
-        let class = thing.map(|thing| sight.state.structure.things[thing].class);
+        let class = parse_path(path).and_then(|path| class_of(sight.state, &path));
         class.is_some_and(|c| document.find_message(c, &Name::new(message), None).is_some())
     };
     let elements = sight.picture.drawing.elements.iter();

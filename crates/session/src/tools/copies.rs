@@ -5,6 +5,7 @@
 
 use super::{member_of, of_classes};
 use crate::apply;
+use crate::by_hand::class_at;
 use crate::document::Open;
 use crate::drag;
 use crate::host::Host;
@@ -81,11 +82,11 @@ pub(crate) fn copied(state: &State, paths: &[Path], relations: Relations) -> Res
     let document = &state.lowered.document;
     let mut things: Vec<(Name, Name)> = Vec::new();
     for path in paths {
-        let ([Step::Part(name)], Some(thing)) = (path.0.as_slice(), thing_at(state, path)) else {
+        let ([Step::Part(name)], Some(class)) = (path.0.as_slice(), class_at(state, path)) else {
             let message = format!("{path} is a part: copy the whole that it is a part of");
             return Err(words::refuse(message));
         };
-        let class = document.named_class(state.structure.things[thing].class);
+        let class = document.named_class(class);
         things.push((name.clone(), document.classes[class].name.clone()));
     }
     if things.is_empty() {
@@ -112,6 +113,11 @@ pub(crate) fn copied(state: &State, paths: &[Path], relations: Relations) -> Res
                     return Err(words::refuse(message));
                 }
                 (true, count > 0)
+            }
+            // what is computed is copied with what it is computed from, or speaks of the same as before
+            Member::Message(message) => {
+                let name = message.name().map(|word| word.text().to_string());
+                (false, name.is_some_and(|name| is_copied(&name)))
             }
             Member::Constraint(_) | Member::Merge(_) | Member::Anchor(_) | Member::Stay(_) => {
                 let is_wanted = match relations {
@@ -149,7 +155,7 @@ fn heads(text: &str, state: &State) -> BTreeMap<Span, Name> {
         file.map(|(_, file)| file.text.to_string())
     };
     let head = |mention: Mention| match (mention.meant, mention.path.0.as_slice()) {
-        (Meant::Part, [Step::Part(name)]) => Some((mention.span, name.clone())),
+        (Meant::Part | Meant::Message, [Step::Part(name)]) => Some((mention.span, name.clone())),
         _ => None,
     };
     lang::mentions(text, &load).into_iter().filter_map(head).collect()
@@ -227,7 +233,7 @@ fn free_names(state: &State, things: &[(Name, Name)]) -> BTreeMap<Name, String> 
     let mut names = BTreeMap::new();
     let is_free = |name: &str, taken: &BTreeSet<String>| {
         let path = Path(vec![Step::Part(Name::new(name))]);
-        !taken.contains(name) && words::find(state, &path).is_err()
+        !taken.contains(name) && !recognise::is_taken(state, &path)
     };
     for (name, class) in things {
         let first = recognise::free_name(state, class);

@@ -155,7 +155,21 @@ impl Shown {
             times: self.times,
         };
         self.tag_entities(&mut view);
+        self.tag_computed(&mut view);
         view
+    }
+
+    /// Gives what the document computes tags of their own, so that each is picked by its name.
+    fn tag_computed(&self, view: &mut PictureView) {
+        for (name, elements) in self.scene.computed() {
+            let Some(&first) = elements.first() else { continue };
+            let freedom = view.freedom[view.drawing.elements[first as usize].tag.0 as usize];
+            let tag = drawing::Tag(view.paths.len() as u32);
+            elements.iter().for_each(|&at| view.drawing.elements[at as usize].tag = tag);
+            view.paths.push(name.to_string());
+            view.drawn_by.push(None);
+            view.freedom.push(freedom);
+        }
     }
 
     /// Gives what programs drew tags of their own, entity by entity: they are drawn in the order of the run.

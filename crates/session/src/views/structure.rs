@@ -56,6 +56,9 @@ impl Work {
                 Open::Own(thing, depth) => {
                     maker.own(thing, depth);
                     maker.add_drawn(thing, depth);
+                    if thing == kernel::DOCUMENT {
+                        maker.add_computed(depth);
+                    }
                 }
                 Open::Shut(at) => maker.shut(at),
             }

@@ -3,6 +3,7 @@ mod by_hand;
 mod choosing;
 mod classing;
 mod completing;
+mod constructed;
 mod copying;
 mod demonstrations;
 mod desk;

@@ -166,3 +166,29 @@ fn a_rectangle_becomes_its_four_lines() {
     let spoken = Desk::of("use geometry\nr: Rectangle\np: Point\nconstraint p = r.center\n");
     assert!(labels(&spoken, &["r"]).iter().all(|label| label != "four lines"));
 }
+
+#[test]
+fn what_a_class_has_said_is_not_offered_again() {
+    let mut desk = Desk::of(FIGURE);
+    take(&mut desk, &["a.p1", "a.p2", "b"], "symmetric points", None);
+    let again = labels(&desk, &["a.p1", "a.p2", "b"]);
+    assert!(!again.contains(&"symmetric points".into()), "{again:?}");
+    assert!(!labels(&desk, &["c", "d"]).contains(&"equal radii".into()));
+}
+
+#[test]
+fn radii_that_a_hand_makes_equal_are_given_so() {
+    let mut desk = Desk::of(FIGURE);
+    take(&mut desk, &["c", "d"], "equal radius", None);
+    assert_eq!(desk.wrong(), [], "{}", desk.text());
+    assert!(desk.text().contains("radius = 25"), "{}", desk.text());
+}
+
+#[test]
+fn a_dimension_that_is_said_already_is_given_another_value() {
+    let mut desk = Desk::of(FIGURE);
+    take(&mut desk, &["a"], "length", Some("120"));
+    take(&mut desk, &["a"], "length", Some("90"));
+    assert_eq!(desk.text().matches("a.length").count(), 1, "{}", desk.text());
+    assert!(desk.text().contains("constraint a.length = 90"), "{}", desk.text());
+}

@@ -20,8 +20,8 @@ pub fn Constructions(
     let found = Memo::new(move |_| {
         let wanted = wanted.get().to_lowercase();
         let fits = |row: &ConstructionRow| {
-            let text =
-                format!("{} {} {} {}", row.label, row.id, row.operands, row.doc).to_lowercase();
+            let text = [&row.label, &row.id, &row.operands, &row.doc, row.also].join(" ");
+            let text = text.to_lowercase();
             wanted.split_whitespace().all(|word| text.contains(word))
         };
         all.with(|all| all.iter().filter(|row| fits(row)).cloned().collect::<Vec<_>>())
@@ -32,7 +32,8 @@ pub fn Constructions(
         let rank = |row: &ConstructionRow| match row.id.to_lowercase() == wanted {
             true => 0,
             false if row.label.to_lowercase().starts_with(&wanted) => 1,
-            false => 2,
+            false if row.also.contains(&wanted) => 2,
+            false => 3,
         };
         let first =
             found.with(|rows| rows.iter().min_by_key(|row| rank(row)).map(|r| r.id.clone()));
@@ -67,6 +68,9 @@ pub fn Constructions(
         <input type="search" name="construction" placeholder=words::FILTER aria-label=words::FILTER_CONSTRUCTIONS
             title=words::FILTER_HELP
             on:input=move |e| wanted.set(event_target_value(&e)) on:keydown=key />
+        <Show when=move || found.with(Vec::is_empty)>
+            <p class="quiet">{words::NO_CONSTRUCTION}</p>
+        </Show>
         {shelves}
     }
 }

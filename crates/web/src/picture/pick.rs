@@ -1,4 +1,4 @@
-//! What lies under the pointer: grips first, then lines and curves.
+//! What lies under the pointer: grips first, then other points, words, lines and curves.
 
 use crate::sheet::View;
 use drawing::{Element, Placement, Point, Shape};
@@ -28,6 +28,15 @@ pub(super) fn pick(
             Some(None) | None => path.clone(),
         })
     };
+    // a point that nothing grips: a construction makes it
+    let dots = picture.drawing.elements.iter().filter_map(|element| match element.shape {
+        Shape::Dot(q) => Some((distance(p, q), element)),
+        _ => None,
+    });
+    let dot = dots.filter(|(d, _)| *d <= reach).min_by(|a, b| a.0.total_cmp(&b.0));
+    if let Some((_, dot)) = dot {
+        return picked(dot);
+    }
     if let Some(word) = word_at(picture, view, at) {
         return picked(word);
     }
@@ -201,6 +210,28 @@ mod tests {
         assert_eq!(at(60.0, 5.0), Some(String::from("line")));
         assert_eq!(at(60.0, 15.0), None);
     }
+
+    #[test]
+    fn a_point_that_a_construction_makes_is_picked() {
+        let dot = |tag, x| Element {
+            shape: Shape::Dot(AT(x, 0.0)),
+            style: Style::default(),
+            layer: Layer::Points,
+            tag: Tag(tag),
+        };
+        let picture = PictureView {
+            drawing: Drawing { elements: vec![dot(0, 0.0), dot(1, 40.0)], ..Drawing::default() },
+            paths: vec![String::from("foot"), String::from("middle")],
+            drawn_by: vec![None, None],
+            freedom: vec![None, None],
+            ..PictureView::default()
+        };
+        let at = |x, y| pick(&picture, &View::default(), (x, y), (10.0, None));
+        assert_eq!(at(4.0, 3.0), Some(String::from("foot")));
+        assert_eq!(at(33.0, 0.0), Some(String::from("middle")));
+        assert_eq!(at(20.0, 0.0), None);
+    }
+
     #[test]
     fn picking_again_goes_in_and_outwards() {
         let entity = "rings.column[2].ring";

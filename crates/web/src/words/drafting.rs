@@ -20,3 +20,5 @@ pub const TURN_STEP: &str = "Turn round: it runs the other way";
 pub const SAVE_VALUES: &str = "Save values";
 /// Reads values of the parameters.
 pub const LOAD_VALUES: &str = "Load values";
+/// Nothing is found by what was typed.
+pub const NO_CONSTRUCTION: &str = "No construction has these words.";

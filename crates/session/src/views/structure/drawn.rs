@@ -1,4 +1,5 @@
-//! The rows of what a program drew: its steps, their turns and entities, and the values of these.
+//! The rows of what is drawn and not stored: of a program its steps, their turns and entities, and the values of these;
+//! of the document what it computes, as by a construction.
 
 use super::Maker;
 use crate::state::State;
@@ -31,6 +32,39 @@ impl<'m> Maker<'m> {
         let path = state.structure.path(&state.lowered.document, thing).to_string();
         let most = self.work.rows.len() + MOST_ROWS;
         self.steps(&run, &path, depth, most);
+    }
+
+    /// Adds the rows of what the document computes that is drawn with its parts.
+    pub(super) fn add_computed(&mut self, depth: u32) {
+        let state = self.state;
+        let evaluator = state.evaluator(self.values);
+        let class = state.structure.things[kernel::DOCUMENT].class;
+        for name in evaluator.computed_figures(kernel::DOCUMENT) {
+            let path = kernel::Path(vec![kernel::Step::Part(name.clone())]);
+            let answer = evaluator.at(&path);
+            // what cannot be made now has a row as well, so that it can be looked at and deleted
+            let place = Place {
+                path: &name,
+                name: name.to_string(),
+                depth,
+                standing: Standing::Result,
+                said: self.message(class, &name),
+            };
+            let most = self.work.rows.len() + MOST_ROWS;
+            match answer {
+                Ok(answer) => self.entity(&answer, &place, most),
+                Err(fault) => self.failed(&place, &fault.message),
+            }
+        }
+    }
+
+    /// Adds the row of what cannot be made.
+    fn failed(&mut self, place: &Place<'_>, why: &str) {
+        let origin = place.said.map_or(OriginId(0), |message| message.origin);
+        let (path, name) = (place.path.into(), place.name.clone());
+        let mut row = self.row(path, place.depth, RowKind::Virtual, name, origin);
+        row.detail = why.into();
+        self.work.rows.push(row);
     }
 
     /// Adds the rows of the steps of a program or a turn.

@@ -1,0 +1,60 @@
+//! Other words for constructions: those of textbooks and of other programs, by which each is found too.
+
+/// Constructions, or the beginnings of what they are begun by, with other words for them.
+const ALSO: &[(&str, &str)] = &[
+    ("Arc.fillet", "fillet round corner blend"),
+    ("Arc.through", "three points circular arc"),
+    ("Arc:trimmed", "trim cut"),
+    ("Axis.bisector", "angle bisector halving angles"),
+    ("Axis.directed", "line at an angle ray slope"),
+    ("Axis.equidistant", "perpendicular bisector mediator midperpendicular"),
+    ("Axis.horizontal", "guide construction line"),
+    ("Axis.parallel", "parallel line offset"),
+    ("Axis.perpendicular", "perpendicular normal orthogonal altitude"),
+    ("Axis.tangent", "tangent"),
+    ("Axis.vertical", "guide construction line"),
+    ("Circle.around", "circle with center compass radius point"),
+    ("Circle.concentric", "concentric offset circle"),
+    ("Circle.tangent(first,second,third)", "incircle inscribed circle apollonius"),
+    ("Circle.tangent", "tangent circle"),
+    ("Circle.through(first,second,third)", "circumcircle circumscribed nine-point"),
+    ("ClockwiseArc.fillet", "fillet round corner blend"),
+    ("ClockwiseArc.through", "three points circular arc"),
+    ("Circle:at", "point on circle angle"),
+    ("Line.chamfer", "chamfer bevel"),
+    ("Line.parallel", "parallel offset"),
+    ("Line.perpendicular", "perpendicular altitude height normal orthogonal drop"),
+    ("Line.polar", "segment with given length and angle vector ray"),
+    ("Line.tangent", "tangent"),
+    ("Point.dividing", "ratio division section"),
+    ("Point.intersection", "intersect crossing meet orthocenter"),
+    ("Point.middle", "midpoint center middle"),
+    ("Point.polar", "polar coordinates distance and angle"),
+    ("Point.projection", "foot of the perpendicular altitude project closest nearest"),
+    ("Point:halfway", "midpoint middle"),
+    ("Point:mirrored", "reflect reflection mirror flip symmetric"),
+    ("Point:scaled", "scale dilate enlarge homothety"),
+    ("Point:turned", "rotate rotation turn"),
+    (":moved", "translate translation move shift"),
+    (":pattern(about,", "circular array polar array repeat"),
+    (":pattern(by,", "linear array row repeat copies"),
+];
+
+/// Returns other words for what a construction is begun by; of two that fit, the longer beginning counts.
+pub(super) fn of(construction: &str) -> &'static str {
+    let fits = ALSO.iter().filter(|(begins, _)| construction.starts_with(begins));
+    fits.max_by_key(|(begins, _)| begins.len()).map_or("", |(_, words)| words)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::of;
+
+    #[test]
+    fn the_words_of_textbooks_lead_to_constructions() {
+        assert!(of("Axis.equidistant(first,second)").contains("perpendicular bisector"));
+        assert!(of("Circle.tangent(first,second,third)").contains("incircle"));
+        assert!(of("Circle.tangent(first,second,radius)").contains("tangent"));
+        assert_eq!(of("Gear.of(teeth)"), "");
+    }
+}

@@ -1,0 +1,161 @@
+//! What constructions make in a document: it is seen in every view, picked, spoken of, copied, put into classes; and a
+//! class takes constructions as the document does.
+
+use crate::desk::{Desk, at};
+use session::drafting::view::Turn;
+use session::view::{ClassPlan, Pointer, RowKind};
+use session::{Command, Path, Relations};
+
+/// A triangle with the foot of an altitude, a segment to it, and a circle.
+const ALTITUDE: &str = "\
+use geometry
+base: Line { p1 = (0, 0)  p2 = (100, 0) }
+side: Line { p2 = (30, 80) }
+merge base.p2 = side.p1
+foot => Point.projection(of: side.p2, onto: base)
+altitude => Line.perpendicular(from: side.p2, to: base)
+ring => Circle.through(base.p1, base.p2, side.p2)
+";
+
+fn paths(names: &[&str]) -> Vec<Path> {
+    names.iter().map(|name| at(name)).collect()
+}
+
+fn labels(desk: &Desk, names: &[&str]) -> Vec<String> {
+    let offers = desk.session.offers(desk.id, &paths(names)).into_iter();
+    offers.map(|offer| offer.label).collect()
+}
+
+#[test]
+fn each_figure_is_picked_by_its_name_and_has_rows() {
+    let desk = Desk::of(ALTITUDE);
+    let picture = desk.session.picture(desk.id);
+    let tagged = |name: &str| {
+        let tags: Vec<usize> = picture.drawing.elements.iter().map(|e| e.tag.0 as usize).collect();
+        tags.into_iter().filter(|&tag| picture.paths[tag] == name).count()
+    };
+    assert_eq!(["foot", "altitude", "ring"].map(tagged), [1, 1, 1]);
+    let rows = desk.session.structure(desk.id);
+    let row = |path: &str| rows.iter().find(|row| row.path == path).expect("it has a row");
+    assert_eq!((row("foot").kind, row("foot").value.as_deref()), (RowKind::Virtual, Some("(30, 0)")));
+    assert_eq!((row("ring").depth, row("ring").detail.as_str()), (1, "Circle"));
+    assert_eq!(row("ring.center").value.as_deref(), Some("(50, 26.875)"));
+}
+
+#[test]
+fn what_cannot_be_made_now_has_a_row_that_says_why() {
+    let desk = Desk::of("use geometry\na: Axis\nb: Axis\nx => Point.intersection(a, b)\n");
+    let rows = desk.session.structure(desk.id);
+    let row = rows.iter().find(|row| row.path == "x").expect("it can be deleted there");
+    assert!(row.value.is_none() && !row.detail.is_empty(), "{row:?}");
+}
+
+#[test]
+fn figures_are_spoken_of_measured_and_not_merged() {
+    let mut desk = Desk::of(ALTITUDE);
+    let two = labels(&desk, &["foot", "base.p1"]);
+    assert!(two.contains(&"distance".into()) && !two.contains(&"merge".into()), "{two:?}");
+    assert!(labels(&desk, &["altitude", "side"]).contains(&"equal length".into()));
+    let offers = desk.session.offers(desk.id, &paths(&["foot", "base.p1"]));
+    let distance = offers.iter().find(|o| o.label == "distance").expect("it is offered");
+    let read = desk.session.only_read(desk.id, distance).expect("there is such a dimension");
+    desk.apply(&read).expect("it can be read");
+    assert_eq!(desk.number("referenceDistance.reading"), 30.0);
+    let held = desk.session.said(desk.id, distance, Some("40")).expect("it fits");
+    desk.apply(&held).expect("it can be said");
+    assert!(desk.session.status(desk.id).satisfied, "{}", desk.text());
+    assert_eq!(desk.number("referenceDistance.reading"), 40.0);
+}
+
+#[test]
+fn a_point_that_is_drawn_lies_at_a_constructed_one() {
+    let mut desk = Desk::of(ALTITUDE);
+    let pointer = Pointer { at: (31.0, 1.0), reach: 5.0, ..Pointer::default() };
+    desk.session.take_tool(desk.id, "Point").expect("geometry has points");
+    desk.session.tool_moved(desk.id, &pointer);
+    let view = desk.session.tool_set(desk.id, &pointer).expect("it can be there");
+    desk.apply(&view.command.expect("one place makes it")).expect("it can be made");
+    assert!(desk.text().contains("constraint point = foot"), "{}", desk.text());
+}
+
+#[test]
+fn a_tool_names_its_thing_otherwise_than_a_construction() {
+    let mut desk = Desk::of("use geometry\nc: Circle\npoint => Point.middle(c.center, c.center)\n");
+    desk.session.take_tool(desk.id, "Point").expect("geometry has points");
+    let pointer = Pointer { at: (7.0, 9.0), reach: 1.0, ..Pointer::default() };
+    let view = desk.session.tool_set(desk.id, &pointer).expect("it can be there");
+    assert_eq!(view.makes, "point2");
+    desk.apply(&view.command.expect("one place makes it")).expect("it can be made");
+    assert_eq!(desk.wrong(), []);
+}
+
+#[test]
+fn figures_go_along_when_all_is_dragged_copied_or_deleted() {
+    let mut desk = Desk::of(ALTITUDE);
+    let all = paths(&["base", "side", "foot", "altitude", "ring"]);
+    desk.session.press_all(desk.id, &all).expect("they move together");
+    desk.session.drag(desk.id, (10.0, 5.0));
+    desk.session.release(desk.id).expect("they can be there");
+    assert_eq!(desk.place("foot"), (40.0, 5.0));
+    let clip = desk.session.copied(desk.id, &all, Relations::Own).expect("they stand alone");
+    let (command, names) = desk.session.pasting(desk.id, &clip, 1).expect("they can stand here");
+    assert_eq!(names, ["line", "line2", "point", "line3", "circle"]);
+    desk.apply(&command).expect("they can be made");
+    assert!(desk.text().contains("point => Point.projection(of: line2.p2, onto: line)"), "{}", desk.text());
+    assert_eq!(desk.place("point"), (60.0, 25.0));
+    desk.apply(&Command::Delete(at("foot"))).expect("it can go");
+    assert!(!desk.text().contains("foot"), "{}", desk.text());
+}
+
+#[test]
+fn a_class_of_a_construction_draws_it() {
+    let mut desk = Desk::of(ALTITUDE);
+    let all = paths(&["base", "side", "foot", "ring", "altitude"]);
+    let scopes = Vec::new();
+    let plan = ClassPlan { name: "Tent".into(), scopes, attachers: Vec::new() };
+    let (command, name) = desk.session.class_of(desk.id, &all, &plan).expect("they are its parts");
+    desk.apply(&command).expect("it can be made");
+    let text = desk.text();
+    assert!(text.contains("foot: Point = Point.projection(of: side.p2, onto: base)"), "{text}");
+    assert_eq!(desk.place(&format!("{name}.foot")), (30.0, 0.0));
+    assert!(desk.session.status(desk.id).satisfied, "{text}");
+}
+
+#[test]
+fn a_class_takes_constructions_in_its_own_pane() {
+    let text = "use geometry\nclass Tent {\n    base: Line { p1 = (0, 0)  p2 = (100, 0) }\n    \
+                side: Line { p2 = (30, 80) }\n    merge base.p2 = side.p1\n}\na: Tent\n\
+                b: Tent { base.p1 = (0, 200)  base.p2 = (100, 200)  side.p2 = (60, 260) }\n";
+    let mut desk = Desk::of(text);
+    let pane = desk.session.open_prototype(desk.id, "Tent").expect("it is declared");
+    let point = |desk: &mut Desk, x: f64, y: f64| {
+        let pointer = Pointer { at: (x, y), reach: 3.0, ..Pointer::default() };
+        desk.session.point(pane, &pointer).expect("something fits there")
+    };
+    desk.session.begin(pane, "Point.projection(of,onto)").expect("it is in scope");
+    point(&mut desk, 30.0, 80.0);
+    let turn = point(&mut desk, 60.0, 0.0);
+    assert!(matches!(turn, Turn::Made { next: Some(_), .. }), "{turn:?}");
+    let wanted = "point: Point = Point.projection(of: side.p2, onto: base)";
+    assert!(desk.text().contains(wanted), "{}", desk.text());
+    assert_eq!(desk.place("a.point"), (30.0, 0.0));
+    assert_eq!(desk.place("b.point"), (60.0, 200.0));
+    // the next one goes on from what the class has now
+    desk.session.begin(pane, "Point.middle(first,second)").expect("it is in scope");
+    point(&mut desk, 30.0, 0.0);
+    point(&mut desk, 30.0, 80.0);
+    assert!(desk.text().contains("point2: Point = Point.middle(point, side.p2)"), "{}", desk.text());
+    desk.undo();
+    desk.undo();
+    assert_eq!(desk.text(), text);
+}
+
+#[test]
+fn what_follows_already_is_told_and_not_offered() {
+    let desk = Desk::of(ALTITUDE);
+    let told = |names: &[&str]| desk.session.offers_and_held(desk.id, &paths(names));
+    let (offers, held) = told(&["foot", "base"]);
+    assert_eq!(held, ["on"]);
+    assert!(offers.iter().all(|offer| offer.label != "on"), "{offers:?}");
+    assert_eq!(told(&["altitude", "base"]).1, ["perpendicular"]);
+}

@@ -1,0 +1,22 @@
+//! What the page says to hands that build.
+
+/// Nothing is on the sheet yet.
+pub const EMPTY_SHEET: &str = "The sheet is empty. Draw with a tool of the rail, take a part out of the bin, or choose a construction under Draw.";
+/// A dimension that only reads.
+pub const ONLY_READ: &str = "Only read it";
+/// What that does.
+pub const ONLY_READ_HELP: &str = "A reference dimension: it shows the value in parentheses and sets nothing";
+/// The value of what is one itself.
+pub const VALUE: &str = "value";
+/// What the strip says of a check mark.
+pub const HOLDS_ALREADY: &str = "it is so already: something says it, or it follows";
+
+/// The palette's words for the tool that places things of a class.
+pub fn place_one(class: &str) -> String {
+    format!("Place: {class}")
+}
+
+/// Of several selected things, the one that the inspector shows.
+pub fn first_of_several(path: &str, class: &str) -> String {
+    format!("the first: {path}, {class}")
+}
