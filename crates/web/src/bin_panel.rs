@@ -4,7 +4,7 @@ use crate::js::Painter;
 use crate::lab::Lab;
 use crate::paint::{Part, display_list};
 use crate::picture::{new_painter, paint};
-use crate::sheet::fit;
+use crate::sheet::{fit, with_words};
 use crate::{icons, words};
 use leptos::html::Canvas;
 use leptos::prelude::*;
@@ -30,7 +30,10 @@ pub fn Bin(
         };
         entries.with(|all| all.iter().filter(|entry| has(entry)).cloned().collect::<Vec<_>>())
     });
-    let shelves = Memo::new(move |_| found.with(|found| shelved(found)));
+    let shelves = Memo::new(move |_| {
+        let is_filtered = wanted.with(|wanted| !wanted.is_empty());
+        found.with(|found| shelved(found, is_filtered))
+    });
     let libraries = Memo::new(move |_| {
         let text = lab.text.with(|text| text.source.clone());
         let used = |name: &String| text.lines().any(|line| line.trim() == format!("use {name}"));
@@ -80,11 +83,11 @@ pub fn Bin(
                 e.prevent_default();
                 e.stop_propagation();
             }>
-                <For each=move || shelves.get() key=|shelf| (shelf.0.clone(), shelf.1, shelf.2.len()) let(shelf)>
-                    <details open>
-                        <summary>{if shelf.0.is_empty() { String::from(words::OWN_CLASSES) } else { shelf.0.clone() }}</summary>
+                <For each=move || shelves.get() key=|shelf| (shelf.name.clone(), shelf.first, shelf.entries.len(), shelf.is_open) let(shelf)>
+                    <details open=shelf.is_open>
+                        <summary>{if shelf.name.is_empty() { String::from(words::OWN_CLASSES) } else { shelf.name.clone() }}</summary>
                         <ul class="tiles">
-                            {(shelf.1..).zip(shelf.2).map(|(number, entry)| view! {
+                            {(shelf.first..).zip(shelf.entries).map(|(number, entry)| view! {
                                 <Tile lab=lab entry=entry number=number />
                             }).collect_view()}
                         </ul>
@@ -109,23 +112,42 @@ pub fn Bin(
     }
 }
 
-/// The entries by library, what was taken into use last first, the document's own before it; of each the number of
-/// its first entry.
-fn shelved(found: &[BinEntry]) -> Vec<(String, usize, Vec<BinEntry>)> {
-    let mut shelves: Vec<(String, Vec<BinEntry>)> = Vec::new();
+/// Tiles that lie together.
+#[derive(Clone, PartialEq, Debug)]
+struct Shelf {
+    name: String,
+    /// The number of its first tile.
+    first: usize,
+    entries: Vec<BinEntry>,
+    /// Whether it is open at first: what a library has beside its toolbox is seldom wanted.
+    is_open: bool,
+}
+
+/// The entries by toolbox and library: the document's own, then toolboxes, then the rest; what was taken into use last
+/// comes first.
+fn shelved(found: &[BinEntry], is_filtered: bool) -> Vec<Shelf> {
+    let boxed = |library: &str| found.iter().any(|e| e.toolbox.is_some() && e.library == library);
+    let mut shelves: Vec<((u8, String), Vec<BinEntry>)> = Vec::new();
     for entry in found {
-        let name = entry.toolbox.as_ref().unwrap_or(&entry.library);
-        match shelves.iter_mut().find(|(shelf, _)| shelf == name) {
+        let rank = match (&entry.toolbox, entry.library.as_str()) {
+            (Some(_), _) => 1,
+            (None, "") => 0,
+            (None, _) => 2,
+        };
+        let key = (rank, entry.toolbox.clone().unwrap_or_else(|| entry.library.clone()));
+        match shelves.iter_mut().find(|(shelf, _)| *shelf == key) {
             Some((_, shelf)) => shelf.push(entry.clone()),
-            None => shelves.push((name.clone(), vec![entry.clone()])),
+            None => shelves.push((key, vec![entry.clone()])),
         }
     }
     shelves.reverse();
+    shelves.sort_by_key(|((rank, _), _)| *rank);
     let mut before = 0;
-    let numbered = shelves.into_iter().map(|(library, shelf)| {
+    let numbered = shelves.into_iter().map(|((rank, name), entries)| {
         let first = before;
-        before += shelf.len();
-        (library, first, shelf)
+        before += entries.len();
+        let is_open = is_filtered || rank < 2 || !boxed(&name);
+        Shelf { name, first, entries, is_open }
     });
     numbered.collect()
 }
@@ -149,7 +171,7 @@ fn Tile(lab: Lab, entry: BinEntry, number: usize) -> impl IntoView {
         painter.with_value(|p| p.as_ref().map(Painter::look));
         let size = size.get();
         let list = display_list(&picture, Part::Whole, &[]);
-        let view = fit(&picture.drawing, size, 8.0);
+        let view = with_words(&picture.drawing, fit(&picture.drawing, size, 8.0), size);
         painter
             .with_value(|painter| {
                 let painter = painter.as_ref().filter(|_| size.0 > 0.0)?;
@@ -215,4 +237,33 @@ fn humps(name: &str) -> Vec<String> {
         }
     }
     humps
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{BinEntry, shelved};
+
+    #[test]
+    fn toolboxes_come_before_what_else_libraries_have() {
+        let entry = |class: &str, library: &str, toolbox: Option<&str>| BinEntry {
+            class: String::from(class),
+            doc: String::new(),
+            library: String::from(library),
+            toolbox: toolbox.map(String::from),
+            picture: drawing::Drawing::default(),
+        };
+        let found = [
+            entry("Resistor", "circuits", Some("Circuits")),
+            entry("Line", "geometry", None),
+            entry("Node", "circuits", None),
+            entry("Mine", "", None),
+        ];
+        let names = |is_filtered| {
+            let shelves = shelved(&found, is_filtered).into_iter();
+            shelves.map(|s| (s.name, s.first, s.is_open)).collect::<Vec<_>>()
+        };
+        let wanted = [("", 0, true), ("Circuits", 1, true), ("circuits", 2, false), ("geometry", 3, true)];
+        assert_eq!(names(false), wanted.map(|(n, at, open)| (String::from(n), at, open)));
+        assert!(names(true).iter().all(|(_, _, is_open)| *is_open));
+    }
 }

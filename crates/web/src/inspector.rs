@@ -2,6 +2,7 @@
 
 use crate::actions;
 use crate::lab::Lab;
+use crate::marked::marked;
 use crate::picture::covers;
 use crate::plot::ViewsOf;
 use crate::values::{self, Place};
@@ -9,6 +10,7 @@ use crate::{structure, words};
 use leptos::prelude::*;
 use session::Command;
 use session::view::{RowKind, StructureRow, ValueRow, ValueWithin};
+use std::collections::BTreeSet;
 
 /// At most so many values, and so many constraints, are shown at once; table and tree have the others.
 const MOST: usize = 40;
@@ -36,6 +38,11 @@ pub fn Inspector(
     let class = move || {
         let class =
             row.with(|row| row.as_ref().filter(|r| r.kind.is_thing()).map(|r| r.detail.clone()));
+        if !lab.also.with(Vec::is_empty) {
+            // what is shown below is of the first of them
+            let first = row.with(|row| row.as_ref().map(|row| row.path.clone()));
+            return words::first_of_several(&first.unwrap_or_default(), &class.unwrap_or_default());
+        }
         class.unwrap_or_else(|| {
             let is_thing = row.with(Option::is_none);
             String::from(if is_thing { words::PARAMETERS } else { words::IS_RULE })
@@ -45,7 +52,14 @@ pub fn Inspector(
         row.with(|row| row.as_ref().map(|row| row.doc.clone()).unwrap_or_default())
     });
     let formula = Memo::new(move |_| {
-        row.with(|row| row.as_ref().filter(|r| !r.kind.is_thing()).map(|r| r.detail.clone()))
+        row.with(|row| {
+            let row = row.as_ref()?;
+            match row.kind {
+                RowKind::Constraint | RowKind::Merge | RowKind::Side => Some(row.detail.clone()),
+                RowKind::Virtual => written(lab, row),
+                RowKind::Part => None,
+            }
+        })
     });
     view! {
         <section class="panel inspector" aria-label=words::INSPECTOR>
@@ -56,13 +70,47 @@ pub fn Inspector(
             </header>
             <div class="scroll" on:pointerleave=move |_| lab.hover(None)>
                 <p class="class quiet">{class}</p>
-                {move || law.with(|law| (!law.is_empty()).then(|| view! { <p class="law">{law.clone()}</p> }))}
+                {move || law.with(|law| (!law.is_empty()).then(|| view! { <p class="law">{marked(law)}</p> }))}
                 {move || formula.get().map(|formula| view! { <p class="law"><code>{formula}</code></p> })}
                 <Numbers lab=lab />
+                <Made lab=lab />
                 <ViewsOf lab=lab path=Memo::new(move |_| lab.selected.get().unwrap_or_default()) />
                 <Rules lab=lab />
             </div>
         </section>
+    }
+}
+
+/// How something that is computed is written in the text.
+fn written(lab: Lab, row: &StructureRow) -> Option<String> {
+    let (start, end) = row.span?;
+    lab.text.with(|text| text.source.get(start as usize..end as usize).map(String::from))
+}
+
+/// The values of what is selected that is computed: it has none of its own.
+#[component]
+fn Made(lab: Lab) -> impl IntoView {
+    let found = Memo::new(move |_| {
+        let path = lab.selected.get()?;
+        lab.structure.with(|rows| {
+            let at = rows.iter().position(|r| r.path == path && r.kind == RowKind::Virtual)?;
+            let all = &rows[at..=(at + rows[at].descendants as usize).min(rows.len() - 1)];
+            let value = |row: &StructureRow| {
+                let name = row.path.get(path.len()..)?.trim_start_matches('.');
+                let name = if name.is_empty() { words::VALUE } else { name };
+                Some((String::from(name), row.value.clone()?))
+            };
+            Some(all.iter().filter_map(value).take(MOST).collect::<Vec<_>>())
+        })
+    });
+    let rows = move || found.get().unwrap_or_default();
+    view! {
+        <Show when=move || found.with(|found| found.as_ref().is_some_and(|rows| !rows.is_empty()))>
+            <h3>{words::VALUES}</h3>
+            <dl class="made">
+                <For each=rows key=Clone::clone let(row)><dt>{row.0}</dt><dd>{row.1}</dd></For>
+            </dl>
+        </Show>
     }
 }
 
@@ -92,12 +140,13 @@ fn Numbers(lab: Lab) -> impl IntoView {
         // The lab may have gone with the page.
         let _ = lab.inspected_values.try_set_value(Vec::new());
     });
+    let is_empty = Memo::new(move |_| lab.structure.with(|rows| rows.len() <= 1));
     view! {
         <Show when=move || !found.with(Vec::is_empty)>
             <h3>{words::VALUES}</h3>
         </Show>
         <Show when=move || found.with(Vec::is_empty) && lab.selected.with(Option::is_none)>
-            <p class="law quiet">{words::NOTHING_GIVEN}</p>
+            <p class="law quiet">{move || if is_empty.get() { words::EMPTY_SHEET } else { words::NOTHING_GIVEN }}</p>
         </Show>
         <div class="values">
             <table>
@@ -120,7 +169,7 @@ fn Numbers(lab: Lab) -> impl IntoView {
 fn asked(lab: Lab, at: usize) -> impl Fn() -> Option<AnyView> {
     move || {
         let doc = lab.values.with(|rows| rows.get(at).map(|row| row.doc.clone()))?;
-        (!doc.is_empty()).then(|| view! { <p class="asked quiet">{doc}</p> }.into_any())
+        (!doc.is_empty()).then(|| view! { <p class="asked quiet">{marked(&doc)}</p> }.into_any())
     }
 }
 
@@ -207,8 +256,20 @@ fn shown_values(
 /// The constraints of a thing and those that speak of it; of the document its own.
 fn shown_rules(rows: &[StructureRow], selected: Option<&str>) -> Vec<StructureRow> {
     let rules = rows.iter().filter(|row| row.kind == RowKind::Constraint);
+    // what has a part that is one with it says something of it
+    let owner = |path: &str| path.rsplit_once('.').map(|(owner, _)| String::from(owner));
+    let speakers: BTreeSet<String> = selected
+        .map(|path| {
+            let one = rows.iter().filter(|row| row.merged_with.as_deref() == Some(path));
+            one.filter_map(|row| owner(&row.path)).collect()
+        })
+        .unwrap_or_default();
     let fits = |row: &&StructureRow| match selected {
-        Some(path) => covers(path, &row.path) || structure::speaks_of(&row.detail, path),
+        Some(path) => {
+            covers(path, &row.path)
+                || structure::speaks_of(&row.detail, path)
+                || owner(&row.path).is_some_and(|owner| speakers.contains(&owner))
+        }
         None => row.depth == 1,
     };
     rules.filter(fits).take(MOST).cloned().collect()
@@ -216,7 +277,39 @@ fn shown_rules(rows: &[StructureRow], selected: Option<&str>) -> Vec<StructureRo
 
 #[cfg(test)]
 mod tests {
+    use super::shown_rules;
     use crate::structure::speaks_of;
+    use session::view::{RowKind, StructureRow};
+
+    #[test]
+    fn a_point_shows_the_constraint_whose_point_it_is_one_with() {
+        let row = |path: &str, kind, merged: Option<&str>| StructureRow {
+            path: String::from(path),
+            depth: 2,
+            kind,
+            name: String::new(),
+            detail: String::from("axis.passes(through: a)"),
+            doc: String::new(),
+            value: None,
+            exact: None,
+            merged_with: merged.map(String::from),
+            makes_one: Vec::new(),
+            freedom: None,
+            anchored: false,
+            enabled: true,
+            descendants: 0,
+            span: None,
+        };
+        let rows = [
+            row("line.p1", RowKind::Part, None),
+            row("mirror.a", RowKind::Part, Some("line.p1")),
+            row("mirror.across", RowKind::Constraint, None),
+            row("other.across", RowKind::Constraint, None),
+        ];
+        let shown: Vec<String> =
+            shown_rules(&rows, Some("line.p1")).into_iter().map(|row| row.path).collect();
+        assert_eq!(shown, ["mirror.across"]);
+    }
 
     #[test]
     fn a_rule_speaks_of_the_paths_that_stand_in_it_as_words() {

@@ -32,6 +32,7 @@ pub mod js;
 pub mod keyboard;
 pub mod lab;
 pub mod lesson;
+pub mod marked;
 pub mod menu;
 pub mod orbit;
 pub mod page;

@@ -155,6 +155,7 @@ pub fn display_list(picture: &PictureView, part: Part<'_>, marks: &[Mark]) -> Di
     let words = elements.iter().position(|e| e.layer == Layer::Words).unwrap_or(elements.len());
     let (below, words) = elements.split_at(words);
     paint_elements(&mut list, picture, &anchored, below);
+    paint_points_at_rest(&mut list, picture, part);
     for at in bare {
         let grip = &picture.grips[at];
         if grip.drawn && marks.get(picture.paths.len() + at).is_none_or(|m| *m == Mark::None) {
@@ -164,6 +165,31 @@ pub fn display_list(picture: &PictureView, part: Part<'_>, marks: &[Mark]) -> Di
     }
     paint_elements(&mut list, picture, &anchored, words);
     list
+}
+
+/// Paints the points that rest over the lines that move, where there are few: a line does not lie over its end.
+fn paint_points_at_rest(list: &mut DisplayList, picture: &PictureView, part: Part<'_>) {
+    /// With more points these stay under what moves.
+    const MOST: usize = 400;
+    let Part::Moving(view @ MovedView::These { .. }) = part else { return };
+    if picture.grips.len() > MOST || picture.drawing.elements.len() > MOST {
+        return;
+    }
+    let rest = Part::Still(view);
+    let dots: Vec<&Element> = { rest.elements(picture).into_iter() }
+        .map(|at| &picture.drawing.elements[at])
+        .filter(|element| matches!(element.shape, Shape::Dot(_)))
+        .collect();
+    let grips = rest.grips(picture);
+    let bare = bare_grips(picture, &dots, &grips);
+    let anchored = { grips.iter().map(|at| &picture.grips[*at]) }
+        .filter(|grip| grip.anchored)
+        .map(|grip| grip.path.as_str())
+        .collect();
+    paint_elements(list, picture, &anchored, &dots);
+    for grip in bare.iter().map(|at| &picture.grips[*at]).filter(|grip| !grip.drawn) {
+        dot(list, Point { x: grip.x, y: grip.y }, grip.freedom, grip.anchored);
+    }
 }
 
 /// How far lines without ends are shown: as far around the middle of a picture as one is likely to look.

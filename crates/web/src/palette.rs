@@ -1,4 +1,5 @@
-//! The palette: every action by name, with its key or with the reason why not now, and every document.
+//! The palette: every action by name, with its key or with the reason why not now; every construction and every class
+//! of the bin that has the words; every document.
 
 use crate::actions::{self, ACTIONS, Action};
 use crate::lab::Lab;
@@ -7,6 +8,7 @@ use crate::{route, words};
 use leptos::ev::KeyboardEvent;
 use leptos::html::Input;
 use leptos::prelude::*;
+use session::drafting::view::ConstructionRow;
 
 /// The palette, while it is open.
 #[component]
@@ -23,9 +25,11 @@ fn Open(lab: Lab) -> impl IntoView {
     let wanted = RwSignal::new(String::new());
     let at = RwSignal::new(0_usize);
     let before = StoredValue::new_local(document().active_element());
+    let drawn = StoredValue::new(drawn(lab));
     let found = Memo::new(move |_| {
         at.set(0);
-        lab.listed.with(|listed| matching(&wanted.get(), listed))
+        let wanted = wanted.get();
+        lab.listed.with(|listed| drawn.with_value(|drawn| matching(&wanted, listed, drawn)))
     });
     leptos::task::spawn_local(async move {
         // Without the list there are still the actions.
@@ -50,6 +54,8 @@ fn Open(lab: Lab) -> impl IntoView {
         close();
         match choice {
             Choice::Do(action) => actions::run(action, lab),
+            Choice::Draw(row) => lab.begin_construction(&row.id),
+            Choice::Insert(class) => lab.take_tool(&class),
             Choice::Open(listed) => route::go(&route::to(&listed.path)),
         }
     };
@@ -95,7 +101,18 @@ fn Open(lab: Lab) -> impl IntoView {
 #[derive(Clone, PartialEq, Debug)]
 enum Choice {
     Do(&'static Action),
+    Draw(ConstructionRow),
+    Insert(String),
     Open(Listed),
+}
+
+/// What can be drawn in the shown document: its constructions, and the classes of its bin.
+type Drawn = (Vec<ConstructionRow>, Vec<String>);
+
+fn drawn(lab: Lab) -> Drawn {
+    let constructions = lab.ask_of_shown(session::Session::constructions).unwrap_or_default();
+    let bin = lab.ask_of_shown(session::Session::bin).unwrap_or_default();
+    (constructions, bin.into_iter().map(|entry| entry.class).collect())
 }
 
 #[component]
@@ -108,9 +125,11 @@ fn Entry(
 ) -> impl IntoView {
     let (name, label, action) = match choice {
         Choice::Do(action) => (String::from(action.id), String::from(action.label), Some(action)),
+        Choice::Draw(row) => (row.operands, row.label, None),
+        Choice::Insert(class) => (class.clone(), words::place_one(&class), None),
         Choice::Open(listed) => (listed.path, format!("{} {}", words::OPEN, listed.title), None),
     };
-    // of a document, where it is
+    // of a document where it is, of a construction what it is made of
     let path = if action.is_none() { name.clone() } else { String::new() };
     let why = Memo::new(move |_| action.and_then(|action| (action.enabled)(lab).err()));
     let key = action.and_then(|action| action.keys.first());
@@ -130,7 +149,9 @@ fn Entry(
 /// What has the words that are wanted in its label; then what has them in its own name; then what has each of
 /// them somewhere; then what has all their letters in order, the shortest first: an action in its label, a
 /// document, whose title may be long, in its path.
-fn matching(wanted: &str, listed: &[Listed]) -> Vec<Choice> {
+///
+/// Constructions and classes are found by whole words alone, and come after the actions that have these.
+fn matching(wanted: &str, listed: &[Listed], (constructions, classes): &Drawn) -> Vec<Choice> {
     let wanted = wanted.trim().to_lowercase();
     let rank = |label: &str, name: &str, short: &str| {
         let (label, name, short) =
@@ -146,7 +167,19 @@ fn matching(wanted: &str, listed: &[Listed]) -> Vec<Choice> {
         |action: &'static Action| (rank(action.label, action.id, action.label), Choice::Do(action));
     let document =
         |one: &Listed| (rank(&one.title, &one.path, &one.path), Choice::Open(one.clone()));
-    let all = ACTIONS.iter().map(action).chain(listed.iter().map(document));
+    let has = |text: &str| {
+        let text = text.to_lowercase();
+        !wanted.is_empty() && wanted.split_whitespace().all(|word| text.contains(word))
+    };
+    let construction = |row: &ConstructionRow| {
+        let text = [&row.label, row.also].join(" ");
+        (has(&text).then_some((2, 1)), Choice::Draw(row.clone()))
+    };
+    let class = |class: &String| {
+        (has(&words::place_one(class)).then_some((2, 1)), Choice::Insert(class.clone()))
+    };
+    let all = ACTIONS.iter().map(action).chain(constructions.iter().map(construction));
+    let all = all.chain(classes.iter().map(class)).chain(listed.iter().map(document));
     let mut found: Vec<_> = all.filter_map(|(rank, choice)| Some((rank?, choice))).collect();
     found.sort_by_key(|(rank, _)| *rank);
     found.into_iter().map(|(_, choice)| choice).collect()
@@ -159,7 +192,7 @@ fn scattered(label: &str, wanted: &str) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::{Choice, matching};
+    use super::{Choice, ConstructionRow, matching};
     use crate::actions::ACTIONS;
     use crate::server::Listed;
 
@@ -170,9 +203,20 @@ mod tests {
             title: String::from("Bridge under load"),
             in_gallery: true,
         }];
-        assert_eq!(matching("", &listed).len(), ACTIONS.len() + 1);
-        let first = |wanted| match matching(wanted, &listed).into_iter().next() {
+        let row = ConstructionRow {
+            id: String::from("Axis.equidistant(first,second)"),
+            class: String::from("Axis"),
+            label: String::from("Line of the points that are as far from one point as from another"),
+            operands: String::from("first, second"),
+            doc: String::new(),
+            also: "perpendicular bisector",
+        };
+        let drawn = (vec![row], vec![String::from("Resistor")]);
+        assert_eq!(matching("", &listed, &drawn).len(), ACTIONS.len() + 1);
+        let first = |wanted| match matching(wanted, &listed, &drawn).into_iter().next() {
             Some(Choice::Do(action)) => String::from(action.id),
+            Some(Choice::Draw(row)) => row.id,
+            Some(Choice::Insert(class)) => class,
             Some(Choice::Open(listed)) => listed.path,
             None => String::new(),
         };
@@ -182,6 +226,8 @@ mod tests {
         assert_eq!(first("under load"), "gallery/bridge.thing");
         assert_eq!(first("ftp"), "fit");
         assert_eq!(first("recog"), "recognise");
+        assert_eq!(first("perpendicular bisector"), "Axis.equidistant(first,second)");
+        assert_eq!(first("resist"), "Resistor");
         assert_eq!(first("brg"), "gallery/bridge.thing");
         // no piece of every word of a long title
         assert_eq!(first("bgeudload"), "");

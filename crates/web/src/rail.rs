@@ -4,7 +4,7 @@ use crate::actions::{self, ACTIONS, Action, Group};
 use crate::lab::{Lab, Notice};
 use crate::{icons, words};
 use leptos::prelude::*;
-use session::view::{Along, Pointer, Refusal, ToolView};
+use session::view::{Along, Pointer, Refusal, RowKind, ToolView};
 
 /// The tools, one below the other; those that the document has no classes for say why not.
 #[component]
@@ -61,8 +61,7 @@ impl Lab {
                 self.notice.set(None);
                 self.hover(None);
                 self.tool.set(Some(String::from(class)));
-                // where it would lie is known once the pointer comes
-                self.show_tool(ToolView { preview: drawing::Drawing::default(), ..view });
+                self.show_tool(aside(view));
             }
             Some(Err(refusal)) => {
                 self.drop_tool();
@@ -161,7 +160,8 @@ impl Lab {
             return;
         }
         match self.tell(session::Session::take_tool_again) {
-            Some(Some(view)) => self.show_tool(view),
+            Some(Some(view)) if view.begun => self.show_tool(view),
+            Some(Some(view)) => self.show_tool(aside(view)),
             _ => self.drop_tool(),
         }
     }
@@ -257,7 +257,7 @@ impl Lab {
                 let before = self.structure.with_untracked(Vec::len);
                 self.apply_as_meant(&command);
                 let made = self.structure.with_untracked(|rows| {
-                    let mut own = rows.iter().filter(|row| row.depth == 1 && row.kind.is_thing());
+                    let mut own = rows.iter().filter(|row| row.depth == 1 && row.kind == RowKind::Part);
                     own.next_back().map(|row| row.path.clone()).filter(|_| rows.len() > before)
                 });
                 self.select(made);
@@ -276,6 +276,11 @@ impl Lab {
             shelves.inspect(|shelves| shelves.set_scroll_top(0));
         }
     }
+}
+
+/// A tool that nobody sees yet: where its thing would lie is known once the pointer comes.
+fn aside(view: ToolView) -> ToolView {
+    ToolView { preview: drawing::Drawing::default(), caught: None, ..view }
 }
 
 /// Reads what was typed of a place: its coordinates on the sheet, `120,40`.

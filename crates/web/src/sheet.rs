@@ -124,22 +124,32 @@ pub fn fit_box(
 /// Returns a view in which words of a constant size, which stand beside their places, are in sight as well: a little
 /// smaller, where little hangs over the sides of a canvas.
 pub fn with_words(drawing: &Drawing, view: View, (width, height): (f64, f64)) -> View {
-    let (mut left, mut right) = (0.0_f64, 0.0_f64);
+    let [mut left, mut right, mut above, mut below] = [0.0_f64; 4];
     for element in &drawing.elements {
         let Shape::Text { at, text, anchoring, placement, .. } = &element.shape else { continue };
         let drawing::Placement::OnScreen(size) = placement else { continue };
-        let start = view.screen_from_sheet(*at).0 + anchoring.start(text, *size).0;
+        let (at, start) = (view.screen_from_sheet(*at), anchoring.start(text, *size));
+        let (start, base) = (at.0 + start.0, at.1 + start.1);
         let end = start + drawing::metrics::text_width(text, *size);
         left = left.max(BESIDE - start);
         right = right.max(end + BESIDE - width);
+        above = above.max(size + EDGE - base);
+        below = below.max(base + EDGE - height);
     }
-    let over = left + right;
-    if over <= 0.0 || over > 0.3 * width {
+    // words of a picture that is hardly larger than they are stay over its sides
+    let fits = |over: f64, size: f64| if over <= 0.4 * size { over } else { 0.0 };
+    let (wide, high) = (fits(left + right, width), fits(above + below, height));
+    if wide + high <= 0.0 {
         return view;
     }
-    let smaller = view.zoomed(width / (width + over), (width / 2.0, height / 2.0));
-    smaller.panned((left - right) / 2.0, 0.0)
+    let scale = f64::min(width / (width + wide), height / (height + high));
+    let smaller = view.zoomed(scale, (width / 2.0, height / 2.0));
+    let aside = |a: f64, b: f64, over: f64| if over > 0.0 { (a - b) / 2.0 } else { 0.0 };
+    smaller.panned(aside(left, right, wide), aside(above, below, high))
 }
+
+/// How far words are from the upper and lower side of a canvas, in pixels.
+const EDGE: f64 = 4.0;
 
 /// How far words stand beside their places, and from the side of a canvas, in pixels.
 const BESIDE: f64 = 14.0;
@@ -238,6 +248,27 @@ mod tests {
         assert!(end(&bare) > 390.0 && end(&view) <= 390.0, "{} {}", end(&bare), end(&view));
         assert!(view.scale > 0.8 * bare.scale);
         assert_eq!(super::with_words(&dots(&[(0.0, 0.0)], Vertical::Up), bare, size), bare);
+    }
+
+    #[test]
+    fn words_above_a_picture_are_in_sight() {
+        let mut drawing = dots(&[(0.0, 0.0), (100.0, 0.0)], Vertical::Down);
+        drawing.elements.push(Element {
+            shape: Shape::Text {
+                at: Point { x: 50.0, y: -30.0 },
+                text: "0 V".into(),
+                anchoring: drawing::Anchoring::default(),
+                placement: drawing::Placement::OnScreen(13.0),
+                turn: 0.0,
+            },
+            style: Style::default(),
+            layer: Layer::Words,
+            tag: Tag(0),
+        });
+        let size = (120.0, 50.0);
+        let view = super::with_words(&drawing, fit(&drawing, size, 8.0), size);
+        let (_, base) = view.screen_from_sheet(Point { x: 50.0, y: -30.0 });
+        assert!(base >= 13.0, "{base}");
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! The status line, and what the lab has to say.
 
 use crate::lab::{Lab, Notice};
+use crate::marked::marked;
 use crate::player::NowPlaying;
 use crate::why::listed;
 use crate::{icons, js, keyboard, words};
@@ -134,11 +135,11 @@ pub fn Refused(
                 sentences.push(sentence);
             }
         }
-        let diagnostics = sentences.into_iter().map(|sentence| view! { <p>{sentence}</p> });
+        let diagnostics = sentences.into_iter().map(|sentence| view! { <p>{marked(&sentence)}</p> });
         view! {
             <div class="notice refused" role="alert">
                 <div class="words">
-                    <p class="lead">{refusal.message}</p>
+                    <p class="lead">{marked(&refusal.message)}</p>
                     {diagnostics.collect_view()}
                     {listed(lab, words::IN_THE_WAY, refusal.constraints)}
                     {(!refusal.repairs.is_empty()).then(|| view! {

@@ -273,8 +273,11 @@ fn rule_alone(row: &StructureRow) -> &str {
     if row.kind == RowKind::Constraint { rest } else { &row.detail }
 }
 
-/// Whether a row is a constraint that nobody has named: its rule says more than `constraint3`.
+/// Whether a row is a constraint or a merge that nobody has named: its rule says more than `constraint3`.
 fn is_unnamed(row: &StructureRow) -> bool {
+    if row.name.is_empty() && !row.kind.has_own_path() {
+        return true;
+    }
     let number = row.name.strip_prefix("constraint");
     row.kind == RowKind::Constraint
         && number.is_some_and(|n| !n.is_empty() && n.chars().all(|c| c.is_ascii_digit()))

@@ -300,7 +300,7 @@ pub fn Slider(
             lab.drag((at_step(to), 0.0));
         }
     };
-    let done = move |_| {
+    let done = move || {
         if pressed.try_update_value(std::mem::take) == Some(true) {
             lab.release();
         }
@@ -309,8 +309,10 @@ pub fn Slider(
         let (least, most) = range.get();
         if whole.get() { 1.0 } else { (most - least) / STEPS }
     };
+    // made once: a slider that is made anew under the hand would let go
+    let is_number = Memo::new(move |_| number.with(Option::is_some));
     move || {
-        number.with(Option::is_some).then(|| {
+        is_number.get().then(|| {
             view! {
                 <div class="led">
                 <Play lab=lab at=at path=path ends=range />
@@ -318,7 +320,8 @@ pub fn Slider(
                     min=move || range.get().0.to_string() max=move || range.get().1.to_string()
                     step=move || step().to_string()
                     prop:value=move || number.get().unwrap_or_default().to_string()
-                    on:input=moved on:change=done />
+                    on:input=moved on:change=move |_| done()
+                    on:pointerup=move |_| done() on:pointercancel=move |_| done() />
                 </div>
             }
         })

@@ -251,7 +251,8 @@ async fn a_bridge_is_built_loaded_and_dragged() {
     chord(&visit, &[], key::ESCAPE).await;
     let unloaded = state(&visit).await;
     let tip = grip(&unloaded, "load.tip");
-    drag(&visit, tip, (tip.0, tip.1 + 60.0)).await;
+    // so far that the beams bend in sight
+    drag(&visit, tip, (tip.0, tip.1 + 150.0)).await;
     let loaded = state(&visit).await;
     assert_eq!(loaded["status"]["satisfied"], true);
     let size = number(&loaded, "load.size");

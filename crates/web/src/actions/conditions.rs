@@ -53,6 +53,11 @@ pub(super) fn is_thing(row: &StructureRow) -> bool {
     row.kind == RowKind::Part && row.depth == 1
 }
 
+/// Whether a row is that of a thing of the document itself, or of a figure that it computes.
+pub(super) fn is_own(row: &StructureRow) -> bool {
+    row.kind.is_thing() && row.depth == 1
+}
+
 /// Whether a constraint is selected that is on, or off, as is wanted.
 pub(super) fn constraint(lab: Lab, on: bool) -> Result<(), &'static str> {
     let row = selected(lab)?;

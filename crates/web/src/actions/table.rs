@@ -1,7 +1,7 @@
 //! The table of what can be done.
 
 use super::conditions::{
-    class, constraint, document, drawn, instance, is_thing, selected, several,
+    class, constraint, document, drawn, instance, is_own, is_thing, selected, several,
 };
 use super::{Action, Context, Group};
 use crate::dialog::Wish;
@@ -327,13 +327,13 @@ pub const ACTIONS: &[Action] = &[
         keys: &["Ctrl+A"],
         enabled: |lab| {
             document(lab)?;
-            let is_something = lab.structure.with(|rows| rows.iter().any(is_thing));
+            let is_something = lab.structure.with(|rows| rows.iter().any(is_own));
             if is_something { Ok(()) } else { Err(words::NOTHING_THERE) }
         },
         run: |lab| {
             let things = lab.structure.with_untracked(|rows| {
                 rows.iter()
-                    .filter(|row| is_thing(row))
+                    .filter(|row| is_own(row))
                     .map(|row| row.path.clone())
                     .collect::<Vec<_>>()
             });

@@ -5,7 +5,7 @@ use crate::js::{self, Painter};
 use crate::lab::Lab;
 use crate::orbit;
 use crate::paint::{Part, display_list};
-use crate::sheet::fit;
+use crate::sheet::{fit, with_words};
 use leptos::html::Canvas;
 use leptos::prelude::*;
 use session::view::{DocumentId, Grip};
@@ -44,7 +44,7 @@ pub fn Thumbnail(
     Effect::new(move |last: Option<Texts>| {
         lab.colors.changes.track();
         let size = size.get();
-        let view = rest.with_value(|drawing| fit(drawing, size, MARGIN));
+        let view = rest.with_value(|drawing| with_words(drawing, fit(drawing, size, MARGIN), size));
         let list = picture.with(|picture| display_list(picture, Part::Whole, &[]));
         painter
             .with_value(|painter| {
