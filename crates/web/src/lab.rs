@@ -9,6 +9,7 @@ use crate::dock::{self, Sheet, Tab};
 use crate::drafting::Drafting;
 use crate::files::{FileSet, Files};
 use crate::first;
+use crate::js;
 use crate::menu::{self, Menu};
 use crate::picture::covers;
 use crate::player::Player;
@@ -133,6 +134,10 @@ pub struct Lab {
     pub selected: RwSignal<Option<String>>,
     /// The paths of what is selected besides, in the order of choosing.
     pub also: RwSignal<Vec<String>>,
+    /// Whether fingers are at work, which have no keys.
+    pub touch: RwSignal<bool>,
+    /// Whether what is picked next is selected besides, without a key.
+    pub adding: RwSignal<bool>,
     /// The path of the thing under the pointer, in whatever view.
     pub hovered: RwSignal<Option<String>>,
     /// What is selected and hovered, each as the first path of its thing.
@@ -307,6 +312,8 @@ impl Lab {
             moved: RwSignal::new(MovedView::Everything),
             selected,
             also,
+            touch: RwSignal::new(js::coarse()),
+            adding: RwSignal::new(false),
             hovered,
             marked,
             motion: RwSignal::new(Vec::new()),

@@ -29,6 +29,9 @@ pub mod thumbnail;
 
 /// Space around a picture that fits, in pixels.
 const MARGIN: f64 = 56.0;
+/// So many pixels of its lower edge stay free, unless it is lower than this.
+const BELOW: f64 = 64.0;
+const LOW: f64 = 420.0;
 
 /// The picture of the open document.
 #[component]
@@ -314,7 +317,9 @@ fn zoom_as_asked(lab: Lab, size: (f64, f64)) {
             });
             let vertical = lab.picture.with_untracked(|p| p.drawing.vertical);
             let all = all.unwrap_or_else(|| bounds(&Drawing::default()));
-            let fitting = fit_box(all, vertical, size, margin);
+            // what waits or is offered lies over the lower edge
+            let room = if size.1 > LOW { size.1 - BELOW } else { size.1 };
+            let fitting = fit_box(all, vertical, (size.0, room), margin);
             let view = lab.picture.with_untracked(|p| with_words(&p.drawing, fitting, size));
             lab.view.set(view);
         }

@@ -36,6 +36,8 @@ struct Course {
     at: f64,
     /// Whether it grows.
     grows: bool,
+    /// Whether the ends are one place, as those of a whole turn: then it goes on through them.
+    goes_round: bool,
     /// How often it has turned since it last got on.
     turns: u32,
     /// What the picture has covered of the sheet so far, while the view is one that fits.
@@ -43,11 +45,15 @@ struct Course {
 }
 
 impl Course {
-    /// Goes on by a part of the range, and turns round at its ends.
+    /// Goes on by a part of the range, and turns round at its ends, or goes through them.
     fn step(&mut self, part: f64) {
         let (least, most) = self.ends;
         let way = part * (most - least);
         self.at += if self.grows { way } else { -way };
+        if self.goes_round {
+            self.at = least + (self.at - least).rem_euclid(most - least);
+            return;
+        }
         if self.at >= most || self.at <= least {
             self.grows = self.at <= least;
             self.at = self.at.clamp(least, most);
@@ -81,9 +87,11 @@ impl Default for Player {
 impl Lab {
     /// Plays a value between the ends of a range, or stops where it is played.
     pub fn play(self, row: usize, ends: (f64, f64)) {
-        let path =
-            self.values.with_untracked(|rows| rows.get(row).map(|r| (r.path.clone(), r.number)));
-        let Some((path, Some(at))) = path else { return };
+        let found = self.values.with_untracked(|rows| rows.get(row).cloned());
+        let Some((of, at)) = found.and_then(|row| row.number.map(|at| (row, at))) else { return };
+        // an angle that is computed has no value beyond its ends
+        let goes_round = !of.is_virtual && whole_turn(&of) == Some(ends);
+        let path = of.path;
         let was = self.player.now.get_untracked();
         self.stop_playing();
         if was.as_ref().is_some_and(|was| was.path == path) || self.press(&path).is_none() {
@@ -91,7 +99,8 @@ impl Lab {
         }
         let ends = (ends.0.min(at), ends.1.max(at));
         let covered = self.fits.get_value().then(|| self.covered());
-        let course = Course { ends, at, grows: at < ends.1, turns: 0, covered };
+        let grows = at < ends.1;
+        let course = Course { ends, at, grows, goes_round, turns: 0, covered };
         let playing = Playing { path, number: self.player.count.get_value() + 1 };
         self.player.count.set_value(playing.number);
         self.player.now.set(Some(playing.clone()));
@@ -217,10 +226,30 @@ pub fn NowPlaying(
 mod tests {
     use super::Course;
 
+    fn course() -> Course {
+        Course {
+            ends: (0.0, 10.0),
+            at: 8.0,
+            grows: true,
+            goes_round: false,
+            turns: 0,
+            covered: None,
+        }
+    }
+
+    #[test]
+    fn a_whole_turn_goes_on_through_its_ends() {
+        let mut course = Course { goes_round: true, ..course() };
+        course.step(0.5);
+        assert_eq!((course.at, course.grows), (3.0, true));
+        course.grows = false;
+        course.step(0.5);
+        assert_eq!((course.at, course.grows), (8.0, false));
+    }
+
     #[test]
     fn a_value_turns_round_at_the_ends_of_its_range() {
-        let mut course =
-            Course { ends: (0.0, 10.0), at: 8.0, grows: true, turns: 0, covered: None };
+        let mut course = course();
         course.step(0.25);
         assert_eq!((course.at, course.grows), (10.0, false));
         course.step(0.25);
@@ -231,8 +260,7 @@ mod tests {
 
     #[test]
     fn where_it_stops_short_it_goes_back_and_gives_up_between_two_walls() {
-        let mut course =
-            Course { ends: (0.0, 10.0), at: 8.0, grows: true, turns: 0, covered: None };
+        let mut course = course();
         assert!(course.turn_at(6.0));
         assert_eq!((course.at, course.grows), (6.0, false));
         assert!(course.turn_at(6.0));

@@ -118,9 +118,20 @@ fn state(lab: Lab) -> String {
         ("selected", lab.selected.get_untracked().into()),
         ("also", lab.also.get_untracked().into_iter().map(JsValue::from).collect::<Array>().into()),
         ("plotted", plotted(lab)),
+        ("made", made(lab).into()),
         ("dragging", lab.dragging.with_untracked(Option::is_some).into()),
     ]);
     JSON::stringify(&state).map(String::from).unwrap_or_default()
+}
+
+/// The values of what is computed.
+fn made(lab: Lab) -> Array {
+    let text = |text: &str| JsValue::from_str(text);
+    lab.structure.with_untracked(|rows| {
+        let rows = rows.iter().filter(|row| row.kind == session::view::RowKind::Virtual);
+        let valued = rows.filter_map(|row| Some((&row.path, row.value.as_ref()?)));
+        valued.map(|(path, value)| object(&[("path", text(path)), ("value", text(value))])).collect()
+    })
 }
 
 /// What the plot shows, and how many samples it has.

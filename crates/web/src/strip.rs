@@ -25,10 +25,25 @@ pub fn Strip(
     });
     let offers = Memo::new(move |_| found.with(|(offers, _)| offers.clone()));
     let held = Memo::new(move |_| found.with(|(_, held)| held.clone()));
+    let is_idle = move || lab.tool.with(Option::is_none) && lab.drafting.prompt.with(Option::is_none);
+    let is_shown = move || {
+        let something = !(offers.with(Vec::is_empty) && held.with(Vec::is_empty));
+        something || lab.touch.get() && is_idle() && lab.selected.with(Option::is_some)
+    };
+    Effect::new(move |_| {
+        if lab.selected.with(Option::is_none) {
+            lab.adding.set(false);
+        }
+    });
     view! {
-        <Show when=move || !(offers.with(Vec::is_empty) && held.with(Vec::is_empty))>
+        <Show when=is_shown>
             <div class="strip" role="toolbar" aria-label=words::CONSTRAIN
                 on:pointerleave=move |_| lab.foresee(None)>
+                // a finger has no key that selects besides
+                <Show when=move || lab.touch.get()>
+                    <button class="adding" title=words::ALSO_HELP aria-pressed=move || lab.adding.get().to_string()
+                        on:click=move |_| lab.adding.update(|adding| *adding = !*adding)>{words::ALSO}</button>
+                </Show>
                 <For each=move || offers.get() key=key let(offer)>
                     <Button lab=lab offer=offer />
                 </For>

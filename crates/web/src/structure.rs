@@ -446,7 +446,7 @@ fn Row(tree: Tree, place: usize, shown: Shown) -> impl IntoView {
             tabindex=move || if tree.current.get() == at { "0" } else { "-1" }
             title=doc
             on:click=move |e: leptos::ev::MouseEvent| {
-                if e.ctrl_key() || e.meta_key() || e.shift_key() {
+                if e.ctrl_key() || e.meta_key() || e.shift_key() || lab.adding.get_untracked() {
                     tree.choose_also(at);
                 } else {
                     tree.go_to(at);

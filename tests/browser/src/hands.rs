@@ -2,7 +2,7 @@
 
 use crate::Visit;
 use fantoccini::actions::{
-    InputSource, KeyAction, KeyActions, MOUSE_BUTTON_LEFT, MouseActions, PointerAction,
+    InputSource, KeyAction, KeyActions, MOUSE_BUTTON_LEFT, MouseActions, PointerAction, TouchActions,
 };
 use serde_json::Value;
 use std::time::Duration;
@@ -403,4 +403,35 @@ pub async fn select(visit: &Visit, places: &[(f64, f64)]) {
             visit.client.perform_actions(free).await.expect("Ctrl is let go");
         }
     }
+}
+
+/// Touches places in the window with a finger, one after the other.
+///
+/// # Panics
+/// Where the browser refuses.
+pub async fn touch(visit: &Visit, places: &[(f64, f64)]) {
+    for (x, y) in places {
+        let to = PointerAction::MoveTo { duration: None, x: x.round(), y: y.round() };
+        let actions = TouchActions::new("finger".into())
+            .then(to)
+            .then(PointerAction::Down { button: MOUSE_BUTTON_LEFT })
+            .then(PointerAction::Pause { duration: Duration::from_millis(30) })
+            .then(PointerAction::Up { button: MOUSE_BUTTON_LEFT });
+        visit.client.perform_actions(actions).await.expect("the finger touches");
+        tokio::time::sleep(Duration::from_millis(80)).await;
+    }
+}
+
+/// Where the middle of an element lies in the window.
+///
+/// # Panics
+/// Where there is none.
+pub async fn middle(visit: &Visit, selector: &str) -> (f64, f64) {
+    visit.until(&format!("document.querySelector('{selector}')")).await;
+    let script = format!(
+        "const r = document.querySelector('{selector}').getBoundingClientRect(); \
+         return [r.left + r.width / 2, r.top + r.height / 2]"
+    );
+    let at = visit.script(&script).await;
+    (at[0].as_f64().expect("a number"), at[1].as_f64().expect("a number"))
 }

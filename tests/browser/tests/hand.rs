@@ -2,7 +2,9 @@
 //! by keyboard alone; and what strangers stumbled over.
 
 use browser::Visit;
-use browser::hands::{begin, chord, drag, grip, keys, point, select, state, text_of};
+use browser::hands::{
+    begin, chord, drag, grip, keys, middle, point, select, show, state, text_of, touch,
+};
 use fantoccini::actions::{MOUSE_BUTTON_LEFT, MOUSE_BUTTON_RIGHT};
 use serde_json::json;
 use std::time::Duration;
@@ -337,4 +339,123 @@ async fn a_document_that_does_not_exist_yet_is_begun() {
     chord(&visit, &[CONTROL], 's').await;
     visit.until("window.__thinglab.state().notice.includes('saved')").await;
     assert_eq!(visit.saved("../fresh.thing"), "use geometry\n");
+}
+
+#[tokio::test]
+async fn a_slider_follows_the_pointer_to_where_it_lets_go() {
+    let visit = Visit::open(None).await;
+    let before = show(&visit, "voltage-divider.thing").await;
+    let slider = "input[aria-label=\"r2.resistance, slider\"]";
+    let value = format!("Number(document.querySelector('{slider}').value)");
+    let from = middle(&visit, slider).await;
+    let first = visit.script(&format!("return {value}")).await.as_f64().expect("a number");
+    drag(&visit, from, (from.0 + 60.0, from.1)).await;
+    let then = visit.script(&format!("return {value}")).await.as_f64().expect("a number");
+    // a quarter of the slider, in several steps of the pointer
+    assert!(then > 1.4 * first, "from {first} to {then}");
+    visit.until("window.__thinglab.state().status.undo").await;
+    chord(&visit, &[CONTROL], 'z').await;
+    let wanted = serde_json::to_string(&text_of(&before)).expect("a text");
+    visit.until(&format!("window.__thinglab.state().text === {wanted}")).await;
+}
+
+/// Begins a construction by words that find it, and picks its operands.
+async fn construct(visit: &Visit, words: &str, picks: &[(f64, f64)]) {
+    visit.script("document.getElementById('tab-draw').click()").await;
+    visit.until("document.querySelector('[name=construction]')").await;
+    visit.script("document.querySelector('[name=construction]').focus()").await;
+    chord(visit, &[CONTROL], 'a').await;
+    keys(visit, words).await;
+    visit.until("document.querySelector('.constructions .best')").await;
+    chord(visit, &[], ENTER).await;
+    visit.until("document.querySelector('.prompt')").await;
+    for at in picks {
+        click(visit, *at).await;
+    }
+    chord(visit, &[], ESCAPE).await;
+}
+
+#[tokio::test]
+async fn the_nine_points_of_a_triangle_are_constructed_and_lie_on_one_circle() {
+    let visit = begin().await;
+    let (left, top, width, height) = canvas(&visit).await;
+    let at = |x: f64, y: f64| (left + x * width, top + y * height);
+    let corners = [at(0.25, 0.78), at(0.8, 0.7), at(0.4, 0.2)];
+    chord(&visit, &[], 'l').await;
+    visit.until("document.querySelector('[data-action=tool-line][aria-pressed=true]')").await;
+    for corner in corners.iter().chain(&corners[..1]) {
+        click(&visit, *corner).await;
+    }
+    visit.until("window.__thinglab.state().text.includes('line3')").await;
+    chord(&visit, &[], ESCAPE).await;
+    let [a, b, c] = corners;
+    let (ab, bc, ca) = (between(a, b, 0.5), between(b, c, 0.5), between(c, a, 0.5));
+    // what a point nearest to a line is called in textbooks
+    construct(&visit, "foot", &[c, between(a, b, 0.9), a, between(b, c, 0.9), b, between(c, a, 0.1)]).await;
+    construct(&visit, "midpoint", &[a, b, b, c, c, a]).await;
+    construct(&visit, "nine-point", &[ab, bc, ca]).await;
+    let built = state(&visit).await;
+    assert!(text_of(&built).contains("circle => Circle.through("), "{}", text_of(&built));
+    for move_to in [(0.0, 0.0), (60.0, 50.0)] {
+        let corner = grip(&state(&visit).await, "line2.p2");
+        if move_to != (0.0, 0.0) {
+            drag(&visit, corner, (corner.0 + move_to.0, corner.1 + move_to.1)).await;
+        }
+        visit
+            .until("window.__thinglab.state().made.some(row => row.path === 'circle.radius')")
+            .await;
+        let far = visit
+            .script(
+                "const rows = window.__thinglab.state().made; \
+                 const place = path => rows.find(r => r.path === path).value.match(/-?[0-9.]+/g).map(Number); \
+                 const [x, y] = place('circle.center'); \
+                 const radius = Number(rows.find(r => r.path === 'circle.radius').value); \
+                 return ['point', 'point2', 'point3'].map(p => { const [u, v] = place(p); \
+                     return Math.abs(Math.hypot(u - x, v - y) - Math.abs(radius)); })",
+            )
+            .await;
+        for far in far.as_array().expect("three points") {
+            assert!(far.as_f64().expect("a number") < 1e-2, "{far}: {}", text_of(&built));
+        }
+    }
+    // what is constructed is picked, and told that it lies there already
+    visit.script("document.getElementById('tab-structure').click()").await;
+    visit.script("document.querySelector('[role=treeitem][data-path=point]').click()").await;
+    visit.until("window.__thinglab.state().selected === 'point'").await;
+    visit
+        .script(
+            "document.querySelector('[role=treeitem][data-path=circle]').dispatchEvent(\
+             new MouseEvent('click', { bubbles: true, ctrlKey: true }))",
+        )
+        .await;
+    visit.until("document.querySelector('.strip .held')?.innerText.includes('on')").await;
+}
+
+#[tokio::test]
+async fn a_rhombus_is_made_by_touch_alone() {
+    let visit = begin().await;
+    visit.client.set_window_size(420, 844).await.expect("a phone's window");
+    visit.until("document.getElementById('picture').clientWidth < 430").await;
+    let (left, top, width, height) = canvas(&visit).await;
+    let at = |x: f64, y: f64| (left + x * width, top + y * height);
+    let corners = [at(0.2, 0.3), at(0.7, 0.2), at(0.85, 0.55), at(0.25, 0.65)];
+    let line = middle(&visit, "[data-action=tool-line]").await;
+    touch(&visit, &[line]).await;
+    touch(&visit, &corners).await;
+    touch(&visit, &corners[..1]).await;
+    visit.until("window.__thinglab.state().text.includes('line4')").await;
+    let hand = middle(&visit, "[data-action=select]").await;
+    touch(&visit, &[hand]).await;
+    let side = |n: usize| between(corners[n], corners[(n + 1) % 4], 0.5);
+    touch(&visit, &[side(0)]).await;
+    let also = middle(&visit, ".strip .adding").await;
+    touch(&visit, &[also, side(1), side(2), side(3)]).await;
+    visit.until("window.__thinglab.state().also.length === 3").await;
+    let equal = middle(&visit, "[data-offer=\"equal length\"]").await;
+    touch(&visit, &[equal]).await;
+    visit.until("window.__thinglab.state().status.freedom === 5").await;
+    // the empty sheet ends it
+    touch(&visit, &[at(0.5, 0.9), side(0)]).await;
+    visit.until("window.__thinglab.state().also.length === 0").await;
+    visit.picture("touch").await;
 }

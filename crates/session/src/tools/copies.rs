@@ -15,7 +15,7 @@ use crate::state::State;
 use crate::view::Refusal;
 use crate::words;
 use base::{Name, Span};
-use kernel::{Command, Path, Step};
+use kernel::{Command, Literal, Path, Step};
 use lang::{Meant, Mention};
 use std::collections::{BTreeMap, BTreeSet};
 use syntax::ast::{AstNode, Member};
@@ -23,6 +23,8 @@ use syntax::edit::TextEdit;
 
 /// How far aside a copy lies, on the sheet.
 const ASIDE: f64 = 20.0;
+/// Of more places than this copies are moved as one.
+const MOST_PLACES: usize = 200;
 
 /// Which relations of what is copied are copied too.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -34,12 +36,14 @@ pub enum Relations {
 }
 
 /// Copies of things, to be put into a document.
-#[derive(Clone, PartialEq, Eq, Debug)]
+#[derive(Clone, PartialEq, Debug)]
 pub struct Clip {
     /// What is copied, by name, each with its class.
     things: Vec<(Name, Name)>,
     relations: Relations,
     members: Vec<Copied>,
+    /// Where their places were, also those that the text gives to what they are merged with.
+    places: Vec<(Path, (f64, f64))>,
     /// What the text that they come from uses and declares: it goes with them where they mean nothing without.
     header: Vec<String>,
 }
@@ -137,7 +141,30 @@ pub(crate) fn copied(state: &State, paths: &[Path], relations: Relations) -> Res
         }
     }
     let header = header(&state.text);
-    Ok(Clip { things, relations, members, header })
+    let places = paths.iter().flat_map(|path| places(state, path)).collect();
+    Ok(Clip { things, relations, members, places, header })
+}
+
+/// Returns where the places of a thing are, by their paths.
+fn places(state: &State, path: &Path) -> Vec<(Path, (f64, f64))> {
+    let (structure, document) = (&state.structure, &state.lowered.document);
+    let mut found = Vec::new();
+    let mut open: Vec<_> = thing_at(state, path).map(|t| (t, path.clone())).into_iter().collect();
+    while let Some((thing, path)) = open.pop() {
+        if found.len() >= MOST_PLACES {
+            return Vec::new();
+        }
+        match drag::coordinates(structure, structure.merged[thing]) {
+            Some([(_, x), (_, y)]) => {
+                found.push((path, (state.values.numbers[x], state.values.numbers[y])));
+            }
+            None => open.extend(structure.parts(structure.merged[thing]).filter_map(|part| {
+                let name = structure.field_name(document, part)?;
+                Some((part, path.then(Step::Part(name.clone()))))
+            })),
+        }
+    }
+    found
 }
 
 /// What a text uses, and the classes and units that it declares.
@@ -211,7 +238,9 @@ pub(crate) fn pasting(
         return Err(words::refuse(message));
     }
     let copies: Vec<String> = clip.things.iter().map(|(name, _)| called(name)).collect();
-    let moved = move_aside(&mut trial, host, &copies, f64::from(aside) * ASIDE);
+    let far = f64::from(aside) * ASIDE;
+    let is_placed = clip.relations == Relations::Own && put_aside(&mut trial, host, clip, &called, far);
+    let moved = is_placed || move_aside(&mut trial, host, &copies, far);
     let is_kept = |text: &str| text.starts_with(base.trim_end());
     let moved = moved && (clip.relations == Relations::Own || is_kept(&trial.state.text));
     let said = |(copied, member): (&Copied, &String)| match copied.is_thing && moved {
@@ -245,6 +274,27 @@ fn free_names(state: &State, things: &[(Name, Name)]) -> BTreeMap<Name, String> 
         names.insert(name.clone(), found);
     }
     names
+}
+
+/// Puts every place of the copies as far aside of where it was; where that cannot be they stay, and false is returned.
+fn put_aside(
+    trial: &mut Open,
+    host: &dyn Host,
+    clip: &Clip,
+    called: &dyn Fn(&Name) -> String,
+    far: f64,
+) -> bool {
+    let target = |(path, (x, y)): &(Path, (f64, f64))| {
+        let (Step::Part(name), rest) = path.0.split_first()? else { return None };
+        let first = Step::Part(Name::new(&called(name)));
+        let path = Path(std::iter::once(first).chain(rest.iter().cloned()).collect());
+        let place = vec![Literal::Number(x + far), Literal::Number(y + far)];
+        Some((path, Literal::Tuple(place)))
+    };
+    let Some(targets) = clip.places.iter().map(target).collect::<Option<Vec<_>>>() else {
+        return false;
+    };
+    !targets.is_empty() && apply::apply(trial, host, &Command::Move(targets)).is_ok()
 }
 
 /// Moves things together; where that cannot be kept they stay, and false is returned.

@@ -160,3 +160,17 @@ fn a_copy_is_a_text_that_another_document_can_take() {
     assert_eq!(other.wrong(), []);
     assert!(other.text().contains("class Strut"), "{}", other.text());
 }
+
+#[test]
+fn a_copy_of_what_is_joined_lies_as_its_model_does() {
+    let mut desk = Desk::of(
+        "use circuits\na: Resistor { a.node.at = (0, 0)  b.node.at = (0, 100) }\n\
+         b: Resistor { b.node.at = (90, 40) }\nmerge a.b.node = b.a.node\n",
+    );
+    let copied = copy(&desk, &["b"], Relations::Own).expect("it stands alone");
+    desk.apply(&copied.0).expect("it can be made");
+    holds(&desk);
+    assert_eq!(desk.place("resistor.a.node.at"), (20.0, 120.0));
+    assert_eq!(desk.place("resistor.b.node.at"), (110.0, 60.0));
+    assert_eq!(desk.place("b.b.node.at"), (90.0, 40.0));
+}

@@ -140,6 +140,9 @@ impl Hand {
             state.pointers.retain(|(id, _)| *id != e.pointer_id());
             state.pointers.push((e.pointer_id(), at));
         });
+        if self.lab.touch.get_untracked() != (e.pointer_type() == "touch") {
+            self.lab.touch.update(|touch| *touch = !*touch);
+        }
         let space = self.state.with_value(|state| state.space);
         if let Some(pinch) = self.pinch() {
             if let Mode::Drag { .. } = self.mode() {
@@ -167,7 +170,11 @@ impl Hand {
             self.set_mode(Mode::Idle);
         } else if e.button() == 0 {
             let picked = self.pick_deeper(at);
-            let besides = e.ctrl_key() || e.meta_key() || e.shift_key();
+            let adding = self.lab.adding.get_untracked();
+            let besides = e.ctrl_key() || e.meta_key() || e.shift_key() || adding;
+            if picked.is_none() {
+                self.lab.adding.set(false);
+            }
             if besides {
                 if let Some(path) = &picked {
                     self.lab.select_also(path);
@@ -387,7 +394,9 @@ impl Hand {
                 self.lab.band.set(None);
                 self.take(start, at, besides);
             }
-            Mode::Pressed { path, .. } if !(e.shift_key() || e.ctrl_key() || e.meta_key()) => {
+            Mode::Pressed { path, .. }
+                if !(e.shift_key() || e.ctrl_key() || e.meta_key() || self.lab.adding.get_untracked()) =>
+            {
                 self.lab.select(Some(path));
             }
             // Escape may have ended the drag already.

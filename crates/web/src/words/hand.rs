@@ -6,6 +6,10 @@ pub const EMPTY_SHEET: &str = "The sheet is empty. Draw with a tool of the rail,
 pub const ONLY_READ: &str = "Only read it";
 /// What that does.
 pub const ONLY_READ_HELP: &str = "A reference dimension: it shows the value in parentheses and sets nothing";
+/// What is touched next is selected besides.
+pub const ALSO: &str = "+ also";
+/// What that does.
+pub const ALSO_HELP: &str = "Select further things by touching them; touch the empty sheet to end";
 /// The value of what is one itself.
 pub const VALUE: &str = "value";
 /// What the strip says of a check mark.
