@@ -8,6 +8,7 @@
 use crate::apply;
 use crate::by_hand::class_at;
 use crate::document::Open;
+use crate::drag;
 use crate::host::Host;
 use crate::joining;
 use crate::plotting;
@@ -21,8 +22,8 @@ use drawing::Drawing;
 use eval::Answer;
 use expr::Dimension;
 use kernel::{
-    Argument, BinaryOperator, ClassId, ClassKind, DOCUMENT, Message, Path, Step, Term, ThingId,
-    UnaryOperator,
+    Argument, BinaryOperator, ClassId, ClassKind, Command, DOCUMENT, Literal, Message, Path, Step,
+    Term, ThingId, UnaryOperator,
 };
 
 /// The most things that offers are made for.
@@ -390,15 +391,15 @@ pub(crate) fn told_apart(
             return false;
         }
         // a thing that says something is tried, a rule first looked at
-        if rules.is_some_and(|rules| !holds(&rules)) {
+        if rules.as_ref().is_some_and(|rules| !holds(rules)) {
             return false;
         }
         let mut trial = Open::of(&open.name, state.text.clone(), host);
         let added = apply::apply(&mut trial, host, &offer.command(None));
-        added.is_ok()
-            && trial.status.satisfied
-            && trial.status.freedom == open.status.freedom
-            && is_unmoved(state, &trial.state)
+        let holds = added.is_ok() && trial.status.satisfied && is_unmoved(state, &trial.state);
+        holds
+            && (trial.status.freedom == open.status.freedom
+                || rules.is_some_and(|rules| goes_on_holding(open, host, &rules)))
     };
     let held: Vec<bool> = offers.iter().map(is_said).collect();
     let labels = offers.iter().zip(&held).filter(|(_, held)| **held).map(|(o, _)| o.label.clone());
@@ -406,6 +407,43 @@ pub(crate) fn told_apart(
     let mut of = held.iter();
     offers.retain(|_| !of.next().copied().unwrap_or_default());
     (offers, labels)
+}
+
+/// Whether rules that hold go on holding wherever places are moved to: then they follow from what is said, though the
+/// numbers alone do not tell.
+fn goes_on_holding(open: &Open, host: &dyn Host, rules: &[&str]) -> bool {
+    /// So many places are moved, each its own way.
+    const MOVED: usize = 4;
+    let state = &open.state;
+    let mut trial = Open::of(&open.name, state.text.clone(), host);
+    let document = &state.lowered.document;
+    let things = state.structure.things.iter();
+    let places = things.filter(|(thing, t)| {
+        document.is_place(t.class) && state.structure.merged[*thing] == *thing
+    });
+    let mut has_moved = false;
+    for (n, (place, _)) in places.take(MOVED).enumerate() {
+        let Some([(_, x), (_, y)]) = drag::coordinates(&state.structure, place) else { continue };
+        let by = (n + 1) as f64;
+        let now = |slot| state.values.numbers[slot];
+        let to = vec![
+            Literal::Number(now(x) + 17.3 * by),
+            Literal::Number(now(y) - 11.9 * by * by),
+        ];
+        let path = state.structure.path(document, place);
+        let step = Command::Move(vec![(path, Literal::Tuple(to))]);
+        if apply::apply(&mut trial, host, &step).is_err() {
+            continue;
+        }
+        has_moved = true;
+        let Ok(terms) = plotting::read(&trial.state, host, rules) else { return false };
+        let evaluator = trial.state.evaluator(&trial.state.values);
+        let is_true = |term| matches!(evaluator.evaluate(term, DOCUMENT), Ok(Answer::Bool(true)));
+        if !terms.iter().all(is_true) {
+            return false;
+        }
+    }
+    has_moved
 }
 
 /// Whether every number that a state has is the same in another.

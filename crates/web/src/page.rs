@@ -148,7 +148,7 @@ fn TopBar(lab: Lab) -> impl IntoView {
                     on:click=move |_| lab.palette.set(true)>
                     {icons::search()}<span>{words::SEARCH}</span><kbd>"Ctrl K"</kbd>
                 </button>
-                <button class="tool" title=theme_title aria-label=theme_title
+                <button class="tool" data-action="theme" title=theme_title aria-label=theme_title
                     on:click=move |_| actions::run(actions::named("theme"), lab)>{icons::theme()}</button>
             </div>
         </header>

@@ -170,6 +170,18 @@ impl Visit {
         tokio::time::sleep(Duration::from_millis(300)).await;
     }
 
+    /// Takes a picture of the whole page for the book, in a window of some size, light or dark: only where
+    /// `THINGLAB_BOOK` names the folder of these.
+    ///
+    /// # Panics
+    /// Where it cannot be taken or written.
+    pub async fn reference_picture(&self, name: &str) {
+        let Some(folder) = env::var_os("THINGLAB_BOOK") else { return };
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").join(folder);
+        let image = self.client.screenshot().await.expect("the browser takes a picture");
+        fs::write(folder.join(format!("page-{name}.png")), image).expect("it is written");
+    }
+
     /// Puts a document into the gallery's copy.
     ///
     /// # Panics

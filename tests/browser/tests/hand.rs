@@ -455,7 +455,10 @@ async fn a_rhombus_is_made_by_touch_alone() {
     touch(&visit, &[equal]).await;
     visit.until("window.__thinglab.state().status.freedom === 5").await;
     // the empty sheet ends it
-    touch(&visit, &[at(0.5, 0.9), side(0)]).await;
+    touch(&visit, &[at(0.5, 0.06)]).await;
+    visit.until("!document.querySelector('.strip .adding[aria-pressed=true]')").await;
+    let corner = grip(&state(&visit).await, "line2.p2");
+    touch(&visit, &[corner]).await;
     visit.until("window.__thinglab.state().also.length === 0").await;
     visit.picture("touch").await;
 }

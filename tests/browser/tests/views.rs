@@ -74,3 +74,32 @@ async fn a_lesson_goes_on_as_its_tasks_are_done() {
     visit.script("document.querySelector('.lesson .primary').click()").await;
     visit.until("window.__thinglab.state().path === 'gallery/lesson-2-figure.thing'").await;
 }
+
+#[tokio::test]
+async fn no_page_is_wider_than_its_window() {
+    let visit = Visit::open(None).await;
+    // a page at 200 % is one of half the width
+    let sizes = [("wide", 1440, 900), ("tablet", 820, 1000), ("phone", 390, 844), ("large", 720, 450)];
+    for document in ["quadrilateral.thing", "voltage-divider.thing", "warren-truss.thing"] {
+        show(&visit, document).await;
+        for (n, (size, width, height)) in sizes.into_iter().enumerate() {
+            visit.client.set_window_size(width, height).await.expect("such a window");
+            let theme = if n % 2 == 0 { "light" } else { "dark" };
+            for _ in 0..3 {
+                let now = visit.script("return document.documentElement.dataset.theme").await;
+                if now != theme {
+                    visit.script("document.querySelector('[data-action=theme]').click()").await;
+                }
+            }
+            visit.until(&format!("document.documentElement.dataset.theme === '{theme}'")).await;
+            let fits = "document.documentElement.scrollWidth <= window.innerWidth";
+            visit.until(fits).await;
+            let over = "const r = document.getElementById('picture').getBoundingClientRect(); \
+                        return r.right <= window.innerWidth + 1 && r.width > 200 && r.height > 100";
+            assert_eq!(visit.script(over).await, true, "{document} at {width} pixels");
+            tokio::time::sleep(std::time::Duration::from_millis(300)).await;
+            let name = document.trim_end_matches(".thing");
+            visit.reference_picture(&format!("{name}-{size}")).await;
+        }
+    }
+}

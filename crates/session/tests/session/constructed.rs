@@ -159,3 +159,19 @@ fn what_follows_already_is_told_and_not_offered() {
     assert!(offers.iter().all(|offer| offer.label != "on"), "{offers:?}");
     assert_eq!(told(&["altitude", "base"]).1, ["perpendicular"]);
 }
+
+#[test]
+fn a_theorem_is_told_where_no_constraint_says_it() {
+    let desk = Desk::of(
+        "use geometry\na: Line { p1 = (-219, -182)  p2 = (263, -130) }\nb: Line { p2 = (-28, 146) }\n\
+         merge a.p2 = b.p1\nc: Line\nmerge b.p2 = c.p1\nmerge a.p1 = c.p2\n\
+         foot => Point.projection(of: b.p2, onto: a)\nm => Point.middle(a.p1, a.p2)\n\
+         n => Point.middle(b.p1, b.p2)\nl => Point.middle(c.p1, c.p2)\nring => Circle.through(m, n, l)\n",
+    );
+    // the circle through the midpoints goes through the feet of the altitudes
+    assert_eq!(desk.session.offers_and_held(desk.id, &paths(&["foot", "ring"])).1, ["on"]);
+    // what only happens to be so is offered
+    let desk = Desk::of("use geometry\np: Point = (3, 4)\nring: Circle { center = (0, 0)  radius = 5 }\n");
+    let (offers, held) = desk.session.offers_and_held(desk.id, &paths(&["p", "ring"]));
+    assert!(held.is_empty() && offers.iter().any(|offer| offer.label == "on"), "{offers:?}");
+}
