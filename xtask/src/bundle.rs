@@ -84,7 +84,8 @@ pub(crate) fn module(
     Ok(module)
 }
 
-/// Builds the command out of a selection of packages, with what `dist/` holds of the page in it; gives its path.
+/// Builds the command out of a selection of packages; gives its path. At full effort it carries what `dist/` holds of
+/// the page; else it is told where the page is: `serve --page`.
 ///
 /// # Errors
 /// As [`build`].
@@ -94,12 +95,11 @@ pub(crate) fn build_command(effort: Effort, selection: &[&str]) -> Result<PathBu
     command.args(selection);
     let folder = match effort {
         Effort::Full => {
-            command.arg("--release");
+            command.arg("--release").env("THINGLAB_DIST", top().join("dist"));
             "release"
         }
         Effort::Tests | Effort::Quick => "debug",
     };
-    command.env("THINGLAB_DIST", top().join("dist"));
     run("thinglab did not compile", quiet(&mut command))?;
     let target =
         env::var_os("CARGO_TARGET_DIR").map_or_else(|| top().join("target"), PathBuf::from);

@@ -1,5 +1,6 @@
 //! `cargo lab`: builds the page and the command, then serves.
 
+use std::path::Path;
 use std::process::{Command, ExitCode};
 
 use crate::bundle::{self, Effort};
@@ -61,14 +62,23 @@ pub(crate) fn run(wish: &Wish) -> ExitCode {
     };
     match wish.then {
         Then::Exit => ExitCode::SUCCESS,
-        Then::Serve => match Command::new(&thinglab).arg("serve").args(&wish.serve).status() {
-            Ok(status) if status.success() => ExitCode::SUCCESS,
-            Ok(_) => ExitCode::FAILURE,
-            Err(error) => {
-                say!("{}: {error}", thinglab.display());
-                ExitCode::FAILURE
-            }
-        },
+        Then::Serve => serve(&thinglab, wish),
+    }
+}
+
+fn serve(thinglab: &Path, wish: &Wish) -> ExitCode {
+    let mut server = Command::new(thinglab);
+    server.arg("serve").args(&wish.serve);
+    if wish.effort != Effort::Full {
+        server.arg("--page").arg(crate::top().join("dist"));
+    }
+    match server.status() {
+        Ok(status) if status.success() => ExitCode::SUCCESS,
+        Ok(_) => ExitCode::FAILURE,
+        Err(error) => {
+            say!("{}: {error}", thinglab.display());
+            ExitCode::FAILURE
+        }
     }
 }
 

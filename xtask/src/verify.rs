@@ -149,25 +149,41 @@ fn page(effort: Effort) -> Count {
     Count::one(built.is_ok())
 }
 
-/// What wants the built command.
+/// What wants the built command. What is done in the browser waits more than it computes: the other tests run
+/// meanwhile.
 fn with_command(thinglab: &Path, wish: &Wish) -> Count {
     let mut count = Count::default();
-    // no part of the project needs it: without it the audit is left out, which is said
-    match tools::require(&[Tool::Ezdxf], wish.missing) {
-        0 => count.add(audit(thinglab)),
-        _ => say!("left out: the audit of DXF files"),
-    }
+    std::thread::scope(|scope| {
+        let browser = (wish.browser == Browser::Test).then(|| {
+            let mut tests = tests(thinglab, wish);
+            tests.args(["--test", "lab", "--", "--test-threads", "3"]);
+            scope.spawn(move || tested(&mut tests, Show::AtTheEnd("browser tests")))
+        });
+        // no part of the project needs it: without it the audit is left out, which is said
+        match tools::require(&[Tool::Ezdxf], wish.missing) {
+            0 => count.add(audit(thinglab)),
+            _ => say!("left out: the audit of DXF files"),
+        }
+        let mut others = tests(thinglab, wish);
+        others.args(["--", "--skip", "in_the_browser::"]);
+        count.add(tested(&mut others, Show::AtOnce));
+        if let Some(browser) = browser {
+            count.add(browser.join().unwrap_or(Count { passed: 0, failed: 1 }));
+        }
+    });
+    count
+}
+
+fn tests(thinglab: &Path, wish: &Wish) -> Command {
     let mut tests = tools::cargo(&["test", "--quiet", "--no-fail-fast"]);
     tests.args(selection(wish.browser)).env("THINGLAB", thinglab);
-    tests.env("THINGLAB_DIST", crate::top().join("dist"));
     if let Some(chromium) = tools::browser() {
         tests.env("CHROMIUM", chromium);
     }
     if wish.length == Length::Long {
         tests.env("THINGLAB_LONG", "1");
     }
-    count.add(tested(&mut tests));
-    count
+    tests
 }
 
 /// Writes the gallery as DXF, and has every file audited by another program.
@@ -201,19 +217,34 @@ fn step(name: &str, command: &mut Command) -> Count {
     Count::one(passed)
 }
 
+/// When the lines of a command are shown; at the end under a heading.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Show {
+    AtOnce,
+    AtTheEnd(&'static str),
+}
+
 /// Runs `cargo test`, showing what it prints.
-fn tested(command: &mut Command) -> Count {
-    say!("== tests");
+fn tested(command: &mut Command, show: Show) -> Count {
+    if show == Show::AtOnce {
+        say!("== tests");
+    }
     let child = command.stdin(Stdio::null()).stdout(Stdio::piped()).spawn();
     let Ok(mut child) = child else { return Count::one(false) };
-    let mut count = Count::default();
+    let (mut count, mut kept) = (Count::default(), Vec::new());
     let printed = child.stdout.take().expect("piped");
     for line in BufReader::new(printed).split(b'\n').map_while(Result::ok) {
-        let line = String::from_utf8_lossy(&line);
-        say!("{line}");
+        let line = String::from_utf8_lossy(&line).into_owned();
         count.add(counted(&line).unwrap_or_default());
+        match show {
+            Show::AtOnce => say!("{line}"),
+            Show::AtTheEnd(_) => kept.push(line),
+        }
     }
     let ended_well = child.wait().is_ok_and(|status| status.success());
+    if let Show::AtTheEnd(heading) = show {
+        say!("== {heading}\n{}", kept.join("\n"));
+    }
     if !ended_well && count.failed == 0 {
         say!("the tests broke off");
         count.failed = 1;

@@ -18,6 +18,7 @@ use tokio::net::{TcpListener, TcpStream};
 use tokio::sync::Semaphore;
 
 use crate::disk::Root;
+use crate::embedded::Page;
 use crate::journal::Journal;
 
 mod api;
@@ -42,6 +43,9 @@ pub(crate) struct Arguments {
     /// lies elsewhere.
     #[arg(long)]
     root: Option<PathBuf>,
+    /// The page's files, from a folder instead of those that the command carries.
+    #[arg(long, hide = true)]
+    page: Option<PathBuf>,
     /// Only print the address.
     #[arg(long)]
     no_open: bool,
@@ -49,6 +53,7 @@ pub(crate) struct Arguments {
 
 /// What the requests share.
 struct Lab {
+    page: Page,
     root: Root,
     journal: Journal,
     guard: guard::Guard,
@@ -74,13 +79,14 @@ async fn open(arguments: &Arguments) -> io::Result<()> {
     let listener = listen(arguments.port, root.folder()).await?;
     let address = listener.local_addr()?;
     let guard = guard::Guard::new(address.port())?;
-    let page = page_address(address, document.as_deref(), guard.token());
-    announce(&page, root.folder())?;
+    let address = page_address(address, document.as_deref(), guard.token());
+    announce(&address, root.folder())?;
     if !arguments.no_open {
-        open_browser(&page);
+        open_browser(&address);
     }
+    let page = arguments.page.clone().map_or(Page::Carried, Page::Folder);
     let journal = Journal::of(&root);
-    accept(listener, Rc::new(Lab { root, journal, guard })).await
+    accept(listener, Rc::new(Lab { page, root, journal, guard })).await
 }
 
 /// Listens on a port that was asked for, or else on the first of the folder's own that no other program has; where

@@ -34,9 +34,15 @@ impl Server {
 
     /// Starts a server over a folder that is there.
     fn over(folder: PathBuf) -> Server {
+        Server::with(folder, &[])
+    }
+
+    /// Starts a server over a folder that is there, with further arguments.
+    fn with(folder: PathBuf, arguments: &[&Path]) -> Server {
         let mut child = Command::new(env!("CARGO_BIN_EXE_thinglab"))
             .args(["serve", "--no-open", "--root"])
             .arg(folder.join("root"))
+            .args(arguments)
             .env("XDG_STATE_HOME", folder.join("state"))
             .stdout(Stdio::piped())
             .spawn()
@@ -162,6 +168,48 @@ fn requests_from_elsewhere_are_refused() {
         let answer = server.raw(&format!("{line}\r\n{head}Connection: close\r\n\r\n"));
         assert_eq!(status(&answer), wanted, "{line} {headers:?}\n{answer}");
         assert!(!answer.contains("a.thing"), "{line} {headers:?} was told a name");
+    }
+}
+
+#[test]
+fn a_page_in_a_folder_is_served_and_nothing_beside_it() {
+    let folder = std::env::temp_dir().join(format!("thinglab-page-{}", std::process::id()));
+    let page = folder.join("page");
+    fs::create_dir_all(folder.join("root")).unwrap();
+    fs::create_dir_all(page.join("sub")).unwrap();
+    let files = [
+        ("index.html", "the page"),
+        ("a.js", "plain"),
+        ("a.js.br", "small"),
+        ("sub/b.js", "b"),
+        (".c", "c"),
+    ];
+    for (name, text) in files {
+        fs::write(page.join(name), text).unwrap();
+    }
+    fs::write(folder.join("secret.js"), "secret").unwrap();
+    let server = Server::with(folder, &[Path::new("--page"), &page]);
+    let get = |target: &str, taken: &str| {
+        server.raw(&format!(
+            "GET {target} HTTP/1.1\r\nHost: 127.0.0.1:PORT\r\nConnection: close\r\n{taken}\r\n"
+        ))
+    };
+    let content = |answer: &str| String::from(answer.split_once("\r\n\r\n").unwrap().1);
+    assert_eq!(content(&get("/", "")), "the page");
+    assert_eq!(content(&get("/a.js", "")), "plain");
+    let small = get("/a.js", "Accept-Encoding: br\r\n");
+    assert_eq!(content(&small), "small");
+    assert!(small.contains("text/javascript"), "{small}");
+    for target in [
+        "/../secret.js",
+        "/%2e%2e/secret.js",
+        "//secret.js",
+        "/sub/b.js",
+        "/.c",
+        "/sub",
+        "/none.js",
+    ] {
+        assert_eq!(status(&get(target, "")), 404, "{target}");
     }
 }
 

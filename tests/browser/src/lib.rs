@@ -1,8 +1,8 @@
 //! The lab in a real browser: [`Visit`] starts the `thinglab` command over a copy of the gallery,
 //! and headless Chromium on the page; the tests in `tests/` do there what people do.
 //!
-//! `cargo verify` builds the command with its page and names it and the browser in the environment:
-//! `THINGLAB` and `CHROMIUM`. Without these a test fails and says so.
+//! `cargo verify` builds the command, and the page in `dist/`, and names the command and the browser in the
+//! environment: `THINGLAB` and `CHROMIUM`. Without these a test fails and says so.
 
 pub mod hands;
 
@@ -130,9 +130,9 @@ impl Visit {
     /// Waits until an expression of the page's is true.
     ///
     /// # Panics
-    /// After ten seconds, with the expression and what the page shows.
+    /// After half a minute, with the expression and what the page shows.
     pub async fn until(&self, expression: &str) {
-        for _ in 0..200 {
+        for _ in 0..600 {
             if self.script(&format!("return Boolean({expression})")).await == json!(true) {
                 return;
             }
@@ -215,6 +215,7 @@ fn serve(folder: &Folder, document: Option<&str>) -> (Process, String) {
         Command::new(named("THINGLAB"))
             .args(["serve", "--no-open", "--root"])
             .arg(&folder.0)
+            .args(["--page", concat!(env!("CARGO_MANIFEST_DIR"), "/../../dist")])
             .env("XDG_STATE_HOME", folder.0.join(".state"))
             .args(document.map(|name| folder.0.join("gallery").join(name))),
         "http://",

@@ -12,6 +12,7 @@
 //!
 //! Every error is `{error: sentence}` with its status.
 
+use std::borrow::Cow;
 use std::time::Duration;
 
 use http_body_util::{BodyExt, Full, LengthLimitError, Limited};
@@ -116,7 +117,7 @@ pub(crate) async fn answer(lab: &Lab, request: Request<Incoming>) -> Answer {
     let mut answer = match checked {
         Err((status, why)) => refused(status, why),
         Ok(()) => match ask {
-            Ask::Page => page(request.method(), path, request.headers()),
+            Ask::Page => page(lab, request.method(), path, request.headers()),
             Ask::Documents => documents(lab, request).await,
         },
     };
@@ -127,26 +128,33 @@ pub(crate) async fn answer(lab: &Lab, request: Request<Incoming>) -> Answer {
 }
 
 /// A file of the page, by its exact address; compressed where it is kept so and the browser takes that.
-fn page(method: &Method, path: &str, headers: &HeaderMap) -> Answer {
+fn page(lab: &Lab, method: &Method, path: &str, headers: &HeaderMap) -> Answer {
     if *method != Method::GET && *method != Method::HEAD {
         return only_methods("GET, HEAD");
     }
-    let smaller = embedded::page_file(&format!("{path}.br")).filter(|_| takes_brotli(headers));
-    match (embedded::page_file(path), smaller) {
-        (Some((name, _)), Some((_, bytes))) => {
-            let mut answer = bytes_answer(StatusCode::OK, kind_of(name), Bytes::from_static(bytes));
-            let headers = answer.headers_mut();
-            headers.insert(CONTENT_ENCODING, HeaderValue::from_static("br"));
-            headers.insert(VARY, HeaderValue::from_static("accept-encoding"));
-            answer
+    let kind = kind_of(if path == "/" { ".html" } else { path });
+    if takes_brotli(headers)
+        && let Some(bytes) = lab.page.file(&format!("{path}.br"))
+    {
+        let mut answer = bytes_answer(StatusCode::OK, kind, owned(bytes));
+        let headers = answer.headers_mut();
+        headers.insert(CONTENT_ENCODING, HeaderValue::from_static("br"));
+        headers.insert(VARY, HeaderValue::from_static("accept-encoding"));
+        return answer;
+    }
+    match lab.page.file(path) {
+        Some(bytes) => bytes_answer(StatusCode::OK, kind, owned(bytes)),
+        None if path == "/" => {
+            bytes_answer(StatusCode::OK, kind, Bytes::from_static(NO_PAGE.as_bytes()))
         }
-        (Some((name, bytes)), None) => {
-            bytes_answer(StatusCode::OK, kind_of(name), Bytes::from_static(bytes))
-        }
-        (None, _) if path == "/" => {
-            bytes_answer(StatusCode::OK, kind_of(".html"), Bytes::from_static(NO_PAGE.as_bytes()))
-        }
-        (None, _) => refused(StatusCode::NOT_FOUND, "no such page"),
+        None => refused(StatusCode::NOT_FOUND, "no such page"),
+    }
+}
+
+fn owned(bytes: Cow<'static, [u8]>) -> Bytes {
+    match bytes {
+        Cow::Borrowed(bytes) => Bytes::from_static(bytes),
+        Cow::Owned(bytes) => Bytes::from(bytes),
     }
 }
 

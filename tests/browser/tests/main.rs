@@ -1,0 +1,16 @@
+//! The lab in a real browser: one program for all tests, which wait more than they compute. Their names begin with
+//! `in_the_browser`, by which `cargo verify` leaves them out where the others run.
+
+#[path = "."]
+mod in_the_browser {
+    mod access;
+    mod drafting;
+    mod editing;
+    mod hand;
+    mod jobs;
+    mod lab;
+    mod recorded;
+    mod server;
+    mod six;
+    mod views;
+}
