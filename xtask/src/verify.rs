@@ -4,8 +4,9 @@
 //! that breaks off (a test that does not compile) counts as one failure.
 
 use std::io::{BufRead as _, BufReader};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode, Stdio};
+use std::sync::mpsc::{self, Receiver, Sender};
 
 use crate::bundle::{self, Effort};
 use crate::say;
@@ -77,25 +78,17 @@ pub(crate) fn run(wish: &Wish) -> ExitCode {
         say!("{}", last_line(Count { passed: 0, failed: lacking }, wish.browser));
         return ExitCode::from(2);
     }
-    let effort = match wish.length {
-        Length::Usual => Effort::Tests,
-        Length::Long => Effort::Full,
+    let count = match wish.browser {
+        Browser::LeaveOut => native(wish, None),
+        // rooms are compiled one after the other: two such chains keep two cores busy
+        Browser::Test => std::thread::scope(|scope| {
+            let (compiled, programs) = mpsc::channel();
+            let browser = scope.spawn(move || in_the_browser(wish.length, &programs));
+            let mut count = native(wish, Some(compiled));
+            count.add(browser.join().unwrap_or(Count { passed: 0, failed: 1 }));
+            count
+        }),
     };
-    // rooms are compiled one after the other: two such chains keep two cores busy
-    let mut count = std::thread::scope(|scope| {
-        let page = (wish.browser == Browser::Test).then(|| scope.spawn(|| page(effort)));
-        let mut count = native(wish.browser);
-        if let Some(page) = page {
-            count.add(page.join().unwrap_or(Count { passed: 0, failed: 1 }));
-        }
-        count
-    });
-    let thinglab = bundle::build_command(Effort::Tests, selection(wish.browser));
-    count.add(Count::one(thinglab.is_ok()));
-    match thinglab {
-        Ok(thinglab) => count.add(with_command(&thinglab, wish)),
-        Err(why) => say!("{why}; the audit of DXF files and the tests cannot run"),
-    }
     say!("{}", last_line(count, wish.browser));
     if count.failed == 0 { ExitCode::SUCCESS } else { ExitCode::FAILURE }
 }
@@ -121,7 +114,14 @@ fn last_line(count: Count, browser: Browser) -> String {
     }
 }
 
-fn native(browser: Browser) -> Count {
+/// What the browser tests want besides the page.
+struct Programs {
+    thinglab: PathBuf,
+    tests: PathBuf,
+}
+
+/// All but what is done in the browser, for which two programs are compiled first.
+fn native(wish: &Wish, compiled: Option<Sender<Programs>>) -> Count {
     let mut count = step("format", &mut tools::cargo(&["fmt", "--all", "--check"]));
     let mut lints = tools::cargo(&["clippy", "--quiet", "--workspace", "--all-targets"]);
     count.add(step("lints", lints.args(["--", "--deny", "warnings"])));
@@ -134,56 +134,86 @@ fn native(browser: Browser) -> Count {
         documentation.env("CLIPPY_ARGS", "--deny__CLIPPY_HACKERY__warnings__CLIPPY_HACKERY__");
     }
     count.add(step("documentation", &mut documentation));
+    let thinglab = bundle::build_command(Effort::Tests, selection(wish.browser));
+    count.add(Count::one(thinglab.is_ok()));
+    if let (Some(compiled), Ok(thinglab)) = (compiled, &thinglab) {
+        match browser_tests() {
+            // who waits for it has ended only where it broke off, which is counted there
+            Ok(tests) => drop(compiled.send(Programs { thinglab: thinglab.clone(), tests })),
+            Err(why) => say!("{why}"),
+        }
+    }
     let mut compile = tools::cargo(&["test", "--quiet", "--no-run"]);
-    count.add(step("compiling the tests", compile.args(selection(browser))));
+    count.add(step("compiling the tests", compile.args(selection(wish.browser))));
+    match thinglab {
+        // no part of the project needs it: without it the audit is left out, which is said
+        Ok(thinglab) => match tools::require(&[Tool::Ezdxf], wish.missing) {
+            0 => count.add(audit(&thinglab)),
+            _ => say!("left out: the audit of DXF files"),
+        },
+        Err(why) => say!("{why}; the audit of DXF files cannot run"),
+    }
+    let mut tests = tools::cargo(&["test", "--quiet", "--no-fail-fast"]);
+    lengthen(tests.args(selection(wish.browser)), wish.length);
+    count.add(tested(tests.args(["--", "--skip", "in_the_browser::"]), "tests", Show::AtOnce));
     count
 }
 
-/// The page's bundle.
-fn page(effort: Effort) -> Count {
+/// Compiles the program of the browser tests; gives its path.
+///
+/// # Errors
+/// A sentence, where it does not compile.
+fn browser_tests() -> Result<PathBuf, String> {
+    let mut compile = tools::cargo(&["test", "--quiet", "--no-run", "--test", "lab"]);
+    compile.args(selection(Browser::Test)).arg("--message-format=json-render-diagnostics");
+    let output = compile.stdin(Stdio::null()).stderr(Stdio::inherit()).output();
+    let output = output.map_err(|error| format!("cargo: {error}"))?;
+    let told = String::from_utf8_lossy(&output.stdout);
+    let path = told.lines().find_map(executable).filter(|_| output.status.success());
+    path.ok_or_else(|| String::from("the browser tests did not compile"))
+}
+
+/// The path of the browser tests' program, where a line that cargo writes as JSON tells of it.
+fn executable(line: &str) -> Option<PathBuf> {
+    let is_it = line.contains("\"kind\":[\"test\"]") && line.contains("\"name\":\"lab\"");
+    let (_, path) = line.split_once("\"executable\":\"").filter(|_| is_it)?;
+    Some(PathBuf::from(path.split_once('"')?.0.replace(r"\\", r"\")))
+}
+
+/// Builds the page, and tests it once the programs for that are there. These tests wait more than they compute: what
+/// else is compiled and tested goes on meanwhile.
+fn in_the_browser(length: Length, programs: &Receiver<Programs>) -> Count {
+    let effort = match length {
+        Length::Usual => Effort::Tests,
+        Length::Long => Effort::Full,
+    };
     let built = bundle::build(&tools::wasm_compiler().expect("required above"), effort);
-    say!("== bundle");
+    let mut count = Count::one(built.is_ok());
     if let Err(why) = &built {
         say!("{why}");
     }
-    Count::one(built.is_ok())
-}
-
-/// What wants the built command. What is done in the browser waits more than it computes: the other tests run
-/// meanwhile.
-fn with_command(thinglab: &Path, wish: &Wish) -> Count {
-    let mut count = Count::default();
-    std::thread::scope(|scope| {
-        let browser = (wish.browser == Browser::Test).then(|| {
-            let mut tests = tests(thinglab, wish);
-            tests.args(["--test", "lab", "--", "--test-threads", "3"]);
-            scope.spawn(move || tested(&mut tests, Show::AtTheEnd("browser tests")))
-        });
-        // no part of the project needs it: without it the audit is left out, which is said
-        match tools::require(&[Tool::Ezdxf], wish.missing) {
-            0 => count.add(audit(thinglab)),
-            _ => say!("left out: the audit of DXF files"),
+    match (built, programs.recv()) {
+        (Ok(()), Ok(Programs { thinglab, tests })) => {
+            let mut tests = Command::new(tests);
+            tests.arg("--quiet").env("THINGLAB", thinglab);
+            if let Some(chromium) = tools::browser() {
+                tests.env("CHROMIUM", chromium);
+            }
+            lengthen(&mut tests, length);
+            count.add(tested(&mut tests, "browser tests", Show::AtTheEnd));
         }
-        let mut others = tests(thinglab, wish);
-        others.args(["--", "--skip", "in_the_browser::"]);
-        count.add(tested(&mut others, Show::AtOnce));
-        if let Some(browser) = browser {
-            count.add(browser.join().unwrap_or(Count { passed: 0, failed: 1 }));
+        (Err(_), _) | (_, Err(_)) => {
+            say!("the browser tests cannot run");
+            count.failed += 1;
         }
-    });
+    }
     count
 }
 
-fn tests(thinglab: &Path, wish: &Wish) -> Command {
-    let mut tests = tools::cargo(&["test", "--quiet", "--no-fail-fast"]);
-    tests.args(selection(wish.browser)).env("THINGLAB", thinglab);
-    if let Some(chromium) = tools::browser() {
-        tests.env("CHROMIUM", chromium);
-    }
-    if wish.length == Length::Long {
+fn lengthen(tests: &mut Command, length: Length) {
+    if length == Length::Long {
         tests.env("THINGLAB_LONG", "1");
     }
-    tests
 }
 
 /// Writes the gallery as DXF, and has every file audited by another program.
@@ -217,17 +247,18 @@ fn step(name: &str, command: &mut Command) -> Count {
     Count::one(passed)
 }
 
-/// When the lines of a command are shown; at the end under a heading.
+/// When the lines of a command are shown.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Show {
     AtOnce,
-    AtTheEnd(&'static str),
+    /// For what runs beside something that is shown at once.
+    AtTheEnd,
 }
 
-/// Runs `cargo test`, showing what it prints.
-fn tested(command: &mut Command, show: Show) -> Count {
+/// Runs tests, showing what they print under a heading.
+fn tested(command: &mut Command, heading: &str, show: Show) -> Count {
     if show == Show::AtOnce {
-        say!("== tests");
+        say!("== {heading}");
     }
     let child = command.stdin(Stdio::null()).stdout(Stdio::piped()).spawn();
     let Ok(mut child) = child else { return Count::one(false) };
@@ -238,15 +269,15 @@ fn tested(command: &mut Command, show: Show) -> Count {
         count.add(counted(&line).unwrap_or_default());
         match show {
             Show::AtOnce => say!("{line}"),
-            Show::AtTheEnd(_) => kept.push(line),
+            Show::AtTheEnd => kept.push(line),
         }
     }
     let ended_well = child.wait().is_ok_and(|status| status.success());
-    if let Show::AtTheEnd(heading) = show {
+    if show == Show::AtTheEnd {
         say!("== {heading}\n{}", kept.join("\n"));
     }
     if !ended_well && count.failed == 0 {
-        say!("the tests broke off");
+        say!("{heading}: they broke off");
         count.failed = 1;
     }
     count
@@ -283,6 +314,18 @@ mod tests {
             last_line(count, Browser::LeaveOut),
             "7 passed, 1 failed, 2 skipped (--no-browser: the page's bundle, the browser tests)"
         );
+    }
+
+    #[test]
+    fn the_program_of_the_browser_tests_is_found_in_what_cargo_tells() {
+        let line = |kind: &str| {
+            format!(
+                r#"{{"target":{{"kind":["{kind}"],"name":"lab"}},"executable":"C:\\target\\lab-1","fresh":true}}"#
+            )
+        };
+        assert_eq!(executable(&line("test")), Some(PathBuf::from(r"C:\target\lab-1")));
+        assert_eq!(executable(&line("lib")), None);
+        assert_eq!(executable(r#"{"kind":["test"],"name":"it","executable":"it-1"}"#), None);
     }
 
     #[test]

@@ -19,7 +19,7 @@ pub async fn state(visit: &Visit) -> Value {
 /// Shows a document of the gallery and waits until it stands.
 ///
 /// # Panics
-/// Where it does not within ten seconds.
+/// Where it does not within half a minute.
 pub async fn show(visit: &Visit, name: &str) -> Value {
     visit.until("document.querySelector('main') && window.__thinglab").await;
     let before = visit.script("return window.__thinglab.state().text").await;
