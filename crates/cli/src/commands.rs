@@ -97,13 +97,20 @@ pub(crate) fn check(
         });
         files.push(found);
     }
-    let _ = writeln!(words, "{} files, {errors} errors, {warnings} warnings", files.len());
+    let counts = [(files.len(), "file"), (errors, "error"), (warnings, "warning")].map(counted);
+    let _ = writeln!(words, "{}", counts.join(", "));
     Ok(report(
         form,
         errors == 0 && (most == Leniency::Warnings || warnings == 0),
         words,
         &json!({ "files": files, "errors": errors, "warnings": warnings }),
     ))
+}
+
+/// Returns a number of things of a kind in words: `1 file`, `0 files`.
+fn counted((count, kind): (usize, &str)) -> String {
+    let ending = if count == 1 { "" } else { "s" };
+    format!("{count} {kind}{ending}")
 }
 
 /// So many characters of a line are shown.
