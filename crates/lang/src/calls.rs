@@ -190,7 +190,10 @@ impl Lowerer<'_> {
     /// Returns true for what answers some messages thing by thing: a list of things, what a program draws.
     fn is_set(&self, receiver: &Kind) -> bool {
         match receiver {
-            Kind::List(element) => matches!(**element, Kind::Thing(_) | Kind::List(_)),
+            // what a list of copies holds is known when it is made
+            Kind::List(element) => {
+                matches!(**element, Kind::Thing(_) | Kind::List(_) | Kind::Unknown)
+            }
             Kind::Thing(class) => self.draws(*class),
             _ => false,
         }

@@ -393,22 +393,32 @@ impl Lowerer<'_> {
     }
 
     fn list(&mut self, scope: &Scope, list: &ast::ListExpr, wanted: &Kind) -> Lowered {
-        let mut items = Vec::new();
-        let mut element = Kind::Unknown;
+        let mut items: Vec<(Term, Kind)> = Vec::new();
+        let (mut element, mut is_mixed) = (Kind::Unknown, false);
         let wanted = if let Kind::List(each) = wanted { each } else { &Kind::Unknown };
         for item in list.elements() {
             let (term, kind) = self.expr_wanting(scope, &item, wanted)?;
-            if !kind.fits(&element, &self.document) {
-                self.wrong_kind(scope, item.span(), &kind, &element);
+            element = match (kind.fits(&element, &self.document), &element, &kind) {
+                (true, ..) => element.joined(kind.clone()),
+                // a line and a circle are curves; which one each is is known when it is looked at
+                (false, Kind::Thing(_), Kind::Thing(_)) => {
+                    is_mixed = true;
+                    self.general(element.clone(), kind.clone())
+                }
+                (false, ..) => Kind::Unknown,
+            };
+            if element == Kind::Unknown && kind != Kind::Unknown {
+                let known = items.first().map_or(&Kind::Unknown, |(_, kind)| kind);
+                self.wrong_kind(scope, item.span(), &kind, &known.clone());
                 return None;
             }
-            element = element.joined(kind.clone());
             items.push((term, kind));
         }
         let document = &self.document;
         let measure = |(term, kind): (Term, Kind)| measured(document, term, &kind, &element);
         let items = items.into_iter().map(measure).collect();
-        Some((Term::List(items), Kind::List(Box::new(element))))
+        let each = if is_mixed { Kind::Unknown } else { element };
+        Some((Term::List(items), Kind::List(Box::new(each))))
     }
 
     fn unary(&mut self, scope: &Scope, unary: &ast::UnaryExpr) -> Lowered {

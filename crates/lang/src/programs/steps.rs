@@ -304,7 +304,7 @@ impl Lowerer<'_> {
     }
 
     /// Returns what can be said of both of two kinds.
-    fn general(&self, a: Kind, b: Kind) -> Kind {
+    pub(crate) fn general(&self, a: Kind, b: Kind) -> Kind {
         let document = &self.document;
         match (&a, &b) {
             (Kind::Thing(a), Kind::Thing(b)) => {
