@@ -7,7 +7,7 @@
 //! Nothing is known of any construction: `catalogue` finds them in the classes in scope, `outcome` tries
 //! them in a copy of the text. So a construction that a library gains is a tool at once.
 //!
-//! Reading order: `catalogue`, `scene`, `typed`, `outcome`, `dialogue`, `older`, `hands`, `recording`, `blocks`,
+//! Reading order: `catalogue`, `scene`, `typed`, `outcome`, `dialogue`, `older`, `hands`, `recording`, `parameters`, `blocks`,
 //! `operands`, `repeat`, `choice`, `demonstrating`, `measure`, `steps`, `visit`, `remove`, `changing`, `visiting`,
 //! `text`.
 mod blocks;
@@ -22,6 +22,7 @@ mod measure;
 mod older;
 mod operands;
 mod outcome;
+mod parameters;
 mod recording;
 mod remove;
 mod repeat;

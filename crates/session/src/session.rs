@@ -640,7 +640,14 @@ impl Session {
     }
     /// Returns the source and what is wrong with it.
     pub fn text(&self, id: DocumentId) -> TextView {
-        views::text::view(&self.document(self.home(id)).state)
+        let open = self.document(self.home(id));
+        let mut view = views::text::view(&open.state);
+        if open.recording.is_some() {
+            // what is demonstrated is not finished, and nothing is wrong with that
+            let is_open = |d: &&mut DiagnosticView| d.code == "open-block";
+            view.diagnostics.iter_mut().filter(is_open).for_each(|d| d.severity = "recording".into());
+        }
+        view
     }
     /// Returns what the document says of itself in the `///` lines with which it begins.
     pub fn preamble(&self, id: DocumentId) -> String {

@@ -142,7 +142,7 @@ pub struct Refusal {
 /// A diagnostic as an editor shows it.
 #[derive(Clone, PartialEq, Eq, Debug, Serialize)]
 pub struct DiagnosticView {
-    /// `error`, `warning` or `note`.
+    /// `error`, `warning`, `note`; `recording` of what is not finished yet.
     pub severity: String,
     /// The kebab-case code.
     pub code: String,

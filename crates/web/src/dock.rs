@@ -79,7 +79,10 @@ pub fn Dock(
     /// The lab.
     lab: Lab,
 ) -> impl IntoView {
-    let wrong = Memo::new(move |_| lab.text.with(|text| text.diagnostics.len()));
+    let wrong = Memo::new(move |_| {
+        let is_wrong = |d: &&session::view::DiagnosticView| d.severity != "recording";
+        lab.text.with(|text| text.diagnostics.iter().filter(is_wrong).count())
+    });
     let mild = Memo::new(move |_| {
         lab.text.with(|text| text.diagnostics.iter().all(|d| d.severity != "error"))
     });

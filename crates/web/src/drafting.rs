@@ -4,7 +4,8 @@ use crate::lab::{Lab, Notice};
 use crate::{js, keyboard, words};
 use leptos::prelude::*;
 use session::drafting::view::{
-    Ends, Go, MeasureKind, OlderUse, Prompt, StepRow, StepsView, Turn, Wants,
+    Ends, Go, MeasureKind, NewParameter, OlderUse, ParameterRow, Prompt, StepRow, StepsView, Turn,
+    Wants,
 };
 use session::view::{Change, Pointer, Refusal};
 use wasm_bindgen::JsCast;
@@ -39,6 +40,8 @@ pub struct Drafting {
     pub seeking: RwSignal<bool>,
     /// The step that is lit.
     pub lit: RwSignal<Option<String>>,
+    /// The parameter that is about to be defined, or said anew.
+    pub parameter: RwSignal<NewParameter>,
     /// Counted up where recording begins or ends, or a block does.
     pub turned: RwSignal<u32>,
 }
@@ -55,6 +58,7 @@ impl Default for Drafting {
             banding: RwSignal::new(false),
             seeking: RwSignal::new(false),
             lit: RwSignal::new(None),
+            parameter: RwSignal::new(NewParameter::default()),
             turned: RwSignal::new(0),
         }
     }
@@ -349,10 +353,22 @@ impl Lab {
         self.notice.set(Some(Notice::Said(words::BAND.into())));
     }
 
+    /// Whether the next drag is a rubber band: one was asked for, or what waits takes sets.
+    pub fn takes_band(self) -> bool {
+        let takes_sets = |p: &Option<Prompt>| p.as_ref().is_some_and(|p| p.takes_sets && !p.tool.is_empty());
+        self.drafting.banding.get_untracked() || self.drafting.prompt.with_untracked(takes_sets)
+    }
+
     /// The rubber band is drawn: what is in it is a set.
     pub fn take_band(self, from: (f64, f64), to: (f64, f64)) {
+        let is_asked = self.drafting.banding.get_untracked();
         self.drafting.banding.set(false);
         let (a, b) = (self.pointer_at(from, 0.0, true).at, self.pointer_at(to, 0.0, true).at);
+        if !is_asked {
+            let turn = self.tell(|session, id| session.point_all(id, (a, b)));
+            self.take_turn(turn);
+            return;
+        }
         self.about_block(|session, id| session.begin_each(id, (a, b)));
     }
 
@@ -387,6 +403,47 @@ impl Lab {
         }
     }
 
+    /// Defines a parameter, or says it anew; says of which class it is, where its example told.
+    fn define_parameter(self) {
+        let new = self.drafting.parameter.get_untracked();
+        if !self.settle(self.tell(|session, id| session.define_parameter(id, &new))) {
+            return;
+        }
+        self.drafting.parameter.set(NewParameter::default());
+        self.drafting.turned.update(|n| *n += 1);
+        let steps = self.ask_of_shown(|session, id| session.steps(id, None)).flatten();
+        let rows = steps.map(|steps| steps.parameters).unwrap_or_default();
+        if let Some(row) = rows.into_iter().find(|row| row.name == new.name.trim()) {
+            let ParameterRow { name, class, value, example, .. } = &row;
+            self.notice.set(Some(Notice::Said(words::defined(name, class, value, example))));
+        }
+        // the keyboard goes on with the next one
+        request_animation_frame(|| keyboard::focus("input[name='parameter']"));
+    }
+
+    /// Begins to say a parameter anew.
+    fn change_parameter(self, row: &ParameterRow) {
+        let row = row.clone();
+        self.drafting.parameter.set(NewParameter {
+            instead_of: row.name.clone(),
+            name: row.name,
+            example: row.example,
+            class: row.class,
+            prompt: row.prompt,
+            range: row.range,
+        });
+        request_animation_frame(|| select_all("input[name='example']"));
+    }
+
+    fn remove_parameter(self) {
+        let name = self.drafting.parameter.with_untracked(|new| new.instead_of.clone());
+        if self.settle(self.tell(|session, id| session.remove_parameter(id, &name))) {
+            self.drafting.parameter.set(NewParameter::default());
+            self.drafting.turned.update(|n| *n += 1);
+        }
+        keyboard::rest_at("input[name='parameter']");
+    }
+
     /// Gives the example its own values again.
     fn own_values(self) {
         self.settle(self.tell(session::Session::own_values));
@@ -417,6 +474,11 @@ impl Lab {
             Some(Ok(())) | None => self.notice.set(Some(Notice::Said(words::draw_anew(step)))),
         }
         self.show_waiting();
+    }
+
+    fn make_guide(self, (program, step): (&str, &str), is_guide: bool) {
+        self.settle(self.tell(|session, id| session.make_guide(id, (program, step), is_guide)));
+        self.drafting.turned.update(|n| *n += 1);
     }
 
     fn turn_step(self, program: &str, step: &str) {

@@ -38,6 +38,73 @@ pub fn rest_at(selector: &'static str) {
     });
 }
 
+/// The buttons of a list, in order.
+fn buttons(list: &str) -> Vec<HtmlElement> {
+    let Ok(Some(list)) = document().query_selector(list) else { return Vec::new() };
+    let found = list.get_elements_by_tag_name("button");
+    (0..found.length()).filter_map(|i| found.item(i)?.dyn_into().ok()).collect()
+}
+
+/// With the next frame, makes the buttons of a list one stop of Tab: that which was it last, or the first. To be said
+/// again where its rows are others.
+pub fn one_stop(list: &'static str) {
+    request_animation_frame(move || {
+        let all = buttons(list);
+        let held = holder();
+        let is_held = |b: &HtmlElement| held.as_ref().is_some_and(|held| b.is_same_node(Some(held)));
+        let at = all.iter().position(is_held).unwrap_or(0);
+        stop_at(&all, at);
+    });
+}
+
+fn stop_at(all: &[HtmlElement], at: usize) {
+    for (i, button) in all.iter().enumerate() {
+        button.set_tab_index(if i == at { 0 } else { -1 });
+    }
+}
+
+/// What a key does in a list that is one stop: down and up lead from row to row, right and left from button to button,
+/// Home and End to the ends.
+pub fn go_in(list: &str, e: &web_sys::KeyboardEvent) {
+    let all = buttons(list);
+    let held = holder();
+    let is_held = |b: &HtmlElement| held.as_ref().is_some_and(|held| b.is_same_node(Some(held)));
+    let Some(at) = all.iter().position(is_held) else { return };
+    let row = |i: usize| all[i].closest("li").ok().flatten();
+    let is_other = |a: usize, b: usize| match (row(a), row(b)) {
+        (Some(a), Some(b)) => !a.is_same_node(Some(&b)),
+        _ => true,
+    };
+    let begins = |&i: &usize| i == 0 || is_other(i - 1, i);
+    let to = match e.key().as_str() {
+        "ArrowDown" => (at + 1..all.len()).find(begins),
+        "ArrowUp" => {
+            let own = (0..=at).rev().find(begins).unwrap_or(0);
+            (0..own).rev().find(begins)
+        }
+        "ArrowRight" => (at + 1 < all.len()).then_some(at + 1),
+        "ArrowLeft" => at.checked_sub(1),
+        "Home" => Some(0),
+        "End" => (0..all.len()).rev().find(begins),
+        _ => return,
+    };
+    e.prevent_default();
+    e.stop_propagation();
+    if let Some(to) = to {
+        stop_at(&all, to);
+        focus_element(&all[to]);
+    }
+}
+
+/// Gives the keyboard to the first button of a list that is one stop.
+pub fn enter_list(list: &str) {
+    let all = buttons(list);
+    if let Some(first) = all.first() {
+        stop_at(&all, 0);
+        focus_element(first);
+    }
+}
+
 fn focus_element(element: &Element) {
     if let Some(element) = element.dyn_ref::<HtmlElement>() {
         // What cannot be focused stays as it is.

@@ -2,7 +2,7 @@
 
 use crate::actions::{self, ACTIONS, Action, Group};
 use crate::lab::{Lab, Notice};
-use crate::{icons, words};
+use crate::{icons, keyboard, words};
 use leptos::prelude::*;
 use session::view::{Along, Pointer, Refusal, RowKind, ToolView};
 
@@ -13,8 +13,10 @@ pub fn Rail(
     lab: Lab,
 ) -> impl IntoView {
     let tools = ACTIONS.iter().filter(|action| action.group == Group::Tool);
+    // one stop of Tab: arrows lead from tool to tool
+    Effect::new(|_| keyboard::one_stop(RAIL));
     view! {
-        <nav class="rail" aria-label=words::TOOLS>
+        <nav class="rail" aria-label=words::TOOLS on:keydown=|e| keyboard::go_in(RAIL, &e)>
             {tools.map(|action| view! { <Button lab=lab action=action /> }).collect_view()}
         </nav>
     }
@@ -43,6 +45,9 @@ fn Button(lab: Lab, action: &'static Action) -> impl IntoView {
         </button>
     }
 }
+
+/// The rail.
+const RAIL: &str = ".rail";
 
 /// How far an arrow key moves the pointer of the keyboard, in pixels.
 const STEP: f64 = 10.0;

@@ -313,7 +313,8 @@ fn show(lab: Lab, editor: &Editor, text: &TextView) {
 
 fn squiggle(number: u32, d: &DiagnosticView) -> JsValue {
     let object = Object::new();
-    let severity = if d.severity == "note" { "info" } else { &d.severity };
+    let is_mild = matches!(d.severity.as_str(), "note" | "recording");
+    let severity = if is_mild { "info" } else { &d.severity };
     let message = match &d.hint {
         Some(hint) => format!("{}\n{hint}", d.message),
         None => d.message.clone(),

@@ -527,7 +527,9 @@ pub const PROGRAM_NAME: &str = "Program, as Washer";
 /// Defines a parameter.
 pub const DEFINE: &str = "Define";
 /// The field for the name of a parameter.
-pub const PARAMETER_NAME: &str = "parameter";
+pub const PARAMETER_NAME: &str = "name";
+/// What that field is for.
+pub const NAME_OF_PARAMETER: &str = "Name of the parameter";
 /// The field for the example of a parameter.
 pub const EXAMPLE: &str = "example";
 /// The field for what is asked.

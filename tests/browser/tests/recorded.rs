@@ -241,6 +241,45 @@ async fn a_plate_is_rows_of_rows_of_holes() {
     visit.book_picture("plate").await;
 }
 
+#[tokio::test]
+async fn a_flange_counts_its_holes_by_a_plain_number_and_is_applied_by_its_questions() {
+    let visit = hands::begin().await;
+    record(&visit, "Flange", &[("outer", "120", ""), ("round", "90", ""), ("holes", "6", "")]).await;
+    enlarge(&visit, 3).await;
+    construct(&visit, "Circle").await;
+    pick(&visit, 0.0, 0.0).await;
+    enter(&visit, "outer / 2").await;
+    for typed in ["round / 2, 0", "6"] {
+        enter(&visit, typed).await;
+    }
+    construct(&visit, ":pattern(about,count)").await;
+    pick(&visit, 51.0, 0.0).await;
+    pick(&visit, 0.0, 0.0).await;
+    press(&visit, "[data-parameter='holes']").await;
+    has(&visit, "holes: Integer = 6").await;
+    asked(&visit, "holes is a count now").await;
+    press(&visit, "[data-draft='end']").await;
+    // the whole is mirrored by one rubber band
+    construct(&visit, "Axis.vertical(x)").await;
+    enter(&visit, "100").await;
+    construct(&visit, "Point:mirrored").await;
+    let sheet = state(&visit).await["sheet"].clone();
+    let of = |name: &str| sheet[name].as_f64().expect("a number");
+    let at = |x: f64, y: f64| (of("px") + x * of("scale"), of("py") - y * of("scale"));
+    hands::drag(&visit, at(-65.0, 65.0), at(65.0, -65.0)).await;
+    asked(&visit, "pick a line").await;
+    pick(&visit, 100.0, 20.0).await;
+    has(&visit, "mirrored2 = pattern.mirrored(about: axis)").await;
+    press(&visit, "[data-draft='stop']").await;
+    construct(&visit, "Flange").await;
+    asked(&visit, "Enter takes 120").await;
+    for typed in ["60", "", "4", "0, -120"] {
+        enter(&visit, typed).await;
+    }
+    has(&visit, "round = 90").await;
+    visit.picture("flange").await;
+}
+
 /// Presses keys, and says that the keyboard is somewhere then.
 async fn keys(visit: &Visit, all: &str) {
     hands::keys(visit, all).await;

@@ -3,12 +3,14 @@
 //! Whatever a class answers to itself is a construction, and so is what its things answer by making another of
 //! their kind. A new one in a library is a new tool.
 
+use super::parameters::{self, Asks};
 use super::view::ConstructionRow;
 use super::{Home, synonyms};
 use crate::recognise;
 use crate::state::State;
 use base::Name;
 use kernel::{Class, ClassId, ClassKind, Document, Message, Term};
+use syntax::ast::{AstNode, Expr};
 
 /// A construction, as a tool.
 #[derive(Clone, Debug)]
@@ -41,7 +43,7 @@ pub(crate) enum Call {
     /// `line.mirrored(about: axis)`: the first slot is what it is sent to.
     Message(String),
     /// Many of a set, one after the other: the set, how each is led on to the next, how many.
-    Pattern(Pattern),
+    Pattern(Pattern, First),
     /// The value itself, as it is given.
     Value,
 }
@@ -55,8 +57,17 @@ pub(crate) enum Pattern {
     Row,
 }
 
+/// Whether the first of a pattern is made with it.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum First {
+    /// It is made: what the pattern is of is drawn for construction alone.
+    Made,
+    /// It is there: what the pattern is of is drawn, and is not drawn twice.
+    There,
+}
+
 impl Pattern {
-    fn written(self, operands: &[String]) -> String {
+    fn written(self, first: First, operands: &[String]) -> String {
         let of = |at: usize| operands.get(at).map_or("", String::as_str);
         let (what, by, count) = (bracketed(of(0)), of(1), bracketed(of(2)));
         let one = match self {
@@ -66,18 +77,69 @@ impl Pattern {
                 format!("{what}.moved(by: Point(nth * {by}.x, nth * {by}.y))")
             }
         };
-        format!("(0..{count} - 1).map(nth => {one})")
+        let from = if first == First::There { 1 } else { 0 };
+        format!("({from}..{count} - 1).map(nth => {one})")
     }
 }
 
+/// Reads what a pattern is made of, where a formula is one: the set, how each is led on to the next, how many; the last
+/// twice, where it is written twice.
+pub(crate) fn pattern_of(formula: &Expr) -> Option<(Pattern, Vec<(&'static str, Expr)>)> {
+    let Expr::Field(map) = formula else { return None };
+    let Expr::Paren(range) = map.receiver()? else { return None };
+    let Expr::Range(range) = range.inner()? else { return None };
+    let Expr::Binary(last) = range.end()? else { return None };
+    let Expr::Lambda(each) = map.args()?.args().next()?.value()? else { return None };
+    let Expr::Field(one) = each.body()? else { return None };
+    let arguments: Vec<Expr> = one.args()?.args().filter_map(|a| a.value()).collect();
+    let (what, count) = (one.receiver()?, last.left()?);
+    let (pattern, parts) = match (one.name()?.text(), arguments.as_slice()) {
+        ("turned", [about, Expr::Binary(by)]) => {
+            let parts = vec![("what", what), ("about", about.clone()), ("count", count), ("count", by.right()?)];
+            (Pattern::Polar, parts)
+        }
+        ("moved", [Expr::Call(place)]) => {
+            let steps: Vec<Expr> = place.args()?.args().filter_map(|a| a.value()).collect();
+            let by = |step: &Expr| match step {
+                Expr::Binary(product) => match product.right()? {
+                    Expr::Field(part) => part.receiver(),
+                    _ => None,
+                },
+                _ => None,
+            };
+            let [x, y] = steps.as_slice() else { return None };
+            (Pattern::Row, vec![("what", what), ("by", by(x)?), ("by", by(y)?), ("count", count)])
+        }
+        _ => return None,
+    };
+    let says = |slot: &str| {
+        let said = parts.iter().find(|(name, _)| *name == slot);
+        said.map(|(_, e)| unbracketed(&e.syntax().text().to_string()))
+    };
+    let by = says("about").or_else(|| says("by"))?;
+    let operands = [says("what")?, by, says("count")?];
+    let plain = |text: &str| text.split_whitespace().collect::<String>();
+    let said = plain(&formula.syntax().text().to_string());
+    let is_it = |&first: &First| plain(&pattern.written(first, &operands)) == said;
+    [First::Made, First::There].iter().any(is_it).then_some((pattern, parts))
+}
+
+/// An expression without the brackets around all of it.
+fn unbracketed(text: &str) -> String {
+    let text = text.trim();
+    let inner = text.strip_prefix('(').and_then(|t| t.strip_suffix(')'));
+    inner.filter(|inner| bracketed(inner) == text).unwrap_or(text).into()
+}
+
 /// An expression as others can go on from it.
-fn bracketed(text: &str) -> String {
+pub(crate) fn bracketed(text: &str) -> String {
     let is_path = |t: &str| t.chars().all(|c| c.is_alphanumeric() || "_.[]".contains(c));
     // `Point(10, 0)`
     let is_call = text.split_once('(').is_some_and(|(head, rest)| {
         is_path(head) && rest.strip_suffix(')').is_some_and(|inner| !inner.contains(['(', ')']))
     });
-    if is_path(text) || is_call { text.into() } else { format!("({text})") }
+    let is_list = text.strip_prefix('[').is_some_and(|rest| rest.find(']') == Some(rest.len() - 1));
+    if is_path(text) || is_call || is_list { text.into() } else { format!("({text})") }
 }
 
 /// What a construction waits for.
@@ -93,6 +155,8 @@ pub(crate) struct Slot {
     also: Vec<Name>,
     /// What can fill it.
     pub(crate) kind: SlotKind,
+    /// What a program asks of it.
+    pub(crate) asks: Option<Asks>,
 }
 
 /// What can fill a slot.
@@ -119,7 +183,26 @@ impl Slot {
             ClassKind::Composite => SlotKind::Curve,
             _ => SlotKind::Value,
         };
-        Self { name: name.into(), label, class: found.name.clone(), also: Vec::new(), kind }
+        Self { name: name.into(), label, class: found.name.clone(), also: Vec::new(), kind, asks: None }
+    }
+
+    /// Whether a figure of a class fills it.
+    pub(crate) fn takes(&self, state: &State, class: ClassId) -> bool {
+        let document = &state.lowered.document;
+        let mut wanted = self.classes().filter_map(|c| document.class_named(c));
+        wanted.any(|wanted| document.is_a(class, wanted))
+    }
+
+    /// What fills it, in words.
+    pub(crate) fn in_words(&self) -> String {
+        match (self.kind, self.class.as_str()) {
+            (SlotKind::Value, "Integer") => "count".into(),
+            (_, "Straight") => "line".into(),
+            (_, "Curve") => "line, circle or arc".into(),
+            (_, "Round") => "circle or arc".into(),
+            (SlotKind::Set, _) => "figure".into(),
+            (_, class) => class.to_lowercase(),
+        }
     }
 
     /// The classes that fill it.
@@ -133,7 +216,7 @@ impl Tool {
     pub(crate) fn written(&self, operands: &[String]) -> String {
         let (to, rest) = match &self.call {
             Call::Value => return operands.first().cloned().unwrap_or_default(),
-            Call::Pattern(pattern) => return pattern.written(operands),
+            Call::Pattern(pattern, first) => return pattern.written(*first, operands),
             Call::Class(word) => (format!("{}.{word}", self.class), 0),
             Call::Make | Call::Placed => (self.class.to_string(), 0),
             Call::Message(word) => {
@@ -168,7 +251,7 @@ impl Tool {
     /// Where the page lists it.
     fn shelf(&self) -> String {
         match &self.call {
-            Call::Message(_) | Call::Pattern(_) if self.class.is_empty() => "Copy".into(),
+            Call::Message(_) | Call::Pattern(..) if self.class.is_empty() => "Copy".into(),
             Call::Value => "Value".into(),
             _ => self.class.to_string(),
         }
@@ -201,6 +284,13 @@ pub(crate) fn tools(state: &State, home: &Home) -> Vec<Tool> {
         if is_program || document.figure(id).is_some() && !matches!(home, Home::Document) {
             let is_placed = is_program && matches!(home, Home::Document);
             let mut tool = constructor(document, id, is_program);
+            if let (Some(tool), true) = (&mut tool, is_program) {
+                let mut asked = parameters::asked(state, &class.name);
+                for slot in &mut tool.slots {
+                    let at = asked.iter().position(|(name, _)| *name == slot.name);
+                    slot.asks = at.map(|at| asked.swap_remove(at).1);
+                }
+            }
             if let (Some(tool), true, Some(point)) =
                 (&mut tool, is_placed, document.class_named("Point"))
             {
@@ -223,7 +313,14 @@ pub(crate) fn tools(state: &State, home: &Home) -> Vec<Tool> {
     if !matches!(home, Home::Document) {
         all.extend(value(document));
     }
+    // what was recorded here is looked for first
+    let own = |tool: &Tool| matches!(tool.call, Call::Make | Call::Placed) && is_program(document, tool);
+    all.sort_by_key(|tool| !own(tool));
     all
+}
+
+fn is_program(document: &Document, tool: &Tool) -> bool {
+    document.class_named(&tool.class).is_some_and(|class| document.program(class).is_some())
 }
 
 /// Finds a construction.
@@ -284,12 +381,12 @@ fn pattern(document: &Document, pattern: Pattern) -> Option<Tool> {
         Pattern::Polar => (
             "about",
             "Polar pattern",
-            "So many of a figure, or of a set, evenly around a point; the first is where it is.",
+            "So many of a figure, or of a set, evenly around a point; itself is the first.",
         ),
         Pattern::Row => (
             "by",
             "Pattern in a row",
-            "So many of a figure, or of a set; each lies as far from the one before as a point from the origin.",
+            "So many of a figure, or of a set, itself the first; each lies as far from the one before as a point from the origin.",
         ),
     };
     let slots = vec![
@@ -303,7 +400,7 @@ fn pattern(document: &Document, pattern: Pattern) -> Option<Tool> {
         label: label.into(),
         base: "pattern".into(),
         doc: doc.into(),
-        call: Call::Pattern(pattern),
+        call: Call::Pattern(pattern, First::Made),
         slots,
     })
 }

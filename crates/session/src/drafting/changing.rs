@@ -4,7 +4,7 @@
 use super::operands::{self, Occurrence};
 use super::scene::{self, Curve};
 use super::view::{Prompt, StepOperand, Wants};
-use super::{Around, Home, blocks, outcome, recording, text, visit};
+use super::{Around, Home, blocks, catalogue, outcome, recording, remove, text, visit};
 use crate::document::Open;
 use crate::host::Host;
 use crate::state::State;
@@ -179,7 +179,7 @@ pub(crate) fn give(
         None => typed.trim().to_string(),
         Some((pointer, level)) => {
             let all = scene::scene(&open.state, &home(open).ok_or_else(none)?);
-            let nothing = || words::refuse(format!("nothing that {step} can speak of lies here"));
+            let nothing = || words::refuse(remove::why_nothing(open, &step, pointer));
             let found = scene::nearest(all.iter(), pointer).ok_or_else(nothing)?;
             found.at_level(level)
         }
@@ -209,8 +209,12 @@ pub(crate) fn set(
     let none = || words::refuse(format!("{address} says nothing called {slot}"));
     let source = text::Source::now(&open.state);
     let (found, _) = find(&source, program, (address, slot)).ok_or_else(none)?;
-    let (start, end) = (found.span.start as usize, found.span.end as usize);
-    let edited = format!("{}{typed}{}", &source[..start], &source[end..]);
+    // others go on from what stands twice
+    let typed = if found.again.is_some() { catalogue::bracketed(typed) } else { typed.into() };
+    let mut edited = source.to_string();
+    for span in found.again.iter().chain([&found.span]) {
+        edited.replace_range(span.start as usize..span.end as usize, &typed);
+    }
     let ended = |state: &State| {
         let said = state.diagnostics.iter().filter(|d| d.code == "run-ended");
         said.map(|d| d.message.clone()).collect::<Vec<_>>()

@@ -2,7 +2,7 @@
 
 use super::hands::{home, not_in_a_pane, prompt, turn_of};
 use super::view::{Ends, NewParameter, Prompt, Turn};
-use super::{blocks, choice, recording, repeat, scene};
+use super::{blocks, choice, parameters, recording, repeat, scene};
 
 use crate::session::Session;
 use crate::view::{Change, DocumentId, Refusal};
@@ -66,7 +66,8 @@ impl Session {
     ) -> Result<Change, Refusal> {
         let (open, beside) = self.beside_others(id);
         blocks::recorded(open)?;
-        let set = scene::within(&open.state, &home(open), corners);
+        let found = scene::within(&open.state, &home(open), corners);
+        let set: Vec<String> = found.into_iter().map(|found| found.text).collect();
         let change = repeat::begin_each(open, &beside, ("", &set))?;
         Ok(*self.with_reach(id, change))
     }
@@ -122,17 +123,27 @@ impl Session {
         Ok(*self.with_reach(id, change))
     }
 
-    /// Defines a parameter of the program that is recorded.
+    /// Defines a parameter of the program that is recorded, or says anew what one is.
     ///
     /// # Errors
-    /// Nothing is recorded, the name is taken, the example is no value.
+    /// Nothing is recorded, the name is taken, the example is no value, a step needs it to be what it was.
     pub fn define_parameter(
         &mut self,
         id: DocumentId,
         parameter: &NewParameter,
     ) -> Result<Change, Refusal> {
         let (open, beside) = self.beside_others(id);
-        let change = recording::define(open, &beside, &home(open), parameter)?;
+        let change = parameters::define(open, &beside, &home(open), parameter)?;
+        Ok(*self.with_reach(id, change))
+    }
+
+    /// Takes a parameter from the program that is recorded.
+    ///
+    /// # Errors
+    /// Nothing is recorded, there is none of that name, steps speak of it.
+    pub fn remove_parameter(&mut self, id: DocumentId, name: &str) -> Result<Change, Refusal> {
+        let (open, beside) = self.beside_others(id);
+        let change = parameters::remove(open, &beside, &home(open), name)?;
         Ok(*self.with_reach(id, change))
     }
 }

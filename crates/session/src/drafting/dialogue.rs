@@ -3,7 +3,7 @@
 use super::catalogue::{Slot, SlotKind, Tool};
 use super::scene::{self, Found};
 use super::view::{Hover, Prompt, Wants};
-use super::{Home, measure, older, outcome, typed};
+use super::{Home, measure, older, outcome, parameters, typed};
 use crate::state::State;
 use crate::view::{Pointer, Refusal};
 use crate::words;
@@ -15,6 +15,15 @@ pub(crate) struct Operand {
     pub(crate) text: String,
     /// Where it was picked.
     pub(crate) at: Option<(f64, f64)>,
+    /// Further sets for which the same is done, each in a step of its own.
+    pub(crate) also: Vec<String>,
+}
+
+impl Operand {
+    /// An operand by its text, and where it was picked.
+    pub(crate) fn new(text: String, at: Option<(f64, f64)>) -> Self {
+        Self { text, at, also: Vec::new() }
+    }
 }
 
 /// A construction that waits for operands.
@@ -76,11 +85,21 @@ impl Dialogue {
                 SlotKind::Point => {
                     "pick a point, or type `x,y`, `@dx,dy`, `length<angle`".to_string()
                 }
-                SlotKind::Curve => format!("pick a {}", slot.class.to_lowercase()),
-                SlotKind::Set => "pick a figure; Tab takes its turn, or the whole loop".to_string(),
+                SlotKind::Curve => format!("pick a {}", slot.in_words()),
+                SlotKind::Set => {
+                    "pick a figure, or drag over several; Tab takes its turn, or the whole loop".to_string()
+                }
+                SlotKind::Value if *slot.class == *"Bool" => "type `yes` or `no`".to_string(),
                 SlotKind::Value => "type a value, pick a parameter or what has it".to_string(),
             };
-            format!("{}: {wanted}", slot.name)
+            let Some(asks) = &slot.asks else { return format!("{}: {wanted}", slot.name) };
+            let question = match asks.prompt.as_str() {
+                "" => format!("{}:", slot.name),
+                prompt => format!("{prompt} ({})", slot.name),
+            };
+            let range = asks.range.as_ref().map_or(String::new(), |(a, b)| format!(", {a} to {b}"));
+            let usual = asks.usual.as_ref().map_or(String::new(), |u| format!("; Enter takes {u}"));
+            format!("{question} {wanted}{range}{usual}")
         });
         let given = |i: usize| self.filled.get(i).map(|operand| operand.text.clone());
         let operands = self.tool.slots.iter().enumerate();
@@ -127,7 +146,7 @@ impl Dialogue {
                 SlotKind::Set => found.at_level(level),
                 SlotKind::Point | SlotKind::Curve => found.text.clone(),
             };
-            return Ok(Operand { text, at: Some(pointer.at) });
+            return Ok(Operand::new(text, Some(pointer.at)));
         }
         if let Some(older) = older::find(state, home, self, pointer) {
             return Err(words::refuse(format!(
@@ -137,13 +156,13 @@ impl Dialogue {
         }
         match (slot.kind, slot.name.as_str()) {
             (SlotKind::Point, _) => {
-                Ok(Operand { text: typed::place(pointer), at: Some(pointer.at) })
+                Ok(Operand::new(typed::place(pointer), Some(pointer.at)))
             }
             (SlotKind::Value, "x" | "y") => {
-                Ok(Operand { text: typed::coordinate(pointer, &slot.name), at: Some(pointer.at) })
+                Ok(Operand::new(typed::coordinate(pointer, &slot.name), Some(pointer.at)))
             }
             (SlotKind::Curve | SlotKind::Set | SlotKind::Value, _) => {
-                Err(words::refuse(format!("there is no {} here", slot.class.to_lowercase())))
+                Err(words::refuse(format!("there is no {} here", slot.in_words())))
             }
         }
     }
@@ -159,10 +178,14 @@ impl Dialogue {
         let operand = match typed.trim().is_empty() {
             true => self.pick(state, home, (pointer, level)),
             false => typed::operand(slot, typed, self.last_point.as_deref())
-                .map(|text| Operand { text, at: None }),
+                .map(|text| Operand::new(text, None)),
         };
         let operand = match operand {
             Ok(operand) => operand,
+            // a value is mostly typed: that nothing here has one is said of a click
+            Err(_) if slot.kind == SlotKind::Value && typed.trim().is_empty() => {
+                return Hover::default();
+            }
             Err(refusal) => return Hover { why: Some(refusal.message), ..Hover::default() },
         };
         let finds = Some(operand.text.clone());
@@ -188,7 +211,11 @@ impl Dialogue {
                 ghost.elements.extend(chosen.curve.and_then(|curve| curve.arrow(pointer)));
                 Hover { finds, ghost, why: None }
             }
-            Err(refusal) => Hover { finds, why: Some(refusal.message), ..Hover::default() },
+            Err(refusal) => {
+                let typed = (typed.trim(), slot.class.as_str());
+                let why = parameters::may_become(state, home, typed).unwrap_or(refusal.message);
+                Hover { finds, why: Some(why), ..Hover::default() }
+            }
         }
     }
 }
@@ -200,13 +227,9 @@ pub(crate) fn nearest<'f>(
     all: &'f [Found],
     pointer: &Pointer,
 ) -> Option<&'f Found> {
-    let document = &state.lowered.document;
-    let wanted: Vec<_> = slot.classes().filter_map(|c| document.class_named(c)).collect();
     let fits = |f: &&Found| match slot.kind {
         SlotKind::Value => measure::usual(state, f).is_some(),
-        SlotKind::Point | SlotKind::Curve | SlotKind::Set => {
-            wanted.iter().any(|&w| document.is_a(f.class, w))
-        }
+        SlotKind::Point | SlotKind::Curve | SlotKind::Set => slot.takes(state, f.class),
     };
     scene::nearest(all.iter().filter(fits), pointer)
 }

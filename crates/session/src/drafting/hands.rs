@@ -1,14 +1,14 @@
 //! Drafting at the boundary: what the page asks of a session.
 
-use super::catalogue::{SlotKind, Tool};
+use super::catalogue::{Call, First, SlotKind, Tool};
 use super::dialogue::{Dialogue, Goal, Operand};
-use super::view::{Computed, ConstructionRow, Hover, MeasureKind, OlderUse, Prompt, Turn, Wants};
+use super::view::{Computed, ConstructionRow, Ends, Hover, MeasureKind, OlderUse, Prompt, Turn, Wants};
 use super::{
-    Home, blocks, catalogue, changing, choice, measure, older, outcome, recording, remove, repeat,
-    scene, steps, text, typed,
+    Home, blocks, catalogue, changing, choice, measure, older, outcome, parameters, recording, remove,
+    repeat, scene, steps, text, typed,
 };
 use crate::apply;
-use crate::document::Open;
+use crate::document::{Direction, Open};
 use crate::host::Host;
 use crate::session::Session;
 use crate::state::State;
@@ -72,6 +72,9 @@ fn give(open: &mut Open, host: &dyn Host, operand: Operand) -> Result<Turn, Refu
     if is_point {
         dialogue.last_point = Some(operand.text.clone());
     }
+    if filled.is_empty() {
+        settle_first((&open.state, &home), &mut dialogue.tool, &operand.text);
+    }
     filled.push(operand);
     open.picking = super::Picking::default();
     if filled.len() < dialogue.tool.slots.len() {
@@ -98,7 +101,26 @@ fn give(open: &mut Open, host: &dyn Host, operand: Operand) -> Result<Turn, Refu
         return Ok(Turn::Made { change, name: step, text: chosen.text, next });
     }
     let line = recording::line(open, &home, &dialogue, (&filled, &chosen.text));
-    let change = recording::write(open, host, &home, &line)?;
+    let since = open.done.len();
+    let mut change = recording::write(open, host, &home, &line)?;
+    let also = filled[0].also.clone();
+    for more in &also {
+        filled[0].text.clone_from(more);
+        match drawn_also(open, host, (&home, &dialogue, &filled)) {
+            Ok(made) => change = made,
+            Err(refusal) => {
+                // all of it, or nothing
+                while open.done.len() > since {
+                    open.travel(Direction::Back);
+                    open.undone.pop();
+                }
+                return Err(refusal);
+            }
+        }
+    }
+    if !also.is_empty() {
+        open.one_step(since);
+    }
     if let Some(dialogue) = &mut open.dialogue {
         dialogue.filled.clear();
         dialogue.pointer = None;
@@ -107,6 +129,29 @@ fn give(open: &mut Open, host: &dyn Host, operand: Operand) -> Result<Turn, Refu
     }
     let next = prompt(open);
     Ok(Turn::Made { change: Box::new(change), name: line.name, text: chosen.text, next })
+}
+
+/// Settles whether a pattern makes the first figure: not where what it is of is drawn.
+fn settle_first((state, home): (&State, &Home), tool: &mut Tool, of: &str) {
+    if let Call::Pattern(_, first) = &mut tool.call {
+        let is_there = text::is_drawn(&text::Source::now(state), home, of);
+        *first = if is_there { First::There } else { First::Made };
+    }
+}
+
+/// Does the same for a further set.
+fn drawn_also(
+    open: &mut Open,
+    host: &dyn Host,
+    (home, dialogue, filled): (&Home, &Dialogue, &[Operand]),
+) -> Result<Change, Refusal> {
+    let mut dialogue = dialogue.clone();
+    settle_first((&open.state, home), &mut dialogue.tool, &filled[0].text);
+    let dialogue = &dialogue;
+    let given = (&dialogue.tool, filled, dialogue.pointer, dialogue.turned);
+    let chosen = outcome::choose(&open.state, home, given)?;
+    let line = recording::line(open, home, dialogue, (filled, &chosen.text));
+    recording::write(open, host, home, &line)
 }
 
 /// Says anew what a step does.
@@ -138,7 +183,7 @@ fn reach(
     match goal {
         Goal::Operand(goal) => {
             open.dialogue = Some(*goal);
-            give(open, host, Operand { text, at })
+            give(open, host, Operand::new(text, at))
         }
         Goal::Answer => {
             open.dialogue = None;
@@ -242,7 +287,7 @@ impl Session {
                 dialogue.hover(&state, &home, (pointer, level, typed))
             }
             None => {
-                let home = changing::home(open).unwrap_or(home);
+                let home = changing::home(open).or_else(|| remove::home(open)).unwrap_or(home);
                 let found = object_at(&state, &home, (pointer, level));
                 let mut hover = found_hover(&state, &home, found);
                 let asked = repeat::asked_drawing(open, &beside);
@@ -261,6 +306,42 @@ impl Session {
         let (open, beside) = self.beside_others(id);
         let turn = pointed(open, &beside, pointer)?;
         let turn = self.said_of_class(id, turn)?;
+        Ok(self.reached(id, turn))
+    }
+
+    /// Gives a set that is wanted by all that lies in a rectangle.
+    ///
+    /// # Errors
+    /// No set is wanted, nothing that fits lies there, or there is no such figure; what waits goes on waiting.
+    pub fn point_all(
+        &mut self,
+        id: DocumentId,
+        corners: ((f64, f64), (f64, f64)),
+    ) -> Result<Turn, Refusal> {
+        let (open, beside) = self.beside_others(id);
+        let home = home(open);
+        let waiting = open.dialogue.as_ref().and_then(|d| Some((d, d.slot()?)));
+        let Some((dialogue, slot)) = waiting.filter(|(_, slot)| slot.kind == SlotKind::Set) else {
+            return Err(words::refuse("no set is wanted: pick one thing".into()));
+        };
+        let makes_one = dialogue.goal.is_some() || dialogue.replaces.is_some();
+        let found = scene::within(&open.state, &home, corners);
+        let fits = |found: &scene::Found| slot.takes(&open.state, found.class);
+        let found: Vec<scene::Found> = found.into_iter().filter(fits).collect();
+        let (single, sets) = match makes_one {
+            true => (found.into_iter().map(|found| found.text).collect(), Vec::new()),
+            false => scene::whole_sets(&open.state, &home, &found),
+        };
+        let single = match single.as_slice() {
+            [] => None,
+            [one] => Some(one.clone()),
+            all => Some(format!("[{}]", all.join(", "))),
+        };
+        let mut all = single.into_iter().chain(sets);
+        let none = || words::refuse("nothing that can be taken lies in that rectangle".into());
+        let text = all.next().ok_or_else(none)?;
+        let operand = Operand { text, at: None, also: all.collect() };
+        let turn = give(open, &beside, operand)?;
         Ok(self.reached(id, turn))
     }
 
@@ -368,7 +449,7 @@ impl Session {
         if let Some(dialogue) = &mut open.dialogue {
             dialogue.pointer = None;
         }
-        match give(open, &beside, Operand { text, at: Some(older.at) }) {
+        match give(open, &beside, Operand::new(text, Some(older.at))) {
             Ok(turn) => Ok(self.reached(id, turn)),
             Err(refusal) => {
                 if open.done.len() > since {
@@ -558,18 +639,32 @@ fn entered(open: &mut Open, host: &dyn Host, typed: &str) -> Result<Turn, Refusa
         return Ok(turn_of(open, Some(change), typed.into()));
     }
     if let Some((dialogue, slot)) = open.dialogue.as_ref().and_then(|d| Some((d, d.slot()?))) {
-        let text = typed::operand(slot, typed, dialogue.last_point.as_deref())?;
-        outcome::fits(&open.state, &home, (&text, slot))?;
-        return give(open, host, Operand { text, at: None });
+        let (text, wanted) = (typed::operand(slot, typed, dialogue.last_point.as_deref())?, slot.clone());
+        let again = |open: &mut Open| {
+            outcome::fits(&open.state, &home, (&text, &wanted))?;
+            if let Some(asks) = &wanted.asks {
+                asks.allows(&open.state, &home, (&wanted.name, &text))?;
+            }
+            give(open, host, Operand::new(text.clone(), None))
+        };
+        return again(open).or_else(|refused| {
+            parameters::retried(open, host, (&home, &text, &wanted.class), refused, &again)
+        });
     }
     match blocks::prompt(open).map(|prompt| prompt.wants) {
         Some(Wants::Recurrence(_)) if typed.trim().is_empty() => Err(words::refuse(
             "pick an object of the turn before, type one, or press `The same`".into(),
         )),
         Some(Wants::Recurrence(_)) => answered(open, host, (Some(typed), None)),
-        Some(Wants::Ends(_)) => {
-            let change = repeat::close(open, host, typed)?;
-            Ok(turn_of(open, Some(change), typed.into()))
+        Some(Wants::Ends(ends)) => {
+            let again = |open: &mut Open| {
+                let change = repeat::close(open, host, typed)?;
+                Ok(turn_of(open, Some(change), typed.into()))
+            };
+            let wanted = if ends == Ends::Times { "Integer" } else { "Bool" };
+            again(open).or_else(|refused| {
+                parameters::retried(open, host, (&home, typed, wanted), refused, &again)
+            })
         }
         Some(Wants::Condition) => {
             let change = choice::begin(open, host, typed)?;

@@ -1,6 +1,6 @@
 //! The operands of a turn that come from outside of it: what a second turn is asked.
 
-use super::text;
+use super::{catalogue, text};
 use base::Span;
 use syntax::ast::{AstNode, Expr, Value};
 
@@ -14,6 +14,8 @@ pub(super) struct Occurrence {
     pub(super) first: String,
     /// Where it stands.
     pub(super) span: Span,
+    /// Where the same stands again.
+    pub(super) again: Option<Span>,
 }
 
 /// Lists the operands of a turn that speak of something that it has not made, those of blocks in it too.
@@ -50,12 +52,22 @@ fn add(
     (step, own): (&str, &[String]),
     into: &mut Vec<Occurrence>,
 ) {
+    let from = into.len();
     for (slot, value) in operands.drain(..) {
         let first = value.syntax().text().to_string().trim().to_string();
         if speaks_of_outside(&first, own) {
             let span = syntax::ast::span_without_doc(value.syntax());
-            into.push(Occurrence { step: step.into(), slot, first, span });
+            let it = Occurrence { step: step.into(), slot, first, span, again: None };
+            join(into, from, it);
         }
+    }
+}
+
+/// Adds an operand to those of a step; what stands twice is one.
+fn join(into: &mut Vec<Occurrence>, from: usize, it: Occurrence) {
+    match into[from..].iter_mut().find(|known| known.slot == it.slot && known.first == it.first) {
+        Some(known) => known.again = Some(it.span),
+        None => into.push(it),
     }
 }
 
@@ -66,9 +78,11 @@ pub(super) fn of_step(step: &text::StepNode) -> Vec<(Occurrence, bool)> {
     let one = |slot: String, value: &Expr, is_within: bool| {
         let first = value.syntax().text().to_string().trim().to_string();
         let span = syntax::ast::span_without_doc(value.syntax());
-        (Occurrence { step: step.segment.clone(), slot, first, span }, is_within)
+        (Occurrence { step: step.segment.clone(), slot, first, span, again: None }, is_within)
     };
-    let heads = heads(value).into_iter().map(|(slot, value)| one(slot, &value, false));
+    let mut all = Vec::new();
+    heads(value).into_iter().for_each(|(slot, value)| join(&mut all, 0, one(slot, &value, false).0));
+    let heads = all.into_iter().map(|it| (it, false));
     let tails = tails(value).into_iter().map(|(slot, value)| match slot.as_str() {
         "while" => one(slot, &value, true),
         "until" => one(slot, &value, true),
@@ -117,6 +131,9 @@ fn tails(value: &Value) -> Vec<(String, Expr)> {
 }
 
 fn operands_of(value: &Expr) -> Vec<(String, Expr)> {
+    if let Some((_, parts)) = catalogue::pattern_of(value) {
+        return parts.into_iter().map(|(slot, value)| (slot.to_string(), value)).collect();
+    }
     let is_capital = |text: &str| text.trim().starts_with(char::is_uppercase);
     let (receiver, list) = match value {
         Expr::Call(call) if call.name().is_some_and(|w| is_capital(w.text())) => {

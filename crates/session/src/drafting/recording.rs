@@ -3,8 +3,7 @@
 use super::blocks::Kind;
 use super::catalogue::Call;
 use super::dialogue::Operand;
-use super::view::NewParameter;
-use super::{Dialogue, Home, Recording, outcome, text};
+use super::{Dialogue, Home, Recording, text};
 use crate::apply;
 use crate::document::Open;
 use crate::host::Host;
@@ -13,8 +12,6 @@ use crate::state::State;
 use crate::view::{Change, Refusal};
 use crate::words;
 use base::{Name, Severity};
-use eval::Answer;
-use expr::dimension::Dimension;
 use kernel::{ClassId, Command, DOCUMENT, Path};
 use std::collections::BTreeSet;
 
@@ -44,7 +41,7 @@ pub(crate) fn line(
                 Call::Placed => dialogue.tool.thing(&name, &operands),
                 // things of a class draw their parts: there it is one that is bound
                 _ if open.pane.is_some() => format!("{name}: {} = {made}", dialogue.tool.class),
-                Call::Class(_) | Call::Make | Call::Message(_) | Call::Pattern(_) | Call::Value => {
+                Call::Class(_) | Call::Make | Call::Message(_) | Call::Pattern(..) | Call::Value => {
                     format!("{name} => {made}")
                 }
             };
@@ -220,77 +217,4 @@ fn example_of(state: &State, program: &Name) -> Option<Name> {
         document.is_a(of, class) && !is_placed(of)
     })?;
     state.structure.field_name(document, example).cloned()
-}
-
-/// Defines a parameter.
-///
-/// # Errors
-/// Nothing is recorded, the name is taken or none, the example is no value.
-pub(crate) fn define(
-    open: &mut Open,
-    host: &dyn Host,
-    home: &Home,
-    new: &NewParameter,
-) -> Result<Change, Refusal> {
-    let Home::Program { program, .. } = home else {
-        return Err(words::refuse("a parameter is one of a program: record one first".into()));
-    };
-    let (name, example) = (new.name.trim(), new.example.trim());
-    let starts_well = name.chars().next().is_some_and(char::is_alphabetic);
-    if !starts_well || !name.chars().all(|c| c.is_alphanumeric() || c == '_') {
-        return Err(words::refuse(format!("`{name}` is no name for a parameter")));
-    }
-    let place = super::typed::pair(example, ',').map(|(x, y)| format!("Point({x}, {y})"));
-    let example = place.as_deref().unwrap_or(example);
-    let class = match new.class.trim() {
-        "" => class_of_example(&open.state, example)?,
-        class => class.into(),
-    };
-    let prompt = match new.prompt.trim() {
-        "" => String::new(),
-        prompt => format!(" \"{}\"", prompt.replace(['"', '\\'], "")),
-    };
-    let range = match new.range.trim() {
-        "" => String::new(),
-        range if range.contains("..") => format!(" in {range}"),
-        range => {
-            let message = format!("`{range}` is no range: wanted is from..to, as 1 mm..100 mm");
-            return Err(words::refuse(message));
-        }
-    };
-    let written = format!("{name}: {class}{range} = {example}{prompt}");
-    let text = text::with_parameter(&text::Source::now(&open.state), program, &written)?;
-    retext(open, host, text, format!("define {name}"))
-}
-
-/// Returns the class that an example is of.
-fn class_of_example(state: &State, example: &str) -> Result<String, Refusal> {
-    let mut class = Err(words::refuse(format!("`{example}` is no value of a parameter")));
-    let texts = [example.to_string()];
-    let is_bare = example.parse::<f64>().is_ok();
-    let wrong = outcome::try_all(state, &Home::Document, &texts, &mut |_, evaluator, answer| {
-        let document = evaluator.document;
-        class = match answer {
-            Ok(Answer::Bool(_)) => Ok("Bool".into()),
-            // what a draughtsman says without a unit is a length
-            Ok(Answer::Number(..)) if is_bare => Ok("Length".into()),
-            Ok(Answer::Number(_, d)) if d == Dimension::LENGTH => Ok("Length".into()),
-            Ok(Answer::Number(_, d)) if d == Dimension::ANGLE => Ok("Angle".into()),
-            Ok(Answer::Number(_, d)) if d == Dimension::NONE => Ok("Real".into()),
-            Ok(Answer::Text(_)) => Ok("Text".into()),
-            Ok(Answer::Option(of, _)) => Ok(document.classes[of].name.to_string()),
-            Ok(other) => {
-                let made = evaluator.class_of(&other).map(|class| document.named_class(class));
-                let made = made.filter(|&class| document.figure(class).is_some());
-                made.map(|class| document.classes[class].name.to_string()).ok_or_else(|| {
-                    words::refuse(format!("{example} is {}, no value", other.kind()))
-                })
-            }
-            Err(fault) => Err(words::refuse(format!("{example}: {}", fault.message))),
-        };
-    });
-    match wrong {
-        Some(message) => Err(words::refuse(format!("{example}: {message}"))),
-        None => class,
-    }
 }

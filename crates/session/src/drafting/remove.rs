@@ -1,7 +1,7 @@
 //! A step deleted: for each step that speaks of it another object is asked for, or it goes too; one by one.
 
 use super::view::{Prompt, Wants};
-use super::{blocks, outcome, recording, scene, steps, text, visit};
+use super::{Home, blocks, hands, outcome, recording, scene, steps, text, visit};
 use crate::document::Open;
 use crate::host::Host;
 use crate::view::{Change, Pointer, Refusal};
@@ -153,6 +153,23 @@ pub(crate) fn along(open: &mut Open, host: &dyn Host) -> Result<Option<Change>, 
     finish(open, host)
 }
 
+/// Why a step cannot speak of what lies under a pointer.
+pub(super) fn why_nothing(open: &Open, step: &str, pointer: &Pointer) -> String {
+    let all = scene::scene(&open.state, &hands::home(open));
+    match scene::nearest(all.iter(), pointer) {
+        Some(later) => format!("{} is drawn after {step}, which cannot speak of it", later.text),
+        None => format!("nothing that {step} can speak of lies here"),
+    }
+}
+
+/// Where the step that is asked about reads its names.
+pub(super) fn home(open: &Open) -> Option<Home> {
+    let recording = open.recording.as_ref()?;
+    let removing = recording.removing.as_ref()?;
+    let step = &removing.asked[removing.open_question()?].step;
+    visit::home_of(&text::Source::now(&open.state), (&recording.program, &recording.example), step, &[])
+}
+
 /// Gives another object for what goes: as it is typed, or as a pointer finds it.
 ///
 /// # Errors
@@ -177,8 +194,11 @@ pub(crate) fn instead(
                     !text::places_of(text, name).is_empty()
                 })
             };
-            let nothing = || words::refuse(format!("nothing that {step} can speak of lies here"));
             let found = scene::nearest(all.iter().filter(|f| !is_gone(&f.text)), pointer);
+            let nothing = || {
+                let gone = scene::nearest(all.iter(), pointer).map(|f| format!("{} goes", f.text));
+                words::refuse(gone.unwrap_or_else(|| why_nothing(open, &step, pointer)))
+            };
             found.map(|found| found.at_level(level)).ok_or_else(nothing)?
         }
         None => typed.trim().to_string(),

@@ -492,6 +492,7 @@ fn closed(
         };
         let name = carried.iter().find(|(_, first, next)| *first == asked.first && next == answer);
         let name = name.map_or_else(|| answer.clone(), |(name, ..)| name.clone());
+        edits.extend(found.again.map(|again| (again, name.clone())));
         edits.push((found.span, name));
     }
     let span = body.span();

@@ -46,21 +46,49 @@ pub(crate) fn nearest<'f>(
     .map(|(_, f)| f)
 }
 
-/// Returns the names of the figures of a home that lie in a rectangle, whole ones rather than what is in them.
-pub(crate) fn within(state: &State, home: &Home, (a, b): ((f64, f64), (f64, f64))) -> Vec<String> {
+/// Finds the figures of a home that lie in a rectangle: whole ones, never the ends of a line that goes on outside.
+pub(crate) fn within(state: &State, home: &Home, (a, b): ((f64, f64), (f64, f64))) -> Vec<Found> {
     let across = a.0.min(b.0)..=a.0.max(b.0);
     let up = a.1.min(b.1)..=a.1.max(b.1);
-    let mut names: Vec<String> = Vec::new();
-    for found in scene(state, home) {
-        let is_part = names.iter().any(|name| found.text.starts_with(&format!("{name}.")));
+    let mut caught: Vec<Found> = Vec::new();
+    let all = scene(state, home);
+    let is_part = |found: &Found| {
+        let owner = found.text.rsplit_once('.').map(|(owner, _)| owner);
+        owner.is_some_and(|owner| all.iter().any(|f| f.text == owner))
+    };
+    for found in &all {
         let is_in = found.curve.box_of().is_some_and(|[low, high]| {
             [low, high].iter().all(|p| across.contains(&p[0]) && up.contains(&p[1]))
         });
-        if is_in && !is_part && !names.contains(&found.text) {
-            names.push(found.text);
+        if is_in && !is_part(found) && caught.iter().all(|known| known.text != found.text) {
+            caught.push(found.clone());
         }
     }
-    names
+    caught
+}
+
+/// Names figures: one by one, and sets where all of one are among them. What a loop or a pattern makes more of, by other
+/// values, belongs to its set.
+pub(crate) fn whole_sets(
+    state: &State,
+    home: &Home,
+    caught: &[Found],
+) -> (Vec<String>, Vec<String>) {
+    let all = scene(state, home);
+    let is_caught = |found: &Found| caught.iter().any(|c| c.text == found.text);
+    let is_whole = |set: &String| {
+        let mut of_set = all.iter().filter(|found| found.wholes.contains(set));
+        of_set.all(is_caught)
+    };
+    let (mut single, mut sets) = (Vec::new(), Vec::new());
+    for found in caught {
+        match found.wholes.iter().rev().find(|set| is_whole(set)) {
+            Some(set) if !sets.contains(set) => sets.push(set.clone()),
+            Some(_) => {}
+            None => single.push(found.text.clone()),
+        }
+    }
+    (single, sets)
 }
 
 /// Returns how something that a home knows is drawn; nothing where it is no figure.
@@ -249,7 +277,9 @@ impl Curve {
             Figure::Point(p) => place(p),
             Figure::Straight { from, to } => format!("{} to {}", place(from), place(to)),
             Figure::Circle { center, radius } => {
-                format!("centre {}, radius {}", place(center), number(radius))
+                // the sign says which way it runs
+                let way = if radius < 0.0 { ", clockwise" } else { "" };
+                format!("centre {}, radius {}{way}", place(center), number(radius.abs()))
             }
             Figure::Arc { start, end, .. } => format!("{} to {}", place(start), place(end)),
         }

@@ -1,9 +1,10 @@
 //! The steps of a program in words, with what each made in its example; and steps deleted and said anew.
 
+use super::catalogue::{self, Pattern};
 use super::scene::{Curve, elements_of};
 use super::text::StepNode;
 use super::view::{ParameterRow, StepRow, StepsView};
-use super::{Home, blocks, text, visit};
+use super::{Home, blocks, parameters, text, visit};
 use crate::document::Open;
 use crate::state::State;
 use crate::view::Refusal;
@@ -39,12 +40,21 @@ pub(crate) fn view(open: &Open, home: &Home, thing: Option<&str>) -> Option<Step
         rows.source = source;
         rows.block(&text::steps_of(body), "", &path, 0);
     }
-    let parameter = |asked: &kernel::program::Asked| ParameterRow {
+    let declared = found.as_ref().map(|(source, _)| parameters::declared(source, &name));
+    let declared = declared.unwrap_or_default();
+    let parameter = |asked: &kernel::program::Asked| {
+        let said = declared.iter().find(|said| *said.name == *asked.name);
+        let of = |get: fn(&parameters::Declared) -> &String| said.map_or_else(String::new, |said| get(said).clone());
+        ParameterRow {
+        class: of(|said| &said.class),
+        range: of(|said| &said.range),
+        example: of(|said| &said.example),
         name: asked.name.to_string(),
         prompt: asked.prompt.clone(),
         value: evaluator
             .at(&path.then(kernel::Step::Part(asked.name.clone())))
             .map_or_else(|fault| fault.message, |value| value_words(state, &evaluator, &value)),
+        }
     };
     let recording = open.recording.as_ref().filter(|_| *home != Home::Document);
     Some(StepsView {
@@ -96,7 +106,7 @@ impl<'a> Rows<'_, 'a> {
                 path: address.clone(),
                 name: step.name.clone().unwrap_or_default(),
                 depth,
-                words: in_words(&formula),
+                words: pattern_in_words(step).unwrap_or_else(|| in_words(&formula)),
                 formula,
                 value: answer.map(|answer| value_words(self.state, self.evaluator, &answer)),
                 is_guide: step.is_guide,
@@ -140,8 +150,30 @@ impl<'a> Rows<'_, 'a> {
     }
 }
 
+/// Says a pattern as a draughtsman does: `polar pattern: hole, about rim.center, count 6`.
+fn pattern_in_words(step: &StepNode) -> Option<String> {
+    let Some(Value::Expr(formula)) = &step.value else { return None };
+    let (pattern, parts) = catalogue::pattern_of(formula)?;
+    let of = |slot: &str| {
+        let part = parts.iter().find(|(name, _)| *name == slot);
+        part.map(|(_, said)| said.syntax().text().to_string().trim().to_string())
+    };
+    let (what, count) = (of("what")?, of("count")?);
+    Some(match pattern {
+        Pattern::Polar => format!("polar pattern: {what}, about {}, count {count}", of("about")?),
+        Pattern::Row => format!("pattern in a row: {what}, by {}, count {count}", of("by")?),
+    })
+}
+
 /// Says a formula as a draughtsman does: `circle tangent: -under, axis, radius r`.
 fn in_words(formula: &str) -> String {
+    // `mirrored of line, line2: about axis`
+    let of_list = formula.strip_prefix('[').and_then(|rest| rest.split_once("]."));
+    if let Some((all, (word, arguments))) = of_list.and_then(|(a, rest)| Some((a, rest.split_once('(')?)))
+        && let Some(arguments) = arguments.strip_suffix(')')
+    {
+        return format!("{word} of {all}: {}", arguments.replace(": ", " "));
+    }
     let Some((head, arguments)) = formula.split_once('(') else { return formula.into() };
     let Some(arguments) = arguments.strip_suffix(')') else { return formula.into() };
     let is_class = head.chars().next().is_some_and(char::is_uppercase);
@@ -387,6 +419,26 @@ pub(crate) fn without(
         edited.replace_range(start..end, "");
     }
     Ok(edited)
+}
+
+/// Returns a text in which a step is drawn for construction alone, or is part of the result.
+///
+/// # Errors
+/// There is no such step, or it has no name.
+pub(crate) fn with_guide(
+    source: &text::Source,
+    (program, address): (&str, &str),
+    is_guide: bool,
+) -> Result<String, Refusal> {
+    let none = || words::refuse(format!("{program} has no step {address} of its own name"));
+    let step = text::step_at(source, program, address).filter(|step| step.name.is_some());
+    let step = step.ok_or_else(none)?;
+    let (before, rest) = source.split_at(step.span.start as usize);
+    let plain = match rest.strip_prefix("guide") {
+        Some(plain) if step.is_guide => plain.trim_start(),
+        _ => rest,
+    };
+    Ok(format!("{before}{}{plain}", if is_guide { "guide " } else { "" }))
 }
 
 /// Returns a text in which a step says something else.

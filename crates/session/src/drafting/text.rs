@@ -258,6 +258,43 @@ pub(crate) fn visible(text: &Source, home: &Home) -> Vec<Vec<String>> {
     levels
 }
 
+/// Whether what a path leads to is part of what a program draws: a step that is no guide, what stands in a turn of one, or
+/// a list of such.
+pub(crate) fn is_drawn(text: &Source, home: &Home, path: &str) -> bool {
+    let Home::Program { program: name, .. } = home else { return true };
+    if let Some(all) = path.strip_prefix('[').and_then(|rest| rest.strip_suffix(']')) {
+        return all.split(',').all(|one| is_drawn(text, home, one.trim()));
+    }
+    let is_word = |c: char| c.is_alphanumeric() || c == '_';
+    let head = path.split(|c| !is_word(c)).next().unwrap_or_default();
+    let is_itself = head == path || path[head.len()..].starts_with('[');
+    let address = address_of(home);
+    let mut ways: Vec<&str> = address.match_indices('.').map(|(at, _)| &address[..at]).collect();
+    ways.extend(["", &address]);
+    ways.sort_by_key(|way| std::cmp::Reverse(way.len()));
+    let made = |way: &&str| walk(text, name, way)?.steps().into_iter().find(|s| s.segment == head);
+    is_itself && ways.iter().find_map(made).is_some_and(|step| !step.is_guide)
+}
+
+/// Where a thing at the top of a text is given a value, by the place of the part's name: with the braces, where it is
+/// given no other.
+pub(crate) fn given_at(text: &Source, name: Span) -> Option<Span> {
+    let is_it = |member: &Member| match member {
+        Member::Assign(assign) => assign.target().is_some_and(|target| target.span() == name),
+        _ => false,
+    };
+    let of_part = |member: Member| {
+        let Member::Part(part) = member else { return None };
+        let body = part.body()?;
+        let all: Vec<Member> = body.members().collect();
+        let own = all.iter().find(|member| is_it(member))?;
+        let span = if all.len() == 1 { body.span() } else { span_without_doc(own.syntax()) };
+        let before = text[..span.start as usize].trim_end().len() as u32;
+        Some(Span::new(before, span.end))
+    };
+    { text.file.members() }.find_map(of_part)
+}
+
 /// Joins two parts of an address.
 pub(crate) fn joined(around: &str, inner: &str) -> String {
     match (around, inner) {

@@ -33,6 +33,9 @@ pub(crate) fn coordinate(pointer: &Pointer, axis: &str) -> String {
 pub(crate) fn operand(slot: &Slot, typed: &str, last: Option<&str>) -> Result<String, Refusal> {
     let typed = typed.trim();
     if typed.is_empty() {
+        if let Some(usual) = slot.asks.as_ref().and_then(|asks| asks.usual.clone()) {
+            return Ok(usual);
+        }
         return Err(words::refuse(format!("{} is wanted", slot.name)));
     }
     let from = || {
@@ -41,6 +44,7 @@ pub(crate) fn operand(slot: &Slot, typed: &str, last: Option<&str>) -> Result<St
     };
     Ok(match slot.kind {
         SlotKind::Curve | SlotKind::Set => typed.into(),
+        SlotKind::Value if *slot.class == *"Bool" => truth(typed).into(),
         SlotKind::Value if *slot.class == *"Angle" && is_number(typed) => format!("{typed} deg"),
         SlotKind::Value => typed.into(),
         SlotKind::Point => match (typed.strip_prefix('@'), pair(typed, '<')) {
@@ -67,6 +71,15 @@ pub(crate) fn operand(slot: &Slot, typed: &str, last: Option<&str>) -> Result<St
             },
         },
     })
+}
+
+/// A yes or no as the language writes it.
+pub(super) fn truth(typed: &str) -> &str {
+    match typed.to_lowercase().as_str() {
+        "yes" => "true",
+        "no" => "false",
+        _ => typed,
+    }
 }
 
 fn is_number(text: &str) -> bool {

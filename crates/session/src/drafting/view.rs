@@ -203,6 +203,12 @@ pub struct ParameterRow {
     pub prompt: String,
     /// Its value in the example.
     pub value: String,
+    /// Its class.
+    pub class: String,
+    /// The values that are allowed; nothing for all.
+    pub range: String,
+    /// The value that its program gives it, as it is written.
+    pub example: String,
 }
 
 /// A step of a program.
@@ -304,4 +310,6 @@ pub struct NewParameter {
     pub class: String,
     /// The values that are allowed, `1 mm..100 mm`; nothing for all.
     pub range: String,
+    /// The parameter that is said anew by this; nothing for another one.
+    pub instead_of: String,
 }

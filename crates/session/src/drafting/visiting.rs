@@ -221,6 +221,24 @@ impl Session {
         Ok(*self.with_reach(id, change))
     }
 
+    /// Lets a step be drawn for construction alone, or be part of the result.
+    ///
+    /// # Errors
+    /// There is no such step, or it has no name of its own.
+    pub fn make_guide(
+        &mut self,
+        id: DocumentId,
+        (program, step): (&str, &str),
+        is_guide: bool,
+    ) -> Result<Change, Refusal> {
+        let source = text::Source::now(&self.document(id).state);
+        let text = steps::with_guide(&source, (program, step), is_guide)?;
+        let (open, beside) = self.beside_others(id);
+        let label = format!("{step} {}", if is_guide { "as a guide" } else { "drawn" });
+        let change = recording::retext(open, &beside, text, label)?;
+        Ok(*self.with_reach(id, change))
+    }
+
     /// Turns round what a step makes: a curve runs the other way, and what touches it goes to its other side.
     ///
     /// # Errors

@@ -68,18 +68,29 @@ fn a_nut_is_a_flat_in_a_polar_pattern() {
     guide(&mut desk, "Point", &[Typed("0"), Typed("s / (2 * cos(30 deg))")]);
     guide(&mut desk, "Point:turned", &[At(0.0, 9.24), At(0.0, 0.0), Typed("60")]);
     draw(&mut desk, "Line", &[At(0.0, 9.24), At(-8.0, 4.62)]);
-    let six = draw(&mut desk, ":pattern(about,count)", &[At(-4.0, 6.93), At(0.0, 0.0), Typed("6")]);
-    assert_eq!(six, "pattern");
+    let five = draw(&mut desk, ":pattern(about,count)", &[At(-4.0, 6.93), At(0.0, 0.0), Typed("6")]);
+    assert_eq!(five, "pattern");
     draw(&mut desk, "Circle", &[At(0.0, 0.0), Typed("d / 2")]);
     assert_eq!(desk.wrong(), [], "{}", desk.text());
-    assert_eq!(value(&desk, "nut.pattern"), "6 figures");
+    // the first flat is drawn already, and not twice
+    assert_eq!(value(&desk, "nut.pattern"), "5 figures");
     // the flat opposite of the first one; corners lie 16 / √3 from the middle
-    assert_eq!(value(&desk, "nut.pattern[3]"), "(0, -9.2376) to (8, -4.6188)");
+    assert_eq!(value(&desk, "nut.pattern[2]"), "(0, -9.2376) to (8, -4.6188)");
     desk.set("nut.s", 24.0).expect("a parameter can be set");
-    assert_eq!(value(&desk, "nut.pattern[3]"), "(0, -13.8564) to (12, -6.9282)");
+    assert_eq!(value(&desk, "nut.pattern[2]"), "(0, -13.8564) to (12, -6.9282)");
     // a row of figures, each as far on as a point from the origin
     let row = draw(&mut desk, ":pattern(by,count)", &[At(5.0, 0.0), Typed("30,0"), Typed("3")]);
-    assert_eq!(value(&desk, &format!("nut.{row}[2]")), "centre (60, 0), radius 5");
+    assert_eq!(value(&desk, &format!("nut.{row}[1]")), "centre (60, 0), radius 5");
+    let steps = desk.session.steps(desk.id, None).expect("it is recorded").rows;
+    let words: Vec<&str> = steps.iter().map(|row| row.words.as_str()).collect();
+    assert!(words.contains(&"polar pattern: line, about point, count 6"), "{words:?}");
+    // how many there are is changed in one place, though it is written in two
+    desk.session.set_operand(desk.id, ("nut", "pattern", "count"), "8").expect("it is a count");
+    assert_eq!(value(&desk, "nut.pattern"), "7 figures");
+    desk.session.make_guide(desk.id, ("Nut", "line"), true).expect("it has a name");
+    assert!(desk.text().contains("guide line = Line("), "{}", desk.text());
+    desk.session.make_guide(desk.id, ("Nut", "line"), false).expect("it has a name");
+    assert!(!desk.text().contains("guide line"), "{}", desk.text());
 }
 
 #[test]
@@ -106,7 +117,7 @@ fn a_retaining_ring_has_the_lug_that_its_size_asks_for() {
     assert_eq!(desk.wrong(), [], "{}", desk.text());
     assert_eq!(value(&desk, "ring.circle4"), "centre (0, 0), radius 13.25");
     for (d1, lug) in
-        [(8.0, "centre (-2.8, 10.896), radius -2"), (25.0, "centre (0, 0), radius -13.25")]
+        [(8.0, "centre (-2.8, 10.896), radius 2, clockwise"), (25.0, "centre (0, 0), radius 13.25, clockwise")]
     {
         desk.set("ring.d1", d1).expect("a parameter can be set");
         assert_eq!(value(&desk, "ring.mirrored"), lug, "{d1}");
@@ -221,4 +232,45 @@ fn draw_answer(desk: &mut Desk, by: &str) {
     let pointer = Pointer { at: (4.0, 4.0), reach: 0.4, ..Pointer::default() };
     desk.session.point(desk.id, &pointer).expect("the centre lies there");
     desk.session.enter(desk.id, by).expect("it is a place");
+}
+
+#[test]
+fn half_a_shaft_is_mirrored_by_one_rubber_band() {
+    let mut desk = record("Shaft", &[("d", "30"), ("length", "40")]);
+    guide(&mut desk, "Axis.horizontal(y)", &[Typed("0")]);
+    draw(&mut desk, "Line", &[Typed("0, 0"), Typed("0, d / 2")]);
+    draw(&mut desk, "Line", &[Typed("line.p2"), Typed("@length, 0")]);
+    draw(&mut desk, "Circle", &[Typed("20, 8"), Typed("3")]);
+    // an end of the first line alone is nothing
+    desk.session.begin(desk.id, "Point:mirrored").expect("figures are mirrored");
+    let none = desk.session.point_all(desk.id, ((-5.0, 14.0), (5.0, 16.0)));
+    assert!(none.is_err_and(|refusal| refusal.message.starts_with("nothing that can be taken")));
+    desk.session.point_all(desk.id, ((-5.0, -1.0), (45.0, 16.0))).expect("three figures");
+    desk.session.enter(desk.id, "axis").expect("it is a line");
+    let wanted = "mirrored = [line, line2, circle].mirrored(about: axis)";
+    assert!(desk.text().contains(wanted), "{}", desk.text());
+    assert_eq!(desk.wrong(), [], "{}", desk.text());
+    assert_eq!(value(&desk, "shaft.mirrored[2]"), "centre (20, -8), radius 3, clockwise");
+}
+
+#[test]
+fn a_rubber_band_takes_a_pattern_as_a_whole_so_that_its_count_may_change() {
+    let mut desk = record("Flange", &[("holes", "6")]);
+    draw(&mut desk, "Circle", &[Typed("0, 0"), Typed("60")]);
+    draw(&mut desk, "Circle", &[Typed("45, 0"), Typed("5")]);
+    draw(&mut desk, ":pattern(about,count)", &[Typed("circle2"), Typed("0, 0"), Typed("holes")]);
+    guide(&mut desk, "Axis.vertical(x)", &[Typed("100")]);
+    let steps = desk.session.history(desk.id).0.len();
+    desk.session.begin(desk.id, "Point:mirrored").expect("figures are mirrored");
+    desk.session.point_all(desk.id, ((-70.0, -70.0), (70.0, 70.0))).expect("all of it");
+    desk.session.enter(desk.id, "axis").expect("it is a line");
+    for wanted in
+        ["mirrored = [circle, circle2].mirrored(about: axis)", "mirrored2 = pattern.mirrored(about: axis)"]
+    {
+        assert!(desk.text().contains(wanted), "{}", desk.text());
+    }
+    assert_eq!(desk.session.history(desk.id).0.len(), steps + 1);
+    desk.set("flange.holes", 4.0).expect("a parameter can be set");
+    assert_eq!(value(&desk, "flange.mirrored2"), "3 figures");
+    assert_eq!(desk.wrong(), [], "{}", desk.text());
 }

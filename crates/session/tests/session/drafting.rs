@@ -135,7 +135,7 @@ fn what_does_not_fit_is_refused_and_waited_for() {
     assert_eq!(refused(&mut desk, "floor.p1"), "floor.p1 is a Point, where a Curve is wanted");
     assert!(refused(&mut desk, "ceiling").contains("ceiling"));
     let nothing = desk.session.point(desk.id, &pointer(50.0, 50.0)).expect_err("nothing is there");
-    assert_eq!(nothing.message, "there is no curve here");
+    assert_eq!(nothing.message, "there is no line, circle or arc here");
     enter(&mut desk, "floor");
     enter(&mut desk, "floor");
     let none = refused(&mut desk, "10");
@@ -156,9 +156,11 @@ fn a_ghost_shows_what_will_be_drawn() {
     assert_eq!(hover.why, None);
     // the circle, and which way it runs
     assert_eq!(hover.ghost.elements.len(), 2);
-    // a measure is what is picked for a value
+    // a measure is what is picked for a value; mostly it is typed, and nothing is said before a click
     let hover = desk.session.hover(desk.id, &pointer(0.0, 50.0), "");
-    assert!(hover.why.is_some(), "an axis has no length");
+    assert_eq!((hover.finds, hover.why), (None, None), "an axis has no length");
+    let none = desk.session.point(desk.id, &pointer(0.0, 50.0)).expect_err("an axis has no length");
+    assert_eq!(none.message, "there is no length here");
     assert_eq!(desk.text(), CORNER);
 }
 
@@ -322,7 +324,7 @@ fn figure_7_6_is_drawn_by_its_first_turn_and_the_answers_for_the_second() {
     point(&mut desk, -80.0, 40.0);
     assert_eq!(made(point(&mut desk, 0.0, 20.0)), "column.mirrored(about: axis2)");
     assert_eq!(value(&desk, "rings.mirrored"), "5 turns");
-    assert_eq!(value(&desk, "rings.mirrored[1].circle"), "centre (20, 96.5685), radius -20");
+    assert_eq!(value(&desk, "rings.mirrored[1].circle"), "centre (20, 96.5685), radius 20, clockwise");
 }
 
 #[test]

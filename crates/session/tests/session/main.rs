@@ -24,6 +24,7 @@ mod limits;
 mod mentioning;
 mod offering;
 mod older;
+mod parameters;
 mod plotting;
 mod prototypes;
 mod proving;

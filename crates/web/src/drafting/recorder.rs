@@ -92,23 +92,19 @@ const CLASSES: [&str; 11] = [
     "Length", "Angle", "Real", "Integer", "Bool", "Text", "Point", "Line", "Axis", "Circle", "Arc",
 ];
 
-/// Defines a parameter by its example.
+/// Defines a parameter by its example, or says one anew.
 #[component]
 fn Define(lab: Lab) -> impl IntoView {
-    let new = RwSignal::new(NewParameter::default());
+    let new = lab.drafting.parameter;
     let define = move |e: leptos::ev::SubmitEvent| {
         e.prevent_default();
-        let parameter = new.get_untracked();
-        if lab.settle(lab.tell(|session, id| session.define_parameter(id, &parameter))) {
-            new.set(NewParameter::default());
-            // the keyboard goes on with the next one
-            request_animation_frame(|| focus("input[name='parameter']"));
-        }
+        lab.define_parameter();
     };
+    let is_other = Memo::new(move |_| new.with(|n| !n.instead_of.is_empty()));
     view! {
         <form class="line define" aria-label=words::DEFINE on:submit=define>
             <input name="parameter" autocomplete="off" placeholder=words::PARAMETER_NAME
-                aria-label=words::PARAMETER_NAME prop:value=move || new.with(|n| n.name.clone())
+                aria-label=words::NAME_OF_PARAMETER prop:value=move || new.with(|n| n.name.clone())
                 on:input=move |e| new.update(|n| n.name = event_target_value(&e)) />
             <input name="example" autocomplete="off" placeholder=words::EXAMPLE aria-label=words::EXAMPLE
                 prop:value=move || new.with(|n| n.example.clone())
@@ -117,15 +113,23 @@ fn Define(lab: Lab) -> impl IntoView {
                 prop:value=move || new.with(|n| n.class.clone())
                 on:change=move |e| new.update(|n| n.class = event_target_value(&e))>
                 <option value="">{words::CLASS_OF_EXAMPLE}</option>
-                {CLASSES.map(|class| view! { <option value=class>{class}</option> }).into_iter().collect_view()}
+                {CLASSES.map(|class| view! { <option value=class>{words::class_of_parameter(class)}</option> }).into_iter().collect_view()}
             </select>
-            <input name="range" autocomplete="off" placeholder=words::RANGE aria-label=words::RANGE
+            <input name="range" autocomplete="off" placeholder=words::RANGE aria-label=words::RANGE title=words::RANGE_HELP
                 prop:value=move || new.with(|n| n.range.clone())
                 on:input=move |e| new.update(|n| n.range = event_target_value(&e)) />
             <input name="question" autocomplete="off" placeholder=words::QUESTION aria-label=words::QUESTION
                 prop:value=move || new.with(|n| n.prompt.clone())
                 on:input=move |e| new.update(|n| n.prompt = event_target_value(&e)) />
-            <button data-draft="define">{words::DEFINE}</button>
+            <button data-draft="define">
+                {move || if is_other.get() { words::CHANGE } else { words::DEFINE }}
+            </button>
+            <Show when=move || is_other.get()>
+                <button type="button" data-draft="keep-parameter"
+                    on:click=move |_| new.set(NewParameter::default())>{words::CANCEL}</button>
+                <button type="button" data-draft="remove-parameter"
+                    on:click=move |_| lab.remove_parameter()>{words::REMOVE_PARAMETER}</button>
+            </Show>
         </form>
     }
 }

@@ -5,6 +5,9 @@ use crate::{js, keyboard, words};
 use leptos::prelude::*;
 use session::drafting::view::{Go, ParameterRow, StepOperand, StepRow, StepsView};
 
+/// The list of steps.
+const LIST: &str = ".drawing .steps";
+
 /// The parameters with their values, and the steps in words.
 #[component]
 pub fn Steps(
@@ -15,9 +18,13 @@ pub fn Steps(
 ) -> impl IntoView {
     let view = move || steps.get().unwrap_or_default();
     let parameters = move || {
-        let example = view().example;
-        let is_visited = view().at.is_some();
-        let one = |row| view! { <Parameter lab=lab example=example.clone() row=row is_visited=is_visited /> };
+        let StepsView { example, at, is_recorded, .. } = view();
+        let used = match (is_recorded, at) {
+            (false, _) => Use::Tried,
+            (true, None) => Use::Recorded,
+            (true, Some(_)) => Use::Visited,
+        };
+        let one = |row| view! { <Parameter lab=lab example=example.clone() row=row used=used /> };
         view().parameters.into_iter().map(one).collect_view()
     };
     let rows = move || {
@@ -38,6 +45,11 @@ pub fn Steps(
             keyboard::rest_at(".drawing [data-visit='step']");
         }
         drawn
+    });
+    Effect::new(move |_| {
+        steps.track();
+        lab.drafting.lit.track();
+        keyboard::one_stop(LIST);
     });
     let go = move |go: Go| move |_| lab.visit(&go);
     let is_recorded = Memo::new(move |_| steps.with(|s| s.as_ref().is_some_and(|s| s.is_recorded)));
@@ -62,7 +74,10 @@ pub fn Steps(
     }
     };
     view! {
-        <h3>{move || words::steps_of(&view().program)}</h3>
+        // while one is recorded its name stands above
+        <Show when=move || !is_recorded.get()>
+            <h3>{move || words::steps_of(&view().program)}</h3>
+        </Show>
         <div class="parameters">{parameters}</div>
         <Show when=move || !view().parameters.is_empty()>
             <div class="line values">
@@ -76,7 +91,7 @@ pub fn Steps(
                 <button data-visit="own" on:click=move |_| lab.own_values()>{words::OWN_VALUES}</button>
             </p>
         </Show>
-        <ol class="steps">{rows}</ol>
+        <ol class="steps" on:keydown=|e| keyboard::go_in(LIST, &e)>{rows}</ol>
     }
 }
 
@@ -91,18 +106,29 @@ fn show_newest() {
     list.set_scroll_top(list.scroll_top() + (below + above).round() as i32);
 }
 
+/// What a parameter's value is changed for.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Use {
+    /// The example of a program that nobody records.
+    Tried,
+    /// The example while more is recorded.
+    Recorded,
+    /// A visit.
+    Visited,
+}
+
 /// A parameter: its name goes where a value is wanted, its value is typed. While the program is visited that is a value
 /// of the visit.
 #[component]
-fn Parameter(lab: Lab, example: String, row: ParameterRow, is_visited: bool) -> impl IntoView {
+fn Parameter(lab: Lab, example: String, row: ParameterRow, used: Use) -> impl IntoView {
     let name = StoredValue::new(row.name.clone());
     let path = StoredValue::new(format!("{example}.{}", row.name));
     let wrong = RwSignal::new(None::<String>);
     let typed = move |e: leptos::ev::Event| {
         let typed = event_target_value(&e);
-        let outcome = match is_visited {
-            false => lab.set_typed(&path.get_value(), &typed),
-            true => match lab.tell(|s, id| s.visit_by(id, &[(name.get_value(), typed)])) {
+        let outcome = match used {
+            Use::Tried | Use::Recorded => lab.set_typed(&path.get_value(), &typed),
+            Use::Visited => match lab.tell(|s, id| s.visit_by(id, &[(name.get_value(), typed)])) {
                 Some(Err(refusal)) => Err(refusal),
                 done => {
                     lab.settle(done);
@@ -116,13 +142,23 @@ fn Parameter(lab: Lab, example: String, row: ParameterRow, is_visited: bool) -> 
         }
         lab.drafting.turned.update(|n| *n += 1);
     };
+    let title = words::parameter_in_words(&row.class, &row.range, &row.prompt);
+    let change = (used != Use::Tried).then(|| {
+        let own = StoredValue::new(row.clone());
+        let label = words::change_parameter(&row.name);
+        view! {
+            <button type="button" class="bare" data-parameter-change=row.name.clone() title=label.clone() aria-label=label
+                on:click=move |_| own.with_value(|row| lab.change_parameter(row))>"✎"</button>
+        }
+    });
     view! {
         <span class="parameter">
-            <button type="button" data-parameter=row.name.clone() title=row.prompt
+            <button type="button" data-parameter=row.name.clone() title=title
                 on:click=move |_| lab.draft_parameter(&name.get_value())><code>{row.name.clone()}</code></button>
             <input name=format!("value-{}", row.name) autocomplete="off" aria-label=words::value_of_parameter(&row.name)
                 prop:value=row.value on:change=typed
                 aria-invalid=move || wrong.with(Option::is_some).to_string() />
+            {change}
             {move || wrong.get().map(|why| view! { <span class="wrong" role="alert">{why}</span> })}
         </span>
     }
@@ -176,7 +212,7 @@ fn Row(lab: Lab, steps: StepsView, row: StepRow) -> impl IntoView {
             })}
             <button class="bare" data-step-delete="" title=words::DELETE_STEP aria-label=words::DELETE_STEP on:click=ask>"×"</button>
             {move || is_lit.get().then(|| own.with_value(|(steps, row)| view! {
-                <Operands lab=lab steps=steps.clone() step=row.path.clone() />
+                <Operands lab=lab steps=steps.clone() row=row.clone() />
             }))}
             {move || asks.get().map(|along| view! {
                 <p class="along" role="alertdialog">
@@ -191,8 +227,18 @@ fn Row(lab: Lab, steps: StepsView, row: StepRow) -> impl IntoView {
 
 /// What a step says that can be changed by itself.
 #[component]
-fn Operands(lab: Lab, steps: StepsView, step: String) -> impl IntoView {
-    let own = StoredValue::new((steps, step));
+fn Operands(lab: Lab, steps: StepsView, row: StepRow) -> impl IntoView {
+    let program = steps.program.clone();
+    let guide = (!row.is_block && !row.name.is_empty()).then(|| {
+        let step = row.path.clone();
+        let make = move |e: leptos::ev::Event| lab.make_guide((&program, &step), event_target_checked(&e));
+        view! {
+            <label title=words::GUIDE_HELP>
+                <input type="checkbox" name="step-guide" prop:checked=row.is_guide on:change=make />{words::GUIDE}
+            </label>
+        }
+    });
+    let own = StoredValue::new((steps, row.path));
     let operands = Memo::new(move |_| {
         lab.values.track();
         let ask = |(steps, step): &(StepsView, String)| {
@@ -212,5 +258,5 @@ fn Operands(lab: Lab, steps: StepsView, step: String) -> impl IntoView {
             </button>
         }
     };
-    view! { <div class="operands">{move || operands.get().into_iter().map(one).collect_view()}</div> }
+    view! { <div class="operands">{move || operands.get().into_iter().map(one).collect_view()}{guide}</div> }
 }

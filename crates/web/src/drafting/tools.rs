@@ -1,9 +1,12 @@
 //! Every construction in scope, by the class of what it makes.
 
 use crate::lab::Lab;
-use crate::words;
+use crate::{keyboard, words};
 use leptos::prelude::*;
 use session::drafting::view::ConstructionRow;
+
+/// The list of all constructions.
+const LIST: &str = ".drawing .shelves";
 
 /// Every construction in scope, by the class of what it makes.
 #[component]
@@ -56,22 +59,34 @@ pub fn Constructions(
         };
         shelves.into_iter().map(shelf).collect_view()
     };
-    let key = move |e: leptos::ev::KeyboardEvent| {
-        if e.key() == "Enter"
-            && let Some(best) = best.get_untracked()
-        {
-            e.prevent_default();
-            lab.begin_construction(&best);
+    let key = move |e: leptos::ev::KeyboardEvent| match e.key().as_str() {
+        "Enter" => {
+            if let Some(best) = best.get_untracked() {
+                e.prevent_default();
+                // all are in sight for the next one
+                wanted.set(String::new());
+                lab.begin_construction(&best);
+            }
         }
+        "ArrowDown" => {
+            e.prevent_default();
+            keyboard::enter_list(LIST);
+        }
+        _ => {}
     };
+    Effect::new(move |_| {
+        found.track();
+        keyboard::one_stop(LIST);
+    });
     view! {
         <input type="search" name="construction" placeholder=words::FILTER aria-label=words::FILTER_CONSTRUCTIONS
             title=words::FILTER_HELP
+            prop:value=move || wanted.get()
             on:input=move |e| wanted.set(event_target_value(&e)) on:keydown=key />
         <Show when=move || found.with(Vec::is_empty)>
             <p class="quiet">{words::NO_CONSTRUCTION}</p>
         </Show>
-        {shelves}
+        <div class="shelves" on:keydown=|e| keyboard::go_in(LIST, &e)>{shelves}</div>
     }
 }
 

@@ -151,7 +151,7 @@ impl Hand {
             self.set_mode(pinch);
         } else if e.button() == 1 || (e.button() == 0 && space == Space::Down) {
             self.set_mode(Mode::Pan { last: at });
-        } else if e.button() == 0 && self.lab.drafting.banding.get_untracked() {
+        } else if e.button() == 0 && self.lab.takes_band() {
             self.set_mode(Mode::Band { start: at });
         } else if e.button() == 0 && self.lab.drafting.seeking.get_untracked() {
             self.lab.visit_picked(&self.pointer(at));
@@ -389,6 +389,7 @@ impl Hand {
                 self.lab.tool_set(&self.pointer(at));
             }
             Mode::Band { start } if distance(start, at) > PULL => self.lab.take_band(start, at),
+            Mode::Band { start } if self.lab.drafts() => self.lab.draft_point(&self.pointer(start)),
             // Escape may have ended the band already.
             Mode::Select { start, besides } if self.lab.band.with_untracked(Option::is_some) => {
                 self.lab.band.set(None);

@@ -1,11 +1,13 @@
 //! What the page says of recording among what is drawn already, and of solutions.
 
 /// The class of a parameter.
-pub const PARAMETER_CLASS: &str = "Class of the parameter";
+pub const PARAMETER_CLASS: &str = "Class of the parameter: without one, that of its example";
 /// The class is taken from the example.
-pub const CLASS_OF_EXAMPLE: &str = "as the example";
+pub const CLASS_OF_EXAMPLE: &str = "class";
 /// The field for the values that are allowed.
-pub const RANGE: &str = "range, 1..9";
+pub const RANGE: &str = "range";
+/// How that is written.
+pub const RANGE_HELP: &str = "The values that are allowed: 1..9, or 1 mm..100 mm";
 /// Something older becomes a parameter.
 pub const AS_PARAMETER: &str = "A parameter";
 /// Something older is copied into the program.
@@ -22,3 +24,40 @@ pub const SAVE_VALUES: &str = "Save values";
 pub const LOAD_VALUES: &str = "Load values";
 /// Nothing is found by what was typed.
 pub const NO_CONSTRUCTION: &str = "No construction has these words.";
+/// Says a parameter anew.
+pub const CHANGE: &str = "Change";
+/// Takes a parameter away.
+pub const REMOVE_PARAMETER: &str = "Delete";
+
+/// A class of parameters, as it is chosen.
+pub fn class_of_parameter(class: &str) -> String {
+    match class {
+        "Integer" => String::from("Integer (a count)"),
+        "Real" => String::from("Real (a plain number)"),
+        "Bool" => String::from("Bool (yes or no)"),
+        class => class.into(),
+    }
+}
+
+/// What has been defined: a name, its class, its value, and the example as it was typed.
+pub fn defined(name: &str, class: &str, value: &str, example: &str) -> String {
+    match class {
+        "Length" if example.parse::<f64>().is_ok() => {
+            format!("{name} is a length, {value}. Used as a count or an angle it becomes one")
+        }
+        class => format!("{name} is of the class {class}: {value}"),
+    }
+}
+
+/// What a parameter is.
+pub fn parameter_in_words(class: &str, range: &str, prompt: &str) -> String {
+    let range = if range.is_empty() { String::new() } else { format!(" in {range}") };
+    format!("{class}{range}. {prompt}").trim_end_matches(['.', ' ']).into()
+}
+
+/// Says a parameter anew.
+pub fn change_parameter(name: &str) -> String {
+    format!("Change or delete {name}")
+}
+/// What a guide is.
+pub const GUIDE_HELP: &str = "Drawn for construction alone: no part of the result";

@@ -1,0 +1,162 @@
+//! Parameters of a program that is recorded: what a plain number is, and how one is said anew.
+
+use crate::desk::Desk;
+use session::drafting::view::{Ends, NewParameter, Turn};
+use session::view::Pointer;
+
+fn define(desk: &mut Desk, name: &str, example: &str) {
+    let new = NewParameter { name: name.into(), example: example.into(), ..NewParameter::default() };
+    desk.session.define_parameter(desk.id, &new).expect("it is new");
+}
+
+/// A flange whose holes were defined by a plain number, as all its lengths.
+fn flange() -> Desk {
+    let mut desk = Desk::of("use geometry\nunit mm\n");
+    desk.session.record(desk.id, "Flange").expect("a new program");
+    for (name, example) in [("round", "90"), ("holes", "6"), ("d", "11"), ("first", "30")] {
+        define(&mut desk, name, example);
+    }
+    desk.session.begin(desk.id, "Circle").expect("there are circles");
+    enter(&mut desk, "round / 2, 0");
+    enter(&mut desk, "d / 2");
+    desk
+}
+
+fn enter(desk: &mut Desk, typed: &str) -> Turn {
+    let turn = desk.session.enter(desk.id, typed);
+    turn.unwrap_or_else(|refusal| panic!("{typed}: {}\n{}", refusal.message, desk.text()))
+}
+
+fn pick(desk: &mut Desk, x: f64, y: f64) {
+    let pointer = Pointer { at: (x, y), reach: 0.4, ..Pointer::default() };
+    desk.session.hover(desk.id, &pointer, "");
+    desk.session.point(desk.id, &pointer).expect("something lies there");
+}
+
+fn said(turn: Turn) -> String {
+    match turn {
+        Turn::Made { text, .. } => text,
+        Turn::Wants(prompt) => prompt.words,
+    }
+}
+
+fn class_of(desk: &Desk, name: &str) -> String {
+    let steps = desk.session.steps(desk.id, None).expect("it is recorded");
+    let row = steps.parameters.into_iter().find(|row| row.name == name);
+    row.map(|row| row.class).unwrap_or_default()
+}
+
+#[test]
+fn a_plain_number_becomes_a_count_where_it_counts() {
+    let mut desk = flange();
+    desk.session.begin(desk.id, ":pattern(about,count)").expect("there are patterns");
+    pick(&mut desk, 50.5, 0.0);
+    enter(&mut desk, "0, 0");
+    let steps = desk.session.history(desk.id).0.len();
+    let hover = desk.session.hover(desk.id, &Pointer::default(), "holes");
+    assert_eq!(hover.why.as_deref(), Some("holes becomes a count"));
+    let text = said(enter(&mut desk, "holes"));
+    assert!(text.ends_with("; holes is a count now"), "{text}");
+    assert_eq!(class_of(&desk, "holes"), "Integer");
+    assert_eq!(desk.session.history(desk.id).0.len(), steps + 1);
+    assert_eq!(desk.wrong(), [], "{}", desk.text());
+    assert_eq!(desk.session.comes_to(desk.id, "flange.pattern").as_deref(), Some("5 figures"));
+}
+
+#[test]
+fn a_plain_number_becomes_an_angle_where_it_turns() {
+    let mut desk = flange();
+    desk.session.begin(desk.id, "Point:turned").expect("figures are turned");
+    pick(&mut desk, 50.5, 0.0);
+    enter(&mut desk, "0, 0");
+    enter(&mut desk, "first");
+    assert!(desk.text().contains("first: Angle = 30 deg"), "{}", desk.text());
+    // the diameter is a length for other steps already
+    pick(&mut desk, 50.5, 0.0);
+    enter(&mut desk, "0, 0");
+    let before = desk.text();
+    let refused = desk.session.enter(desk.id, "d").expect_err("it is a length");
+    assert!(refused.message.starts_with("d is a length for other steps"), "{}", refused.message);
+    assert_eq!(desk.text(), before);
+}
+
+#[test]
+fn a_plain_number_becomes_a_count_of_turns() {
+    let mut desk = flange();
+    desk.session.begin_loop(desk.id, "").expect("it is recorded");
+    desk.session.begin(desk.id, "Circle").expect("there are circles");
+    enter(&mut desk, "0, 0");
+    enter(&mut desk, "d");
+    desk.session.end_turn(desk.id, Ends::Times).expect("a turn is drawn");
+    while desk.session.prompt(desk.id).is_some_and(|p| p.label.starts_with("Second turn")) {
+        desk.session.same(desk.id).expect("it is the same");
+    }
+    enter(&mut desk, "holes");
+    assert!(desk.text().contains("holes: Integer = 6"), "{}", desk.text());
+    assert_eq!(desk.session.comes_to(desk.id, "flange.turns").as_deref(), Some("6 turns"));
+}
+
+#[test]
+fn a_parameter_is_said_anew_with_another_name() {
+    let mut desk = flange();
+    let anew = NewParameter {
+        name: "hole".into(),
+        example: "13".into(),
+        prompt: "Hole?".into(),
+        instead_of: "d".into(),
+        ..NewParameter::default()
+    };
+    let steps = desk.session.history(desk.id).0.len();
+    desk.session.define_parameter(desk.id, &anew).expect("it is there");
+    let text = desk.text();
+    assert!(text.contains("hole: Length = 13 \"Hole?\"") && text.contains("hole / 2"), "{text}");
+    assert_eq!(desk.session.history(desk.id).0.len(), steps + 1);
+    // what steps need it to be it stays
+    let text = NewParameter { example: "true".into(), ..anew.clone() };
+    let text = NewParameter { instead_of: "hole".into(), ..text };
+    let before = desk.text();
+    assert!(desk.session.define_parameter(desk.id, &text).is_err());
+    assert_eq!(desk.text(), before);
+    let refused = desk.session.remove_parameter(desk.id, "hole").expect_err("a circle speaks of it");
+    assert_eq!(refused.message, "hole is spoken of by circle: change or delete these first");
+    desk.set("flange.first", 4.0).expect("a parameter can be set");
+    assert!(desk.text().contains("flange: Flange {"), "{}", desk.text());
+    desk.session.remove_parameter(desk.id, "first").expect("nothing speaks of it");
+    let wanted = "    holes: Length = 6,\n    hole: Length = 13 \"Hole?\",\n) {";
+    assert!(desk.text().contains(wanted), "{}", desk.text());
+    assert!(desk.text().ends_with("flange: Flange\n"), "{}", desk.text());
+}
+
+#[test]
+fn a_loop_that_is_open_is_no_warning_while_it_is_recorded() {
+    let mut desk = flange();
+    desk.session.begin_loop(desk.id, "").expect("it is recorded");
+    let all = desk.session.text(desk.id).diagnostics;
+    let said: Vec<_> = all.iter().map(|d| (d.code.as_str(), d.severity.as_str())).collect();
+    assert_eq!(said, [("open-block", "recording")]);
+}
+
+#[test]
+fn a_program_is_applied_by_its_questions() {
+    let mut desk = Desk::of(
+        "use geometry
+unit mm
+program Hole(d: Length in 1..20 = 11 \"Diameter?\", deep: Length = 2 * d) {
+    circle = Circle(center: Point(0, 0), radius: d / 2)
+}
+",
+    );
+    let all = desk.session.constructions(desk.id);
+    assert_eq!(all[0].id, "Hole");
+    let prompt = desk.session.begin(desk.id, "Hole").expect("it is a tool");
+    let wanted = "Diameter? (d) type a value, pick a parameter or what has it, 1 to 20; Enter takes 11";
+    assert_eq!(prompt.words, wanted);
+    let refused = desk.session.enter(desk.id, "30").expect_err("it is too much");
+    assert_eq!(refused.message, "d is 30: 1 to 20 are allowed");
+    enter(&mut desk, "");
+    // what depends on others is asked for
+    assert!(desk.session.enter(desk.id, "").is_err());
+    enter(&mut desk, "5");
+    enter(&mut desk, "40, 0");
+    assert!(desk.text().contains("d = 11"), "{}", desk.text());
+}
