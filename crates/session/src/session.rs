@@ -645,7 +645,10 @@ impl Session {
         if open.recording.is_some() {
             // what is demonstrated is not finished, and nothing is wrong with that
             let is_open = |d: &&mut DiagnosticView| d.code == "open-block";
-            view.diagnostics.iter_mut().filter(is_open).for_each(|d| d.severity = "recording".into());
+            view.diagnostics
+                .iter_mut()
+                .filter(is_open)
+                .for_each(|d| d.severity = "recording".into());
         }
         view
     }

@@ -355,7 +355,8 @@ impl Lab {
 
     /// Whether the next drag is a rubber band: one was asked for, or what waits takes sets.
     pub fn takes_band(self) -> bool {
-        let takes_sets = |p: &Option<Prompt>| p.as_ref().is_some_and(|p| p.takes_sets && !p.tool.is_empty());
+        let takes_sets =
+            |p: &Option<Prompt>| p.as_ref().is_some_and(|p| p.takes_sets && !p.tool.is_empty());
         self.drafting.banding.get_untracked() || self.drafting.prompt.with_untracked(takes_sets)
     }
 

@@ -51,7 +51,8 @@ pub fn one_stop(list: &'static str) {
     request_animation_frame(move || {
         let all = buttons(list);
         let held = holder();
-        let is_held = |b: &HtmlElement| held.as_ref().is_some_and(|held| b.is_same_node(Some(held)));
+        let is_held =
+            |b: &HtmlElement| held.as_ref().is_some_and(|held| b.is_same_node(Some(held)));
         let at = all.iter().position(is_held).unwrap_or(0);
         stop_at(&all, at);
     });

@@ -262,7 +262,8 @@ impl Lab {
                 let before = self.structure.with_untracked(Vec::len);
                 self.apply_as_meant(&command);
                 let made = self.structure.with_untracked(|rows| {
-                    let mut own = rows.iter().filter(|row| row.depth == 1 && row.kind == RowKind::Part);
+                    let mut own =
+                        rows.iter().filter(|row| row.depth == 1 && row.kind == RowKind::Part);
                     own.next_back().map(|row| row.path.clone()).filter(|_| rows.len() > before)
                 });
                 self.select(made);

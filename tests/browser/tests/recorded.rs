@@ -244,7 +244,8 @@ async fn a_plate_is_rows_of_rows_of_holes() {
 #[tokio::test]
 async fn a_flange_counts_its_holes_by_a_plain_number_and_is_applied_by_its_questions() {
     let visit = hands::begin().await;
-    record(&visit, "Flange", &[("outer", "120", ""), ("round", "90", ""), ("holes", "6", "")]).await;
+    record(&visit, "Flange", &[("outer", "120", ""), ("round", "90", ""), ("holes", "6", "")])
+        .await;
     enlarge(&visit, 3).await;
     construct(&visit, "Circle").await;
     pick(&visit, 0.0, 0.0).await;

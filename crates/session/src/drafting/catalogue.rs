@@ -95,7 +95,12 @@ pub(crate) fn pattern_of(formula: &Expr) -> Option<(Pattern, Vec<(&'static str, 
     let (what, count) = (one.receiver()?, last.left()?);
     let (pattern, parts) = match (one.name()?.text(), arguments.as_slice()) {
         ("turned", [about, Expr::Binary(by)]) => {
-            let parts = vec![("what", what), ("about", about.clone()), ("count", count), ("count", by.right()?)];
+            let parts = vec![
+                ("what", what),
+                ("about", about.clone()),
+                ("count", count),
+                ("count", by.right()?),
+            ];
             (Pattern::Polar, parts)
         }
         ("moved", [Expr::Call(place)]) => {
@@ -183,7 +188,14 @@ impl Slot {
             ClassKind::Composite => SlotKind::Curve,
             _ => SlotKind::Value,
         };
-        Self { name: name.into(), label, class: found.name.clone(), also: Vec::new(), kind, asks: None }
+        Self {
+            name: name.into(),
+            label,
+            class: found.name.clone(),
+            also: Vec::new(),
+            kind,
+            asks: None,
+        }
     }
 
     /// Whether a figure of a class fills it.
@@ -314,7 +326,8 @@ pub(crate) fn tools(state: &State, home: &Home) -> Vec<Tool> {
         all.extend(value(document));
     }
     // what was recorded here is looked for first
-    let own = |tool: &Tool| matches!(tool.call, Call::Make | Call::Placed) && is_program(document, tool);
+    let own =
+        |tool: &Tool| matches!(tool.call, Call::Make | Call::Placed) && is_program(document, tool);
     all.sort_by_key(|tool| !own(tool));
     all
 }

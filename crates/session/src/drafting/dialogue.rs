@@ -87,7 +87,8 @@ impl Dialogue {
                 }
                 SlotKind::Curve => format!("pick a {}", slot.in_words()),
                 SlotKind::Set => {
-                    "pick a figure, or drag over several; Tab takes its turn, or the whole loop".to_string()
+                    "pick a figure, or drag over several; Tab takes its turn, or the whole loop"
+                        .to_string()
                 }
                 SlotKind::Value if *slot.class == *"Bool" => "type `yes` or `no`".to_string(),
                 SlotKind::Value => "type a value, pick a parameter or what has it".to_string(),
@@ -155,9 +156,7 @@ impl Dialogue {
             )));
         }
         match (slot.kind, slot.name.as_str()) {
-            (SlotKind::Point, _) => {
-                Ok(Operand::new(typed::place(pointer), Some(pointer.at)))
-            }
+            (SlotKind::Point, _) => Ok(Operand::new(typed::place(pointer), Some(pointer.at))),
             (SlotKind::Value, "x" | "y") => {
                 Ok(Operand::new(typed::coordinate(pointer, &slot.name), Some(pointer.at)))
             }

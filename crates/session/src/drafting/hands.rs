@@ -2,10 +2,12 @@
 
 use super::catalogue::{Call, First, SlotKind, Tool};
 use super::dialogue::{Dialogue, Goal, Operand};
-use super::view::{Computed, ConstructionRow, Ends, Hover, MeasureKind, OlderUse, Prompt, Turn, Wants};
+use super::view::{
+    Computed, ConstructionRow, Ends, Hover, MeasureKind, OlderUse, Prompt, Turn, Wants,
+};
 use super::{
-    Home, blocks, catalogue, changing, choice, measure, older, outcome, parameters, recording, remove,
-    repeat, scene, steps, text, typed,
+    Home, blocks, catalogue, changing, choice, measure, older, outcome, parameters, recording,
+    remove, repeat, scene, steps, text, typed,
 };
 use crate::apply;
 use crate::document::{Direction, Open};
@@ -639,7 +641,8 @@ fn entered(open: &mut Open, host: &dyn Host, typed: &str) -> Result<Turn, Refusa
         return Ok(turn_of(open, Some(change), typed.into()));
     }
     if let Some((dialogue, slot)) = open.dialogue.as_ref().and_then(|d| Some((d, d.slot()?))) {
-        let (text, wanted) = (typed::operand(slot, typed, dialogue.last_point.as_deref())?, slot.clone());
+        let (text, wanted) =
+            (typed::operand(slot, typed, dialogue.last_point.as_deref())?, slot.clone());
         let again = |open: &mut Open| {
             outcome::fits(&open.state, &home, (&text, &wanted))?;
             if let Some(asks) = &wanted.asks {

@@ -81,7 +81,9 @@ pub(super) fn of_step(step: &text::StepNode) -> Vec<(Occurrence, bool)> {
         (Occurrence { step: step.segment.clone(), slot, first, span, again: None }, is_within)
     };
     let mut all = Vec::new();
-    heads(value).into_iter().for_each(|(slot, value)| join(&mut all, 0, one(slot, &value, false).0));
+    heads(value)
+        .into_iter()
+        .for_each(|(slot, value)| join(&mut all, 0, one(slot, &value, false).0));
     let heads = all.into_iter().map(|it| (it, false));
     let tails = tails(value).into_iter().map(|(slot, value)| match slot.as_str() {
         "while" => one(slot, &value, true),

@@ -43,7 +43,9 @@ pub(crate) fn declared(source: &text::Source, program: &str) -> Vec<Declared> {
             class: written(param.class().map(|c| c.syntax().text().to_string())),
             range: written(param.domain().map(|d| d.syntax().text().to_string())),
             example: written(param.value().map(|v| v.syntax().text().to_string())),
-            prompt: param.prompt().map_or_else(String::new, |word| word.text().trim_matches('"').into()),
+            prompt: param
+                .prompt()
+                .map_or_else(String::new, |word| word.text().trim_matches('"').into()),
             named: param.name()?.span(),
             span: syntax::ast::span_without_doc(param.syntax()),
         })
@@ -71,11 +73,13 @@ pub(crate) fn asked(state: &State, program: &str) -> Vec<(String, Asks)> {
     // a bare length of another file may be one of other units
     let is_here = |d: &Declared, text: &str| {
         let is_plain = matches!(d.class.as_str(), "Integer" | "Real" | "Bool" | "Text");
-        let has_unit = text.split_once(' ').is_some_and(|(number, _)| number.parse::<f64>().is_ok());
+        let has_unit =
+            text.split_once(' ').is_some_and(|(number, _)| number.parse::<f64>().is_ok());
         !text.is_empty() && is_constant(text) && (file == 0 || is_plain || has_unit)
     };
     let one = |d: &Declared| {
-        let range = d.range.split_once("..").map(|(a, b)| (a.trim().to_string(), b.trim().to_string()));
+        let range =
+            d.range.split_once("..").map(|(a, b)| (a.trim().to_string(), b.trim().to_string()));
         let usual = Some(d.example.clone()).filter(|example| is_here(d, example));
         let range = range.filter(|(a, b)| is_here(d, a) && is_here(d, b));
         (d.name.clone(), Asks { prompt: d.prompt.clone(), usual, range })
@@ -88,7 +92,12 @@ impl Asks {
     ///
     /// # Errors
     /// It lies outside of the range.
-    pub(crate) fn allows(&self, state: &State, home: &Home, (name, value): (&str, &str)) -> Result<(), Refusal> {
+    pub(crate) fn allows(
+        &self,
+        state: &State,
+        home: &Home,
+        (name, value): (&str, &str),
+    ) -> Result<(), Refusal> {
         let Some((least, most)) = &self.range else { return Ok(()) };
         let is_within = format!("{least} <= ({value}) and ({value}) <= {most}");
         match outcome::worth(state, home, &is_within) {
@@ -154,7 +163,8 @@ pub(crate) fn remove(
     let source = text::Source::now(&open.state);
     let speaking: Vec<String> = steps_that_speak(&source, program, name).collect();
     if !speaking.is_empty() {
-        let message = format!("{name} is spoken of by {}: change or delete these first", speaking.join(", "));
+        let message =
+            format!("{name} is spoken of by {}: change or delete these first", speaking.join(", "));
         return Err(words::refuse(message));
     }
     let none = || words::refuse(format!("{program} has no parameter {name}"));
@@ -257,7 +267,11 @@ fn take_back(open: &mut Open, since: usize) {
 }
 
 /// The steps of a program that speak of a parameter; of blocks the outermost.
-fn steps_that_speak(source: &text::Source, program: &str, name: &str) -> impl Iterator<Item = String> {
+fn steps_that_speak(
+    source: &text::Source,
+    program: &str,
+    name: &str,
+) -> impl Iterator<Item = String> {
     let body = text::block(source, program, "");
     let steps = body.map(|body| text::steps_of(&body)).unwrap_or_default();
     let speaks = |step: text::StepNode| {
@@ -349,7 +363,11 @@ fn has_own_value(state: &State, example: &Name, parameter: &Declared) -> bool {
 }
 
 /// Says what a parameter would become where a class is wanted.
-pub(crate) fn may_become(state: &State, home: &Home, (typed, wanted): (&str, &str)) -> Option<String> {
+pub(crate) fn may_become(
+    state: &State,
+    home: &Home,
+    (typed, wanted): (&str, &str),
+) -> Option<String> {
     let other = others(state, home, typed, wanted).into_iter().find(|other| !other.is_used)?;
     Some(format!("{} becomes {}", other.name, class_in_words(other.class)))
 }

@@ -41,7 +41,11 @@ pub(crate) fn line(
                 Call::Placed => dialogue.tool.thing(&name, &operands),
                 // things of a class draw their parts: there it is one that is bound
                 _ if open.pane.is_some() => format!("{name}: {} = {made}", dialogue.tool.class),
-                Call::Class(_) | Call::Make | Call::Message(_) | Call::Pattern(..) | Call::Value => {
+                Call::Class(_)
+                | Call::Make
+                | Call::Message(_)
+                | Call::Pattern(..)
+                | Call::Value => {
                     format!("{name} => {made}")
                 }
             };

@@ -167,7 +167,12 @@ pub(super) fn home(open: &Open) -> Option<Home> {
     let recording = open.recording.as_ref()?;
     let removing = recording.removing.as_ref()?;
     let step = &removing.asked[removing.open_question()?].step;
-    visit::home_of(&text::Source::now(&open.state), (&recording.program, &recording.example), step, &[])
+    visit::home_of(
+        &text::Source::now(&open.state),
+        (&recording.program, &recording.example),
+        step,
+        &[],
+    )
 }
 
 /// Gives another object for what goes: as it is typed, or as a pointer finds it.

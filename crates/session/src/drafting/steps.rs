@@ -44,16 +44,18 @@ pub(crate) fn view(open: &Open, home: &Home, thing: Option<&str>) -> Option<Step
     let declared = declared.unwrap_or_default();
     let parameter = |asked: &kernel::program::Asked| {
         let said = declared.iter().find(|said| *said.name == *asked.name);
-        let of = |get: fn(&parameters::Declared) -> &String| said.map_or_else(String::new, |said| get(said).clone());
+        let of = |get: fn(&parameters::Declared) -> &String| {
+            said.map_or_else(String::new, |said| get(said).clone())
+        };
         ParameterRow {
-        class: of(|said| &said.class),
-        range: of(|said| &said.range),
-        example: of(|said| &said.example),
-        name: asked.name.to_string(),
-        prompt: asked.prompt.clone(),
-        value: evaluator
-            .at(&path.then(kernel::Step::Part(asked.name.clone())))
-            .map_or_else(|fault| fault.message, |value| value_words(state, &evaluator, &value)),
+            class: of(|said| &said.class),
+            range: of(|said| &said.range),
+            example: of(|said| &said.example),
+            name: asked.name.to_string(),
+            prompt: asked.prompt.clone(),
+            value: evaluator
+                .at(&path.then(kernel::Step::Part(asked.name.clone())))
+                .map_or_else(|fault| fault.message, |value| value_words(state, &evaluator, &value)),
         }
     };
     let recording = open.recording.as_ref().filter(|_| *home != Home::Document);
@@ -169,7 +171,8 @@ fn pattern_in_words(step: &StepNode) -> Option<String> {
 fn in_words(formula: &str) -> String {
     // `mirrored of line, line2: about axis`
     let of_list = formula.strip_prefix('[').and_then(|rest| rest.split_once("]."));
-    if let Some((all, (word, arguments))) = of_list.and_then(|(a, rest)| Some((a, rest.split_once('(')?)))
+    if let Some((all, (word, arguments))) =
+        of_list.and_then(|(a, rest)| Some((a, rest.split_once('(')?)))
         && let Some(arguments) = arguments.strip_suffix(')')
     {
         return format!("{word} of {all}: {}", arguments.replace(": ", " "));

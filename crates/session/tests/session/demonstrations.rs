@@ -68,7 +68,8 @@ fn a_nut_is_a_flat_in_a_polar_pattern() {
     guide(&mut desk, "Point", &[Typed("0"), Typed("s / (2 * cos(30 deg))")]);
     guide(&mut desk, "Point:turned", &[At(0.0, 9.24), At(0.0, 0.0), Typed("60")]);
     draw(&mut desk, "Line", &[At(0.0, 9.24), At(-8.0, 4.62)]);
-    let five = draw(&mut desk, ":pattern(about,count)", &[At(-4.0, 6.93), At(0.0, 0.0), Typed("6")]);
+    let five =
+        draw(&mut desk, ":pattern(about,count)", &[At(-4.0, 6.93), At(0.0, 0.0), Typed("6")]);
     assert_eq!(five, "pattern");
     draw(&mut desk, "Circle", &[At(0.0, 0.0), Typed("d / 2")]);
     assert_eq!(desk.wrong(), [], "{}", desk.text());
@@ -116,9 +117,10 @@ fn a_retaining_ring_has_the_lug_that_its_size_asks_for() {
     draw(&mut desk, "Point:mirrored", &[Typed("circle4"), Typed("Axis.vertical(x: 0)")]);
     assert_eq!(desk.wrong(), [], "{}", desk.text());
     assert_eq!(value(&desk, "ring.circle4"), "centre (0, 0), radius 13.25");
-    for (d1, lug) in
-        [(8.0, "centre (-2.8, 10.896), radius 2, clockwise"), (25.0, "centre (0, 0), radius 13.25, clockwise")]
-    {
+    for (d1, lug) in [
+        (8.0, "centre (-2.8, 10.896), radius 2, clockwise"),
+        (25.0, "centre (0, 0), radius 13.25, clockwise"),
+    ] {
         desk.set("ring.d1", d1).expect("a parameter can be set");
         assert_eq!(value(&desk, "ring.mirrored"), lug, "{d1}");
     }
@@ -264,9 +266,10 @@ fn a_rubber_band_takes_a_pattern_as_a_whole_so_that_its_count_may_change() {
     desk.session.begin(desk.id, "Point:mirrored").expect("figures are mirrored");
     desk.session.point_all(desk.id, ((-70.0, -70.0), (70.0, 70.0))).expect("all of it");
     desk.session.enter(desk.id, "axis").expect("it is a line");
-    for wanted in
-        ["mirrored = [circle, circle2].mirrored(about: axis)", "mirrored2 = pattern.mirrored(about: axis)"]
-    {
+    for wanted in [
+        "mirrored = [circle, circle2].mirrored(about: axis)",
+        "mirrored2 = pattern.mirrored(about: axis)",
+    ] {
         assert!(desk.text().contains(wanted), "{}", desk.text());
     }
     assert_eq!(desk.session.history(desk.id).0.len(), steps + 1);

@@ -324,7 +324,10 @@ fn figure_7_6_is_drawn_by_its_first_turn_and_the_answers_for_the_second() {
     point(&mut desk, -80.0, 40.0);
     assert_eq!(made(point(&mut desk, 0.0, 20.0)), "column.mirrored(about: axis2)");
     assert_eq!(value(&desk, "rings.mirrored"), "5 turns");
-    assert_eq!(value(&desk, "rings.mirrored[1].circle"), "centre (20, 96.5685), radius 20, clockwise");
+    assert_eq!(
+        value(&desk, "rings.mirrored[1].circle"),
+        "centre (20, 96.5685), radius 20, clockwise"
+    );
 }
 
 #[test]

@@ -5,7 +5,8 @@ use session::drafting::view::{Ends, NewParameter, Turn};
 use session::view::Pointer;
 
 fn define(desk: &mut Desk, name: &str, example: &str) {
-    let new = NewParameter { name: name.into(), example: example.into(), ..NewParameter::default() };
+    let new =
+        NewParameter { name: name.into(), example: example.into(), ..NewParameter::default() };
     desk.session.define_parameter(desk.id, &new).expect("it is new");
 }
 
@@ -117,7 +118,8 @@ fn a_parameter_is_said_anew_with_another_name() {
     let before = desk.text();
     assert!(desk.session.define_parameter(desk.id, &text).is_err());
     assert_eq!(desk.text(), before);
-    let refused = desk.session.remove_parameter(desk.id, "hole").expect_err("a circle speaks of it");
+    let refused =
+        desk.session.remove_parameter(desk.id, "hole").expect_err("a circle speaks of it");
     assert_eq!(refused.message, "hole is spoken of by circle: change or delete these first");
     desk.set("flange.first", 4.0).expect("a parameter can be set");
     assert!(desk.text().contains("flange: Flange {"), "{}", desk.text());
@@ -149,7 +151,8 @@ program Hole(d: Length in 1..20 = 11 \"Diameter?\", deep: Length = 2 * d) {
     let all = desk.session.constructions(desk.id);
     assert_eq!(all[0].id, "Hole");
     let prompt = desk.session.begin(desk.id, "Hole").expect("it is a tool");
-    let wanted = "Diameter? (d) type a value, pick a parameter or what has it, 1 to 20; Enter takes 11";
+    let wanted =
+        "Diameter? (d) type a value, pick a parameter or what has it, 1 to 20; Enter takes 11";
     assert_eq!(prompt.words, wanted);
     let refused = desk.session.enter(desk.id, "30").expect_err("it is too much");
     assert_eq!(refused.message, "d is 30: 1 to 20 are allowed");

@@ -396,7 +396,10 @@ impl Hand {
                 self.take(start, at, besides);
             }
             Mode::Pressed { path, .. }
-                if !(e.shift_key() || e.ctrl_key() || e.meta_key() || self.lab.adding.get_untracked()) =>
+                if !(e.shift_key()
+                    || e.ctrl_key()
+                    || e.meta_key()
+                    || self.lab.adding.get_untracked()) =>
             {
                 self.lab.select(Some(path));
             }
