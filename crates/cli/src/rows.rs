@@ -115,10 +115,10 @@ impl<'r> Table<'r> {
                 Some(row) => value(row, digits),
                 None => String::new(),
             };
-            columns.push(aligned(head, cells().map(cell).collect()));
+            columns.push(aligned(head, &cells().map(cell).collect::<Vec<_>>()));
         }
-        let names = self.lines.iter().map(|(name, _)| (*name).to_string()).collect();
-        columns.insert(0, aligned(self.list, names));
+        let names: Vec<String> = self.lines.iter().map(|(name, _)| (*name).to_string()).collect();
+        columns.insert(0, aligned(self.list, &names));
         let mut words = String::new();
         for line in 0..=self.lines.len() {
             let cells: Vec<&str> = columns.iter().map(|column| &*column[line]).collect();
@@ -129,7 +129,7 @@ impl<'r> Table<'r> {
 }
 
 /// Returns a column of words, its head first, each as wide as the widest.
-fn aligned(head: &str, cells: Vec<String>) -> Vec<String> {
+fn aligned(head: &str, cells: &[String]) -> Vec<String> {
     let column = || std::iter::once(head).chain(cells.iter().map(String::as_str));
     let width = column().map(|cell| cell.chars().count()).max().unwrap_or(0);
     column().map(|cell| format!("{cell:width$}")).collect()

@@ -296,7 +296,15 @@ impl Lowerer<'_> {
             if !arg.kind.fits(kind, &self.document) {
                 let (found, wanted) = (arg.kind.words(&self.document), kind.words(&self.document));
                 let message = format!("{} is {found}, wanted {wanted}", labels[0]);
-                self.error(code_for(&arg.kind, kind), scope.file, arg.expr.span(), message);
+                let place = Place { file: scope.file, span: arg.expr.span() };
+                let d = Diagnostic::error(code_for(&arg.kind, kind), place, message);
+                let is_direction = arg.kind == Kind::PLAIN && *kind == Kind::LENGTH;
+                self.report(match is_direction {
+                    true => {
+                        d.hint("a direction of plain numbers has no class: `r * (cos(a), sin(a))`")
+                    }
+                    false => d,
+                });
                 return None;
             }
             self.refer_by_position(scope.file, &arg.expr, kind);

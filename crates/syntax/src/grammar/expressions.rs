@@ -396,9 +396,10 @@ fn name(p: &mut Parser<'_>, kind: SyntaxKind) {
 /// `(a)`, `(a, b)`
 fn parenthesized(p: &mut Parser<'_>) -> u32 {
     let start = p.checkpoint();
-    let mut count = 0;
+    let mut count: u32 = 0;
     let height = bracketed(p, RParen, "`)`", |p| {
         count += 1;
+        mistakes::labels_without_class(p, count);
         operators(p, Power::Or)
     });
     p.start_at(start, if count == 1 { ParenExpr } else { TupleExpr });

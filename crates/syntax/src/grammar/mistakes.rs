@@ -490,6 +490,24 @@ pub(super) fn bare_call(p: &mut Parser<'_>) -> bool {
     is_one
 }
 
+/// `(x: 1, y: 2)`: labels in brackets that no class stands before. The first of them is reported, all are passed over.
+pub(super) fn labels_without_class(p: &mut Parser<'_>, count: u32) {
+    if !(p.at(Ident) && p.nth(1) == Colon) {
+        return;
+    }
+    let (at, label) = (p.pos(), p.word(0).to_string());
+    let said = (
+        "label-without-class",
+        format!("found the label `{label}:` in brackets without a class"),
+        format!("name the class: `Name({label}: …)`, or leave the labels out"),
+    );
+    if count == 1 {
+        p.report_mistake((at, at + 1), said, None);
+    }
+    p.bump();
+    p.bump();
+}
+
 /// Returns the hint for a value that stands where a class is wanted, `x: 3`.
 pub(super) fn value_for_class(p: &Parser<'_>) -> Option<String> {
     let name = p.pos().checked_sub(2).map(|i| p.text_between(i, i)).unwrap_or_default();
