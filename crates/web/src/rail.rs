@@ -132,6 +132,14 @@ impl Lab {
         }
     }
 
+    /// Shows no more of the tool than what is set of it, until the pointer comes again.
+    pub fn put_aside(self) {
+        let is_over = self.tool_view.with_untracked(|view| view.caught.is_some() || !view.begun);
+        if is_over && self.tool.with_untracked(Option::is_some) {
+            self.tool_view.update(|view| *view = aside(std::mem::take(view)));
+        }
+    }
+
     /// The tool sets what it is about to set; with the last place the thing is made, and the tool goes on.
     pub fn tool_set(self, pointer: &Pointer) {
         let view = match self.tell(|session, id| session.tool_set(id, pointer)) {

@@ -2,6 +2,7 @@
 
 use super::calculator::Calculator;
 use crate::lab::Lab;
+use crate::marked::marked;
 use crate::{js, keyboard, words};
 use leptos::html::Input;
 use leptos::prelude::*;
@@ -66,7 +67,7 @@ pub fn PromptLine(
                 </Show>
                 <b>{move || drafting.prompt.with(|p| p.as_ref().map(|p| p.label.clone()))}</b>
                 <Operands lab=lab />
-                <span class="wanted" role="status">{move || drafting.prompt.with(|p| p.as_ref().map(|p| p.words.clone()))}</span>
+                <span class="wanted" role="status">{move || drafting.prompt.with(|p| p.as_ref().map(|p| marked(&p.words)))}</span>
                 <Show when=is_typed>
                     <input node_ref=field name="operand" autocomplete="off" aria-label=words::OPERAND
                         placeholder=words::OPERAND

@@ -383,6 +383,10 @@ impl Hand {
         self.frame();
         let mode = self.mode();
         self.let_go(e);
+        if e.pointer_type() == "touch" {
+            // a finger that has gone is nowhere
+            self.lab.put_aside();
+        }
         match mode {
             // what is pressed, dragged and let go is set at both ends
             Mode::Tool { start } if distance(start, at) > PULL => {
