@@ -12,9 +12,11 @@ use crate::recognise;
 use crate::session::{parse_path, thing_at};
 use crate::state::State;
 use crate::view::{Choice, Question};
+use crate::write_back::settle_places;
 use crate::{views, words};
 use base::{Name, Span};
 use kernel::{Command, Path};
+use plan::Plans;
 use std::collections::BTreeSet;
 use syntax::ast::{AstNode, Member};
 use syntax::edit::TextEdit;
@@ -173,10 +175,11 @@ pub(crate) fn said_anew(open: &Open, host: &dyn Host, command: &Command) -> Opti
     let span = Span::new(range.start().into(), range.end().into());
     let insert = members.strip_prefix("constraint ")?.to_string();
     let edited = syntax::edit::apply(text, &[TextEdit { span, insert }]);
-    let mut trial = copy(open, host);
-    let command = Command::Text(edited);
-    apply::apply(&mut trial, host, &command).ok()?;
-    trial.status.satisfied.then_some(command)
+    let (state, planner) = State::of(edited, Some(&open.state), host, Plans::default());
+    // what is drawn is given where it lies then
+    let (state, mut planner) = settle_places(&open.state, state, planner, host);
+    let holds = !state.has_errors() && state.status(&mut planner).satisfied;
+    holds.then(|| Command::Text(state.text.clone()))
 }
 
 /// What a constraint is called; its rule, where it has no name of its own.

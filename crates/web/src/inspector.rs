@@ -185,7 +185,7 @@ fn Rules(lab: Lab) -> impl IntoView {
             <h3>{words::CONSTRAINTS}</h3>
         </Show>
         <ul class="rules">
-            <For each=move || found.get() key=|row| (row.path.clone(), row.enabled, row.freedom.map(words::freedom)) let(row)>
+            <For each=move || found.get() key=|row| (row.path.clone(), row.detail.clone(), row.enabled, row.freedom.map(words::freedom)) let(row)>
                 <Rule lab=lab row=row />
             </For>
         </ul>

@@ -191,4 +191,6 @@ fn a_dimension_that_is_said_already_is_given_another_value() {
     take(&mut desk, &["a"], "length", Some("90"));
     assert_eq!(desk.text().matches("a.length").count(), 1, "{}", desk.text());
     assert!(desk.text().contains("constraint a.length = 90"), "{}", desk.text());
+    // its ends are given where they lie now
+    assert_eq!(desk.wrong(), [], "{}", desk.text());
 }
