@@ -107,7 +107,9 @@ impl Session {
         match &offer.deed {
             Deed::Add => {
                 let command = offer.command(value);
-                Ok(ways_out::said_anew(open, &beside, &command).unwrap_or(command))
+                let is_dimension = offer.value.is_some();
+                let anew = is_dimension.then(|| ways_out::said_anew(open, &beside, &command));
+                Ok(anew.flatten().unwrap_or(command))
             }
             Deed::Round(of) => {
                 let radius = value.or(offer.value.as_deref()).unwrap_or_default();
@@ -121,10 +123,11 @@ impl Session {
         }
     }
 
-    /// Returns the command for a dimension that only reads what an offered one would set; nothing where there is none.
+    /// Returns the command for a dimension that only reads what an offered one would set; nothing where there is
+    /// none.
     pub fn only_read(&self, id: DocumentId, offer: &Offer) -> Option<Command> {
-        let members = ways_out::reference(&self.document(id).state, &offer.members)?;
-        Some(Command::Edit { target: Path::default(), members })
+        let beside = Beside::of(&*self.host, &self.documents, id);
+        ways_out::only_read(self.document(id), &beside, &offer.members)
     }
 
     /// Returns what a command would move, by path, without doing it.

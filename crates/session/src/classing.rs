@@ -16,7 +16,7 @@ use base::{Name, Severity, Span};
 use kernel::{Command, DOCUMENT, Path, Step};
 use plan::Plans;
 use std::collections::BTreeSet;
-use syntax::ast::{AstNode, Member};
+use syntax::ast::{AstNode, Constraint, Member};
 use syntax::edit::{TextEdit, apply, delete_member};
 use syntax::{SyntaxElement, SyntaxKind, SyntaxNode};
 
@@ -209,19 +209,34 @@ struct NumberSaid {
     span: Span,
 }
 
-/// The number on the right of a constraint's equation, where there is nothing else.
-fn number_said(state: &State, member: &Member) -> Option<NumberSaid> {
-    let Member::Constraint(constraint) = member else { return None };
-    let whole = constraint.syntax();
+/// What a constraint says that is an equation with a number alone on its right.
+pub(crate) struct EqualsNumber {
+    pub(crate) left: String,
+    value: String,
+    /// Where the number stands in the text.
+    pub(crate) span: Span,
+}
+
+/// Reads a constraint that says of something which number it is.
+pub(crate) fn equals_number(state: &State, constraint: &Constraint) -> Option<EqualsNumber> {
     let rule = constraint.rule()?;
-    let start = u32::from(rule.syntax().text_range().start() - whole.text_range().start());
+    let start = u32::from(rule.syntax().text_range().start());
     let text = rule.syntax().text().to_string();
     let (left, right) = text.split_once(" = ")?;
     let value = right.trim();
-    let document = &state.lowered.document;
-    let read = lang::read_literal(value, lang::Wanted::Anything, document).ok()?;
+    let read = lang::read_literal(value, lang::Wanted::Anything, &state.lowered.document).ok()?;
     let kernel::Literal::Number(_) = read else { return None };
-    let path = parse_path(left.trim())?;
+    let before = text.len() - right.trim_start().len();
+    let at = start + u32::try_from(before).ok()?;
+    let span = Span::new(at, at + u32::try_from(value.len()).ok()?);
+    Some(EqualsNumber { left: left.trim().into(), value: value.into(), span })
+}
+
+/// The number on the right of a constraint's equation, where there is nothing else.
+fn number_said(state: &State, member: &Member) -> Option<NumberSaid> {
+    let Member::Constraint(constraint) = member else { return None };
+    let EqualsNumber { left, value, span } = equals_number(state, constraint)?;
+    let path = parse_path(&left)?;
     let name = match path.0.last()? {
         Step::Part(name) => name.to_string(),
         _ => return None,
@@ -232,9 +247,9 @@ fn number_said(state: &State, member: &Member) -> Option<NumberSaid> {
         return None;
     };
     let class = String::from(dimension.named().unwrap_or("Real"));
-    let at = start + u32::try_from(text.len() - right.len()).ok()?;
-    let span = Span::new(at, at + u32::try_from(value.len()).ok()?);
-    Some(NumberSaid { name, class, value: value.into(), span })
+    let whole = u32::from(constraint.syntax().text_range().start());
+    let span = Span::new(span.start - whole, span.end - whole);
+    Some(NumberSaid { name, class, value, span })
 }
 
 /// What is written of a class and of its one thing.
@@ -322,9 +337,14 @@ fn bound(state: &State, member: &Member) -> Option<String> {
     let name = message.name()?.text().to_string();
     let class = class_at(state, &parse_path(&name)?)?;
     let class = &state.lowered.document.classes[state.lowered.document.named_class(class)].name;
-    let text = member.syntax().text().to_string();
-    let (_, answer) = text.split_once("=>")?;
-    Some(format!("{name}: {class} = {}", answer.trim()))
+    let whole = member.syntax();
+    let arrow = whole.children_with_tokens().find(|e| e.kind() == SyntaxKind::FatArrow)?;
+    let within = |at| usize::try_from(u32::from(at) - u32::from(whole.text_range().start())).ok();
+    let text = whole.text().to_string();
+    let before = text.get(..within(message.name()?.token.text_range().start())?)?;
+    // what is said after the arrow stays as it stands there, with its comments
+    let after = text.get(within(arrow.text_range().end())?..)?;
+    Some(format!("{before}{name}: {class} ={after}").trim().into())
 }
 
 /// Writes a member where it belongs.

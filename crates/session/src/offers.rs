@@ -7,7 +7,7 @@
 
 use crate::apply;
 use crate::by_hand::class_at;
-use crate::document::Open;
+use crate::document::{Direction, Open};
 use crate::drag;
 use crate::host::Host;
 use crate::joining;
@@ -22,9 +22,10 @@ use drawing::Drawing;
 use eval::Answer;
 use expr::Dimension;
 use kernel::{
-    Argument, BinaryOperator, ClassId, ClassKind, Command, DOCUMENT, Literal, Message, Path, Step,
-    Term, ThingId, UnaryOperator,
+    Argument, BinaryOperator, ClassId, ClassKind, Command, DOCUMENT, Literal, Message, Path,
+    SlotId, Step, Term, ThingId, UnaryOperator,
 };
+use std::collections::BTreeSet;
 
 /// The most things that offers are made for.
 const MOST: usize = 8;
@@ -230,7 +231,12 @@ impl Offerer<'_> {
             if self.is_computed() {
                 let members = format!("constraint {}.distance(to: {}) = {{}}", a.path, b.path);
                 let value = Some(self.written(now));
-                return Some(Offer { label: "distance".into(), members, value, ..Offer::default() });
+                return Some(Offer {
+                    label: "distance".into(),
+                    members,
+                    value,
+                    ..Offer::default()
+                });
             }
             // it is drawn as what it is
             let class = document.class_named("Distance")?;
@@ -378,30 +384,41 @@ pub(crate) fn told_apart(
     if state.structure.slots.len() > MOST_TRIED || open.pane.is_some() {
         return (offers, Vec::new());
     }
-    let holds = |rules: &[&str]| {
-        let Ok(terms) = plotting::read(state, host, rules) else { return false };
-        let evaluator = state.evaluator(&state.values);
-        let is_true = |term| matches!(evaluator.evaluate(term, DOCUMENT), Ok(Answer::Bool(true)));
-        terms.iter().all(is_true)
-    };
-    let is_said = |offer: &Offer| {
-        let rules: Option<Vec<&str>> =
-            offer.members.lines().map(|line| line.strip_prefix("constraint ")).collect();
-        if offer.value.is_some() || offer.members.starts_with("merge ") {
-            return false;
-        }
+    let rules: Vec<Vec<&str>> = offers.iter().map(rules).collect();
+    let terms = terms(state, host, &rules.concat());
+    let mut rest = terms.iter();
+    let is_tried = |(offer, rules): (&Offer, &Vec<&str>)| {
+        let own: Vec<&Option<Term>> = rest.by_ref().take(rules.len()).collect();
+        let sets = offer.value.is_some() || offer.members.starts_with("merge ");
         // a thing that says something is tried, a rule first looked at
-        if rules.as_ref().is_some_and(|rules| !holds(rules)) {
-            return false;
-        }
-        let mut trial = Open::of(&open.name, state.text.clone(), host);
-        let added = apply::apply(&mut trial, host, &offer.command(None));
-        let holds = added.is_ok() && trial.status.satisfied && is_unmoved(state, &trial.state);
-        holds
-            && (trial.status.freedom == open.status.freedom
-                || rules.is_some_and(|rules| goes_on_holding(open, host, &rules)))
+        !sets && own.into_iter().all(|term| is_true(state, term.as_ref()))
     };
-    let held: Vec<bool> = offers.iter().map(is_said).collect();
+    let tried: Vec<bool> = offers.iter().zip(&rules).map(is_tried).collect();
+    let mut trial = Open::of(&open.name, state.text.clone(), host);
+    let adds = |trial: &mut Open, offer: &Offer| {
+        let added = apply::apply(trial, host, &offer.command(None)).is_ok();
+        let holds = added && trial.status.satisfied && is_unmoved(state, &trial.state);
+        let freedom = trial.status.freedom;
+        while trial.travel(Direction::Back).is_some() {}
+        match (holds, freedom == open.status.freedom) {
+            (false, _) => Adds::Much,
+            (true, true) => Adds::Nothing,
+            (true, false) => Adds::Rank,
+        }
+    };
+    let pairs = offers.iter().zip(tried);
+    let adds: Vec<Adds> = pairs
+        .map(|(offer, tried)| if tried { adds(&mut trial, offer) } else { Adds::Much })
+        .collect();
+    let doubtful = adds.iter().zip(&rules).filter(|(adds, _)| **adds == Adds::Rank);
+    let doubtful: Vec<&str> = doubtful.flat_map(|(_, rules)| rules.iter().copied()).collect();
+    let followed = going_on(trial, host, &doubtful);
+    let is_held = |(adds, rules): (&Adds, &Vec<&str>)| match adds {
+        Adds::Much => false,
+        Adds::Nothing => true,
+        Adds::Rank => !rules.is_empty() && rules.iter().all(|rule| followed.contains(rule)),
+    };
+    let held: Vec<bool> = adds.iter().zip(&rules).map(is_held).collect();
     let labels = offers.iter().zip(&held).filter(|(_, held)| **held).map(|(o, _)| o.label.clone());
     let labels = labels.collect();
     let mut of = held.iter();
@@ -409,41 +426,106 @@ pub(crate) fn told_apart(
     (offers, labels)
 }
 
-/// Whether rules that hold go on holding wherever places are moved to: then they follow from what is said, though the
-/// numbers alone do not tell.
-fn goes_on_holding(open: &Open, host: &dyn Host, rules: &[&str]) -> bool {
-    /// So many places are moved, each its own way.
-    const MOVED: usize = 4;
-    let state = &open.state;
-    let mut trial = Open::of(&open.name, state.text.clone(), host);
-    let document = &state.lowered.document;
-    let things = state.structure.things.iter();
-    let places = things.filter(|(thing, t)| {
-        document.is_place(t.class) && state.structure.merged[*thing] == *thing
-    });
-    let mut has_moved = false;
-    for (n, (place, _)) in places.take(MOVED).enumerate() {
+/// What a document has of an offer that is added to it.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Adds {
+    /// Something moves, or it cannot be.
+    Much,
+    /// Nothing moves, though less is free: it may follow all the same.
+    Rank,
+    /// As much is free as before.
+    Nothing,
+}
+
+/// Returns the rules that an offer says; none where it is more than rules.
+fn rules(offer: &Offer) -> Vec<&str> {
+    let rule = |line| str::strip_prefix(line, "constraint ");
+    offer.members.lines().map(rule).collect::<Option<_>>().unwrap_or_default()
+}
+
+/// Reads rules, all at once where each means something.
+fn terms(state: &State, host: &dyn Host, rules: &[&str]) -> Vec<Option<Term>> {
+    match plotting::read(state, host, rules) {
+        Ok(terms) => terms.into_iter().map(Some).collect(),
+        Err(_) => {
+            let one = |rule: &&str| plotting::read(state, host, &[*rule]).ok()?.into_iter().next();
+            rules.iter().map(one).collect()
+        }
+    }
+}
+
+fn is_true(state: &State, term: Option<&Term>) -> bool {
+    let evaluator = state.evaluator(&state.values);
+    term.is_some_and(|t| matches!(evaluator.evaluate(t, DOCUMENT), Ok(Answer::Bool(true))))
+}
+
+/// Whether rules hold of the numbers as they are.
+pub(crate) fn holds(state: &State, host: &dyn Host, rules: &[&str]) -> bool {
+    terms(state, host, rules).iter().all(|term| is_true(state, term.as_ref()))
+}
+
+/// A rule that holds, followed while places are moved.
+struct Followed<'r> {
+    rule: &'r str,
+    /// The numbers that it reads, and what they were.
+    reads: Vec<(Path, f64)>,
+    holds: bool,
+    has_moved: bool,
+}
+
+/// Returns which of some rules that hold go on holding wherever the places are moved to that they read: these follow
+/// from what is said, though the numbers alone do not tell.
+fn going_on<'r>(mut trial: Open, host: &dyn Host, rules: &[&'r str]) -> BTreeSet<&'r str> {
+    /// Of what reads more places than this it is not told.
+    const MOST_MOVED: usize = 16;
+    /// So many ways differ.
+    const WAYS: usize = 4;
+    let state = trial.state.clone();
+    let mut places: Vec<ThingId> = Vec::new();
+    let mut all: Vec<Followed<'r>> = Vec::new();
+    for (rule, term) in rules.iter().zip(terms(&state, host, rules)) {
+        let Some(term) = term else { continue };
+        let evaluator = state.evaluator(&state.values);
+        let slots = evaluator.listening(|| evaluator.evaluate(&term, DOCUMENT)).1;
+        let of = |slot: &SlotId| state.structure.slots[*slot].place;
+        let new: BTreeSet<ThingId> =
+            slots.iter().filter_map(of).filter(|place| !places.contains(place)).collect();
+        if places.len() + new.len() > MOST_MOVED {
+            continue;
+        }
+        places.extend(new);
+        let numbers =
+            slots.iter().filter(|slot| state.structure.slots[**slot].primitive.is_number());
+        let reads = numbers.map(|&s| (state.slot_path(s), state.values.numbers[s])).collect();
+        all.push(Followed { rule, reads, holds: true, has_moved: false });
+    }
+    for (n, place) in places.into_iter().enumerate() {
+        all.retain(|followed| followed.holds);
+        if all.is_empty() {
+            break;
+        }
         let Some([(_, x), (_, y)]) = drag::coordinates(&state.structure, place) else { continue };
-        let by = (n + 1) as f64;
+        let by = (n % WAYS + 1) as f64;
         let now = |slot| state.values.numbers[slot];
-        let to = vec![
-            Literal::Number(now(x) + 17.3 * by),
-            Literal::Number(now(y) - 11.9 * by * by),
-        ];
-        let path = state.structure.path(document, place);
-        let step = Command::Move(vec![(path, Literal::Tuple(to))]);
+        let to = [now(x) + 17.3 * by, now(y) - 11.9 * by * by].map(Literal::Number);
+        let path = state.structure.path(&state.lowered.document, place);
+        let step = Command::Move(vec![(path, Literal::Tuple(to.to_vec()))]);
         if apply::apply(&mut trial, host, &step).is_err() {
             continue;
         }
-        has_moved = true;
-        let Ok(terms) = plotting::read(&trial.state, host, rules) else { return false };
-        let evaluator = trial.state.evaluator(&trial.state.values);
-        let is_true = |term| matches!(evaluator.evaluate(term, DOCUMENT), Ok(Answer::Bool(true)));
-        if !terms.iter().all(is_true) {
-            return false;
+        let is = &trial.state;
+        let has_moved = |(path, was): &(Path, f64)| {
+            let slot = thing_at(is, path).and_then(|thing| is.structure.slot_of(thing));
+            slot.is_some_and(|slot| !base::number::close(is.values.numbers[slot], *was))
+        };
+        let said: Vec<&str> = all.iter().map(|followed| followed.rule).collect();
+        for (followed, term) in all.iter_mut().zip(terms(is, host, &said)) {
+            followed.holds = is_true(is, term.as_ref());
+            followed.has_moved |= followed.reads.iter().any(has_moved);
         }
     }
-    has_moved
+    let follow = all.into_iter().filter(|followed| followed.holds && followed.has_moved);
+    follow.map(|followed| followed.rule).collect()
 }
 
 /// Whether every number that a state has is the same in another.

@@ -5,20 +5,22 @@
 //! replaced, the new one kept switched off, or kept as a conflict.
 
 use crate::apply;
+use crate::by_hand::class_at;
 use crate::classing;
 use crate::document::Open;
 use crate::host::Host;
+use crate::offers;
 use crate::recognise;
 use crate::session::{parse_path, thing_at};
 use crate::state::State;
 use crate::view::{Choice, Question};
 use crate::write_back::settle_places;
 use crate::{views, words};
-use base::{Name, Span};
+use base::Name;
 use kernel::{Command, Path};
 use plan::Plans;
 use std::collections::BTreeSet;
-use syntax::ast::{AstNode, Member};
+use syntax::ast::Member;
 use syntax::edit::TextEdit;
 
 /// At most so many others are offered to be replaced.
@@ -60,14 +62,9 @@ fn contradiction(open: &Open, host: &dyn Host, command: &Command) -> Option<Ques
     let against = contradictions.iter().flat_map(|c| c.constraints.iter());
     let others: Vec<String> = against.filter(|name| was.contains(*name)).cloned().collect();
     let mut choices = Vec::new();
-    if let Some(reference) = reference(&open.state, members) {
-        let command = Command::Edit { target: Path::default(), members: reference };
-        let mut measured = copy(open, host);
-        let holds = apply::apply(&mut measured, host, &command).is_ok();
-        if holds && measured.status.satisfied {
-            let label = "reference dimension: it only reads".into();
-            choices.push(Choice { label, command });
-        }
+    if let Some(command) = only_read(open, host, members) {
+        let label = "reference dimension: it only reads".into();
+        choices.push(Choice { label, command });
     }
     for other in others.iter().take(MOST_REPLACED) {
         let Some(path) = parse_path(other) else { continue };
@@ -154,32 +151,32 @@ fn sources(state: &State) -> impl Iterator<Item = plan::Source> {
     (0u32..).take(state.structure.constraints.len()).map(plan::Source::Constraint)
 }
 
-/// Returns the command that gives a dimension another value, where a constraint of the document says one already and
-/// that holds; nothing where it would be a new one, or contradict others.
+/// Returns the command that gives a dimension another value, where a constraint of the document gives it a number
+/// already and the new one holds; nothing where it would be a new one, or contradict others.
 pub(crate) fn said_anew(open: &Open, host: &dyn Host, command: &Command) -> Option<Command> {
     let Command::Edit { target, members } = command else { return None };
-    let (left, _) = members.strip_prefix("constraint ")?.split_once(" = ")?;
+    let rule = members.strip_prefix("constraint ")?;
+    let (left, value) = rule.split_once(" = ")?;
     if !target.is_empty() || open.pane.is_some() || members.contains('\n') {
         return None;
     }
     let text = &open.state.text;
     let file = syntax::parse(base::FileId(0), text).file();
-    let rule = file.members().find_map(|member| match member {
-        Member::Constraint(constraint) => constraint.rule().filter(|rule| {
-            let said = rule.syntax().text().to_string();
-            said.split_once(" = ").is_some_and(|(other, _)| other.trim() == left)
-        }),
+    let said = file.members().find_map(|member| match member {
+        Member::Constraint(constraint) => {
+            classing::equals_number(&open.state, &constraint).filter(|said| said.left == left)
+        }
         _ => None,
     })?;
-    let range = rule.syntax().text_range();
-    let span = Span::new(range.start().into(), range.end().into());
-    let insert = members.strip_prefix("constraint ")?.to_string();
-    let edited = syntax::edit::apply(text, &[TextEdit { span, insert }]);
+    // the number alone, so that all that is said beside it stays
+    let insert = value.trim().to_string();
+    let edited = syntax::edit::apply(text, &[TextEdit { span: said.span, insert }]);
     let (state, planner) = State::of(edited, Some(&open.state), host, Plans::default());
     // what is drawn is given where it lies then
     let (state, mut planner) = settle_places(&open.state, state, planner, host);
-    let holds = !state.has_errors() && state.status(&mut planner).satisfied;
-    holds.then(|| Command::Text(state.text.clone()))
+    let is_right = !state.has_errors() && state.status(&mut planner).satisfied;
+    // a constraint that is switched off, or yields, says nothing
+    (is_right && offers::holds(&state, host, &[rule])).then(|| Command::Text(state.text.clone()))
 }
 
 /// What a constraint is called; its rule, where it has no name of its own.
@@ -197,8 +194,23 @@ fn in_words(state: &State, name: &str) -> String {
     }
 }
 
+/// Returns the command for a dimension that only reads what another would set; nothing where there is none, or where it
+/// would not stand in the document.
+pub(crate) fn only_read(open: &Open, host: &dyn Host, members: &str) -> Option<Command> {
+    let members = reference(&open.state, members)?;
+    let command = Command::Edit { target: Path::default(), members };
+    let mut trial = copy(open, host);
+    apply::apply(&mut trial, host, &command).ok()?;
+    let errors = |state: &State| {
+        let wrong = state.diagnostics.iter();
+        wrong.filter(|d| d.severity == base::Severity::Error).count()
+    };
+    let is_right = errors(&trial.state) <= errors(&open.state);
+    (is_right && (trial.status.satisfied || !open.status.satisfied)).then_some(command)
+}
+
 /// Returns the members of a dimension that only reads what another would set.
-pub(crate) fn reference(state: &State, members: &str) -> Option<String> {
+fn reference(state: &State, members: &str) -> Option<String> {
     let named = |class: &str| {
         state.lowered.document.class_named(class)?;
         Some(recognise::free_name(state, &Name::new(class)))
@@ -224,9 +236,16 @@ pub(crate) fn reference(state: &State, members: &str) -> Option<String> {
         return two;
     }
     let (whole, what) = left.rsplit_once('.')?;
+    let is_a = |class: &str| {
+        let wanted = state.lowered.document.class_named(class);
+        let found = parse_path(whole).and_then(|path| class_at(state, &path));
+        matches!((found, wanted), (Some(f), Some(w)) if state.lowered.document.is_a(f, w))
+    };
     let (class, parts) = match what {
-        "length" => ("ReferenceDistance", format!("from = {whole}.p1  to = {whole}.p2")),
-        "radius" => ("ReferenceRadius", format!("circle = {whole}")),
+        "length" if is_a("Line") => {
+            ("ReferenceDistance", format!("from = {whole}.p1  to = {whole}.p2"))
+        }
+        "radius" if is_a("Circle") => ("ReferenceRadius", format!("circle = {whole}")),
         _ => return None,
     };
     Some(format!("{}: {class} {{ {parts} }}", named(class)?))

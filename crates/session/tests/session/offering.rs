@@ -1,6 +1,7 @@
 //! What is offered for a selection, and that taking it does what it says.
 
 use crate::desk::{Desk, at};
+use session::Command;
 use session::view::Offer;
 
 const FIGURE: &str = "\
@@ -193,4 +194,58 @@ fn a_dimension_that_is_said_already_is_given_another_value() {
     assert!(desk.text().contains("constraint a.length = 90"), "{}", desk.text());
     // its ends are given where they lie now
     assert_eq!(desk.wrong(), [], "{}", desk.text());
+}
+
+#[test]
+fn an_offer_that_is_no_dimension_leaves_what_is_said() {
+    let mut desk =
+        Desk::of(&format!("{FIGURE}constraint a.length = 100\nconstraint a.p1.y = 40\n"));
+    take(&mut desk, &["a", "b"], "equal length", None);
+    take(&mut desk, &["a"], "horizontal", None);
+    let text = desk.text();
+    for said in ["a.length = 100", "a.length = b.length", "a.p1.y = 40", "a.p1.y = a.p2.y"] {
+        assert!(text.contains(&format!("constraint {said}\n")), "{said}: {text}");
+    }
+}
+
+#[test]
+fn a_typed_number_takes_the_place_of_a_number_alone() {
+    let said = |text: &str| {
+        let desk = Desk::of(&format!("{FIGURE}{text}"));
+        let length = offers(&desk, &["a"]).into_iter().find(|offer| offer.label == "length");
+        desk.session.said(desk.id, &length.expect("it is offered"), Some("90")).expect("it fits")
+    };
+    let Command::Text(text) = said("// As built.\nconstraint a.length = 100 // short\n") else {
+        panic!("the number is replaced");
+    };
+    assert!(text.contains("// As built.\nconstraint a.length = 90 // short\n"), "{text}");
+    let formula = said("constraint a.length = 2 * b.length\n");
+    assert!(matches!(formula, Command::Edit { .. }), "{formula:?}");
+    let weak = said("weak constraint a.length = 100\nconstraint a.length = 80\n");
+    assert!(
+        !matches!(&weak, Command::Text(t) if !t.contains("constraint a.length = 80")),
+        "{weak:?}"
+    );
+}
+
+#[test]
+fn what_only_happens_to_be_so_is_offered_whatever_stands_first() {
+    let lines = "use geometry\ne: Line { p1 = (0, 0)  p2 = (10, 30) }\nf: Line { p1 = (50, 0)  p2 = (90, 70) }\n\
+                 c: Line { p1 = (0, 100)  p2 = (50, 110) }\nd: Line { p1 = (0, 200)  p2 = (100, 220) }\n";
+    let told = |desk: &Desk| desk.session.offers_and_held(desk.id, &[at("c"), at("d")]);
+    let (offers, held) = told(&Desk::of(lines));
+    assert!(held.is_empty() && offers.iter().any(|offer| offer.label == "parallel"), "{held:?}");
+    let said = format!("{lines}constraint c.parallel(to: e)\nconstraint e.parallel(to: d)\n");
+    assert_eq!(told(&Desk::of(&said)).1, ["parallel"]);
+}
+
+#[test]
+fn a_dimension_only_reads_what_it_can_measure() {
+    let desk = Desk::of(&format!("{FIGURE}arc: Arc\n"));
+    let reads = |path: &str, label: &str| {
+        let offer = offers(&desk, &[path]).into_iter().find(|offer| offer.label == label);
+        desk.session.only_read(desk.id, &offer.expect("it is offered")).is_some()
+    };
+    assert!(reads("a", "length") && reads("c", "radius"));
+    assert!(!reads("arc", "length") && !reads("arc", "radius"));
 }
