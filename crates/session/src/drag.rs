@@ -1,7 +1,6 @@
 //! A drag: from press to release nothing is written, and nothing but numbers is computed.
 
 use crate::apply::{self, Aim};
-use crate::by_hand::class_at;
 use crate::document::Open;
 use crate::general;
 use crate::host::Host;
@@ -12,7 +11,7 @@ use crate::view::{Change, DragState, Refusal};
 use crate::words;
 use eval::Answer;
 use expr::Dimension;
-use kernel::{DOCUMENT, Path, SlotId, Structure, Term, ThingId, Values};
+use kernel::{DOCUMENT, Path, SlotId, Step, Structure, Term, ThingId, Values};
 use plan::{NotDecided, Planner, Press, RefusalReason, Target};
 use std::collections::BTreeSet;
 
@@ -76,14 +75,21 @@ pub(crate) fn begin(open: &mut Open, paths: &[Path]) -> Result<(f64, f64), Refus
 /// Begins a drag of several things, which move as one.
 fn begin_several(open: &mut Open, paths: &[Path]) -> Result<(f64, f64), Refusal> {
     let state = open.state.clone();
+    let figures = state.evaluator(&state.values).computed_figures(DOCUMENT);
+    let is_figure = |path: &Path| match path.0.as_slice() {
+        [Step::Part(name)] => figures.contains(name),
+        _ => false,
+    };
     let mut things = Vec::new();
     for path in paths {
+        // what is computed goes along with what it is computed from
+        if paths.len() > 1 && is_figure(path) {
+            continue;
+        }
         match apply::aim(&state, path)? {
             Aim::Thing(thing) if !places(&state.structure, &[thing]).is_empty() => {
                 things.push(thing);
             }
-            // what is computed goes along with what it is computed from
-            Aim::Term(_) if paths.len() > 1 && is_figure(&state, path) => {}
             Aim::Thing(_) | Aim::Term(_) => {
                 let message =
                     format!("{path} has no place of its own: it is not dragged with others");
@@ -99,11 +105,6 @@ fn begin_several(open: &mut Open, paths: &[Path]) -> Result<(f64, f64), Refusal>
     let handle = drag.handle();
     open.drag = Some(drag);
     Ok(handle)
-}
-
-/// Whether a path leads to a figure that the document computes.
-fn is_figure(state: &State, path: &Path) -> bool {
-    path.0.len() == 1 && class_at(state, path).is_some()
 }
 
 /// Begins a drag: of a number, of a place, or of things with all the places that they are made of.
@@ -226,7 +227,7 @@ pub(crate) fn computed_place(state: &State, thing: ThingId) -> Option<Path> {
         let messages = document.classes[class].messages.iter();
         let mut own = messages.filter(|m| m.parameters.is_empty() && !m.is_default);
         let found = own.find(|m| is_place(&m.name))?;
-        Some(Path(vec![kernel::Step::Part(found.name.clone())]))
+        Some(Path(vec![Step::Part(found.name.clone())]))
     })
 }
 

@@ -410,6 +410,7 @@ pub(crate) fn member_of(text: &str, name: &str) -> String {
     let file = syntax::parse(base::FileId(0), text).file();
     let is_it = |m: &Member| match m {
         Member::Part(part) => part.names().any(|word| word.text() == name),
+        Member::Message(message) => message.name().is_some_and(|word| word.text() == name),
         _ => false,
     };
     let member = { file.members() }.find(is_it);

@@ -84,14 +84,22 @@ struct Copied {
 /// A path is no thing of the document itself, or it is declared with others that are not copied.
 pub(crate) fn copied(state: &State, paths: &[Path], relations: Relations) -> Result<Clip, Refusal> {
     let document = &state.lowered.document;
+    let figures = state.evaluator(&state.values).computed_figures(kernel::DOCUMENT);
     let mut things: Vec<(Name, Name)> = Vec::new();
     for path in paths {
-        let ([Step::Part(name)], Some(class)) = (path.0.as_slice(), class_at(state, path)) else {
-            let message = format!("{path} is a part: copy the whole that it is a part of");
-            return Err(words::refuse(message));
-        };
-        let class = document.named_class(class);
-        things.push((name.clone(), document.classes[class].name.clone()));
+        let class = class_at(state, path).map(|class| document.named_class(class));
+        let class = class.map(|class| document.classes[class].name.clone());
+        match (path.0.as_slice(), class) {
+            ([Step::Part(name)], Some(class)) => things.push((name.clone(), class)),
+            // a list, or what cannot be made now, has no class
+            ([Step::Part(name)], None) if figures.contains(name) => {
+                things.push((name.clone(), name.clone()));
+            }
+            _ => {
+                let message = format!("{path} is a part: copy the whole that it is a part of");
+                return Err(words::refuse(message));
+            }
+        }
     }
     if things.is_empty() {
         return Err(words::refuse("nothing is selected".into()));
@@ -118,7 +126,8 @@ pub(crate) fn copied(state: &State, paths: &[Path], relations: Relations) -> Res
                 }
                 (true, count > 0)
             }
-            // what is computed is copied with what it is computed from, or speaks of the same as before
+            // what is computed goes with what it is computed from; with all relations, where that is not copied, it
+            // speaks of the same as before
             Member::Message(message) => {
                 let name = message.name().map(|word| word.text().to_string());
                 (false, name.is_some_and(|name| is_copied(&name)))
@@ -239,7 +248,8 @@ pub(crate) fn pasting(
     }
     let copies: Vec<String> = clip.things.iter().map(|(name, _)| called(name)).collect();
     let far = f64::from(aside) * ASIDE;
-    let is_placed = clip.relations == Relations::Own && put_aside(&mut trial, host, clip, &called, far);
+    let is_placed =
+        clip.relations == Relations::Own && put_aside(&mut trial, host, clip, &called, far);
     let moved = is_placed || move_aside(&mut trial, host, &copies, far);
     let is_kept = |text: &str| text.starts_with(base.trim_end());
     let moved = moved && (clip.relations == Relations::Own || is_kept(&trial.state.text));
@@ -328,14 +338,25 @@ pub(crate) fn deletion(
         paths.iter().map(|path| member_of(&open.state.text, &path.to_string())).collect();
     let mut trial = Open::of(&open.name, open.state.text.clone(), host);
     let mut along: Vec<String> = Vec::new();
-    for path in paths {
+    let is_there = |state: &State, path: &Path| {
+        words::find(state, path).is_ok()
+            || crate::prototype::class_of(state, path).is_some()
+            || !member_of(&state.text, &path.to_string()).is_empty()
+    };
+    // what is said goes before what it is said of, the last first: those before it keep their numbers
+    let (parts, mut said): (Vec<&Path>, Vec<&Path>) =
+        paths.iter().partition(|path| is_there(&open.state, path));
+    said.sort_by_key(|path| {
+        let name = path.to_string();
+        std::cmp::Reverse((name.len(), name))
+    });
+    for path in said.iter().chain(&parts) {
         // what goes with another is gone already
-        let is_of_class = crate::prototype::class_of(&trial.state, path).is_some();
-        if words::find(&trial.state, path).is_err() && !is_of_class {
+        if parts.contains(path) && !is_there(&trial.state, path) {
             continue;
         }
         along.extend(apply::along(&trial.state, path));
-        apply::apply(&mut trial, host, &Command::Delete(path.clone()))?;
+        apply::apply(&mut trial, host, &Command::Delete((*path).clone()))?;
     }
     along.retain(|said| !own.iter().any(|own| own.trim() == said.trim()));
     along.dedup();

@@ -37,7 +37,10 @@ fn each_figure_is_picked_by_its_name_and_has_rows() {
     assert_eq!(["foot", "altitude", "ring"].map(tagged), [1, 1, 1]);
     let rows = desk.session.structure(desk.id);
     let row = |path: &str| rows.iter().find(|row| row.path == path).expect("it has a row");
-    assert_eq!((row("foot").kind, row("foot").value.as_deref()), (RowKind::Virtual, Some("(30, 0)")));
+    assert_eq!(
+        (row("foot").kind, row("foot").value.as_deref()),
+        (RowKind::Virtual, Some("(30, 0)"))
+    );
     assert_eq!((row("ring").depth, row("ring").detail.as_str()), (1, "Circle"));
     assert_eq!(row("ring.center").value.as_deref(), Some("(50, 26.875)"));
 }
@@ -101,7 +104,11 @@ fn figures_go_along_when_all_is_dragged_copied_or_deleted() {
     let (command, names) = desk.session.pasting(desk.id, &clip, 1).expect("they can stand here");
     assert_eq!(names, ["line", "line2", "point", "line3", "circle"]);
     desk.apply(&command).expect("they can be made");
-    assert!(desk.text().contains("point => Point.projection(of: line2.p2, onto: line)"), "{}", desk.text());
+    assert!(
+        desk.text().contains("point => Point.projection(of: line2.p2, onto: line)"),
+        "{}",
+        desk.text()
+    );
     assert_eq!(desk.place("point"), (60.0, 25.0));
     desk.apply(&Command::Delete(at("foot"))).expect("it can go");
     assert!(!desk.text().contains("foot"), "{}", desk.text());
@@ -140,11 +147,17 @@ fn a_class_takes_constructions_in_its_own_pane() {
     assert!(desk.text().contains(wanted), "{}", desk.text());
     assert_eq!(desk.place("a.point"), (30.0, 0.0));
     assert_eq!(desk.place("b.point"), (60.0, 200.0));
+    // what makes no figure is no part of a class
+    desk.session.begin(pane, "value").expect_err("a value is no figure");
     // the next one goes on from what the class has now
     desk.session.begin(pane, "Point.middle(first,second)").expect("it is in scope");
     point(&mut desk, 30.0, 0.0);
     point(&mut desk, 30.0, 80.0);
-    assert!(desk.text().contains("point2: Point = Point.middle(point, side.p2)"), "{}", desk.text());
+    assert!(
+        desk.text().contains("point2: Point = Point.middle(point, side.p2)"),
+        "{}",
+        desk.text()
+    );
     desk.undo();
     desk.undo();
     assert_eq!(desk.text(), text);
@@ -171,7 +184,66 @@ fn a_theorem_is_told_where_no_constraint_says_it() {
     // the circle through the midpoints goes through the feet of the altitudes
     assert_eq!(desk.session.offers_and_held(desk.id, &paths(&["foot", "ring"])).1, ["on"]);
     // what only happens to be so is offered
-    let desk = Desk::of("use geometry\np: Point = (3, 4)\nring: Circle { center = (0, 0)  radius = 5 }\n");
+    let desk =
+        Desk::of("use geometry\np: Point = (3, 4)\nring: Circle { center = (0, 0)  radius = 5 }\n");
     let (offers, held) = desk.session.offers_and_held(desk.id, &paths(&["p", "ring"]));
     assert!(held.is_empty() && offers.iter().any(|offer| offer.label == "on"), "{offers:?}");
+}
+
+#[test]
+fn several_constructed_figures_are_deleted() {
+    let mut desk = Desk::of(ALTITUDE);
+    let two = paths(&["foot", "ring"]);
+    let (command, along) = desk.session.deletion(desk.id, &two).expect("they can go");
+    assert!(along.is_empty(), "{along:?}");
+    desk.apply(&command).expect("they can go");
+    let text = desk.text();
+    assert!(
+        !text.contains("foot") && !text.contains("ring") && text.contains("altitude"),
+        "{text}"
+    );
+    desk.undo();
+    // what is selected does not only go along
+    let two = paths(&["base", "foot"]);
+    let (_, along) = desk.session.deletion(desk.id, &two).expect("they can go");
+    assert!(along.iter().any(|said| said.contains("altitude")), "{along:?}");
+    assert!(along.iter().all(|said| !said.contains("foot")), "{along:?}");
+}
+
+#[test]
+fn lists_and_what_cannot_be_made_now_go_along_with_all() {
+    let mut desk = Desk::of(
+        "use geometry\na: Line { p1 = (0, 0)  p2 = (90, 0) }\nb: Line { p1 = (0, 50)  p2 = (90, 50) }\n\
+         parts => a.divided(into: 3)\nx => Point.intersection(a, b)\n",
+    );
+    let rows = desk.session.structure(desk.id);
+    let own = rows.iter().filter(|row| row.kind.is_thing() && row.depth == 1);
+    let own: Vec<Path> = own.map(|row| at(&row.path)).collect();
+    assert_eq!(own, paths(&["a", "b", "parts", "x"]));
+    desk.session.press_all(desk.id, &own).expect("they move together");
+    desk.session.drag(desk.id, (10.0, 5.0));
+    desk.session.release(desk.id).expect("they can be there");
+    assert_eq!(desk.place("a.p1"), (10.0, 5.0));
+    let clip = desk.session.copied(desk.id, &own, Relations::Own).expect("they stand alone");
+    let (command, names) = desk.session.pasting(desk.id, &clip, 1).expect("they can stand here");
+    desk.apply(&command).expect("they can be made");
+    let text = desk.text();
+    assert_eq!(names.len(), 4);
+    assert!(text.contains(&format!("{} => line.divided(into: 3)", names[2])), "{text}");
+    assert!(text.contains(&format!("{} => Point.intersection(line, line2)", names[3])), "{text}");
+}
+
+#[test]
+fn a_class_keeps_the_comments_of_a_construction() {
+    let text = ALTITUDE
+        .replace("foot => Point", "/// Where it ends: a => b.\nfoot => // below\n    Point");
+    let mut desk = Desk::of(&text);
+    let all = paths(&["base", "side", "foot", "ring", "altitude"]);
+    let plan = ClassPlan { name: "Tent".into(), scopes: Vec::new(), attachers: Vec::new() };
+    let (command, _) = desk.session.class_of(desk.id, &all, &plan).expect("they are its parts");
+    desk.apply(&command).expect("it can be made");
+    let text = desk.text();
+    let doc = text.find("/// Where it ends: a => b.\n").expect("its comment stays");
+    assert!(text[doc..].contains("    foot: Point = // below\n"), "{text}");
+    assert_eq!(desk.wrong(), [], "{text}");
 }
