@@ -28,6 +28,7 @@ use catch::{Catch, Sight};
 use drawing::{Color, Element, Layer, Line, Point, Shape, Style, Tag};
 use kernel::{Command, Literal, Path, Step};
 use stages::{Stage, stages};
+use std::cell::RefCell;
 use syntax::ast::{AstNode, Member};
 
 /// A tool in the hand.
@@ -185,6 +186,7 @@ impl Tool {
             whole: Name::new(&self.name),
             last: last.zip(before).filter(|_| self.goes_on),
             is_reach: matches!(stage, Stage::Reach { .. }),
+            classes: RefCell::default(),
         };
         catch::find(&sight, pointer)
     }

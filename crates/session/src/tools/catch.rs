@@ -7,8 +7,10 @@ use crate::state::State;
 use crate::view::{PictureView, Pointer};
 use base::Name;
 use base::number::{hypot, rounded};
-use drawing::{Point, Shape};
+use drawing::{Element, Point, Shape};
 use kernel::{ClassId, Path, Step};
+use std::cell::RefCell;
+use std::collections::BTreeMap;
 
 /// What was found, and where.
 #[derive(Clone, PartialEq, Debug)]
@@ -46,6 +48,36 @@ pub(crate) struct Sight<'s> {
     pub(crate) last: Option<((f64, f64), Path)>,
     /// Whether what is set is how far the pointer is from the last place.
     pub(crate) is_reach: bool,
+    /// The classes that were asked for, by tag.
+    pub(crate) classes: RefCell<BTreeMap<u32, Option<ClassId>>>,
+}
+
+impl Sight<'_> {
+    /// The class of the thing, or of what the document computes, that an element pictures: asked once. What a program
+    /// drew is not looked for, pointer by pointer.
+    fn class_of(&self, element: &Element) -> Option<ClassId> {
+        let tag = element.tag.0;
+        if let Some(known) = self.classes.borrow().get(&tag) {
+            return *known;
+        }
+        let path = self.path(element).and_then(|path| parse_path(path));
+        let near = path.filter(|p| p.0.len() == 1 || thing_at(self.state, p).is_some());
+        let class = near.and_then(|path| class_at(self.state, &path));
+        self.classes.borrow_mut().insert(tag, class);
+        class
+    }
+
+    /// The path of what an element pictures.
+    fn path(&self, element: &Element) -> Option<&String> {
+        self.picture.paths.get(element.tag.0 as usize)
+    }
+
+    /// Whether what an element pictures answers a message.
+    fn answers(&self, element: &Element, message: &str) -> bool {
+        let document = &self.state.lowered.document;
+        let class = self.class_of(element);
+        class.is_some_and(|c| document.find_message(c, &Name::new(message), None).is_some())
+    }
 }
 
 /// Returns what the pointer finds: what it is nearest to, points before lines, lines before levels.
@@ -96,15 +128,13 @@ fn at_shape(sight: &Sight<'_>, pointer: &Pointer) -> Option<Catch> {
     let (x, y) = pointer.at;
     let mut nearest: Option<(f64, Catch)> = None;
     for element in &sight.picture.drawing.elements {
-        let Some(path) = sight.picture.paths.get(element.tag.0 as usize) else { continue };
-        let class = parse_path(path).and_then(|path| class_of(sight.state, &path));
-        let Some(class) = class else { continue };
-        let answers = |name: &str| document.find_message(class, &Name::new(name), None).is_some();
+        let Some(path) = sight.path(element) else { continue };
+        // where it lies first: what it is may be dear to tell
         let foot = match &element.shape {
             Shape::Segment(a, b) => {
                 let middle = (f64::midpoint(a.x, b.x), f64::midpoint(a.y, b.y));
                 let far = hypot(middle.0 - x, middle.1 - y);
-                if far <= pointer.reach && answers("midpoint") {
+                if far <= pointer.reach && sight.answers(element, "midpoint") {
                     let rules = vec![format!("{} = {path}.midpoint", sight.own)];
                     let word = Some(format!("midpoint of {path}"));
                     return Some(Catch { rules, word, ..Catch::at(middle) });
@@ -113,8 +143,8 @@ fn at_shape(sight: &Sight<'_>, pointer: &Pointer) -> Option<Catch> {
             }
             Shape::Circle { center, radius } => on_circle(pointer.at, *center, *radius),
             // a point that a construction makes
-            Shape::Dot(p) if document.is_place(class) => {
-                if hypot(p.x - x, p.y - y) > pointer.reach {
+            Shape::Dot(p) if hypot(p.x - x, p.y - y) <= pointer.reach => {
+                if !sight.class_of(element).is_some_and(|class| document.is_place(class)) {
                     continue;
                 }
                 let rules = vec![format!("{} = {path}", sight.own)];
@@ -129,21 +159,16 @@ fn at_shape(sight: &Sight<'_>, pointer: &Pointer) -> Option<Catch> {
             | Shape::Region(_)
             | Shape::Text { .. } => None,
         };
-        let Some(foot) = foot.filter(|_| answers("passes")) else { continue };
+        let Some(foot) = foot else { continue };
         let far = hypot(foot.0 - x, foot.1 - y);
-        if far <= 0.6 * pointer.reach && nearest.as_ref().is_none_or(|(least, _)| far < *least) {
+        let is_nearer = nearest.as_ref().is_none_or(|(least, _)| far < *least);
+        if far <= 0.6 * pointer.reach && is_nearer && sight.answers(element, "passes") {
             let rules = vec![format!("{path}.passes(through: {})", sight.own)];
             let word = Some(format!("on {path}"));
             nearest = Some((far, Catch { rules, word, ..Catch::at(foot) }));
         }
     }
     nearest.map(|(_, catch)| catch)
-}
-
-/// The class of a thing or of what the document computes; what a program drew is not looked for, pointer by pointer.
-fn class_of(state: &State, path: &Path) -> Option<ClassId> {
-    let is_near = path.0.len() == 1 || thing_at(state, path).is_some();
-    is_near.then(|| class_at(state, path)).flatten()
 }
 
 /// The foot of a place on a segment, where that lies between its ends.
@@ -181,16 +206,10 @@ fn shapes<'s>(
     sight: &'s Sight<'_>,
     message: &'s str,
 ) -> impl Iterator<Item = (&'s Shape, &'s String)> {
-    let document = &sight.state.lowered.document;
-    let answers = move |path: &String| {
-        let class = parse_path(path).and_then(|path| class_of(sight.state, &path));
-        class.is_some_and(|c| document.find_message(c, &Name::new(message), None).is_some())
-    };
     let elements = sight.picture.drawing.elements.iter();
-    let pathed = elements.filter_map(|element| {
-        Some((&element.shape, sight.picture.paths.get(element.tag.0 as usize)?))
-    });
-    pathed.filter(move |(_, path)| answers(path))
+    let drawn = elements.filter(|e| matches!(e.shape, Shape::Segment(..) | Shape::Circle { .. }));
+    let answering = drawn.filter(move |element| sight.answers(element, message));
+    answering.filter_map(|element| Some((&element.shape, sight.path(element)?)))
 }
 
 /// Where a line from the last place touches a circle.
