@@ -14,7 +14,7 @@ use crate::view::{
     ClassItem, ClassPlan, Deed, DocumentId, Offer, Question, Refusal, ValueRow, ValueWithin,
 };
 use crate::ways_out;
-use crate::{Session, views, words};
+use crate::{Session, tools, views, words};
 use kernel::{ClassId, Command, Literal, Path, SlotId, Step, ThingId};
 use lang::Wanted;
 
@@ -246,6 +246,11 @@ impl Session {
         let class = if is_angle { "Angle" } else { dimension.named().unwrap_or("Real") };
         let members = format!("{name}: {class} = {value}");
         Ok((Command::Edit { target: Path::default(), members }, name))
+    }
+
+    /// Returns the names of the classes in the bin, in its order.
+    pub fn bin_names(&self, id: DocumentId) -> Vec<String> {
+        tools::bin::names(&self.document(id).state)
     }
 
     /// Returns what has to be decided of some things that are to be the parts of a class.

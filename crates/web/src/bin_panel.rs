@@ -83,7 +83,7 @@ pub fn Bin(
                 e.prevent_default();
                 e.stop_propagation();
             }>
-                <For each=move || shelves.get() key=|shelf| (shelf.name.clone(), shelf.first, shelf.entries.len(), shelf.is_open) let(shelf)>
+                <For each=move || shelves.get() key=Shelf::key let(shelf)>
                     <details open=shelf.is_open>
                         <summary>{if shelf.name.is_empty() { String::from(words::OWN_CLASSES) } else { shelf.name.clone() }}</summary>
                         <ul class="tiles">
@@ -121,6 +121,14 @@ struct Shelf {
     entries: Vec<BinEntry>,
     /// Whether it is open at first: what a library has beside its toolbox is seldom wanted.
     is_open: bool,
+}
+
+impl Shelf {
+    /// What tells it from others: its name, where it begins, what lies on it, whether it is open.
+    fn key(&self) -> (String, usize, Vec<String>, bool) {
+        let classes = self.entries.iter().map(|entry| entry.class.clone()).collect();
+        (self.name.clone(), self.first, classes, self.is_open)
+    }
 }
 
 /// The entries by toolbox and library: the document's own, then toolboxes, then the rest; what was taken into use last
@@ -262,7 +270,8 @@ mod tests {
             let shelves = shelved(&found, is_filtered).into_iter();
             shelves.map(|s| (s.name, s.first, s.is_open)).collect::<Vec<_>>()
         };
-        let wanted = [("", 0, true), ("Circuits", 1, true), ("circuits", 2, false), ("geometry", 3, true)];
+        let wanted =
+            [("", 0, true), ("Circuits", 1, true), ("circuits", 2, false), ("geometry", 3, true)];
         assert_eq!(names(false), wanted.map(|(n, at, open)| (String::from(n), at, open)));
         assert!(names(true).iter().all(|(_, _, is_open)| *is_open));
     }

@@ -111,8 +111,8 @@ type Drawn = (Vec<ConstructionRow>, Vec<String>);
 
 fn drawn(lab: Lab) -> Drawn {
     let constructions = lab.ask_of_shown(session::Session::constructions).unwrap_or_default();
-    let bin = lab.ask_of_shown(session::Session::bin).unwrap_or_default();
-    (constructions, bin.into_iter().map(|entry| entry.class).collect())
+    let classes = lab.ask_of_shown(session::Session::bin_names).unwrap_or_default();
+    (constructions, classes)
 }
 
 #[component]
@@ -206,7 +206,9 @@ mod tests {
         let row = ConstructionRow {
             id: String::from("Axis.equidistant(first,second)"),
             class: String::from("Axis"),
-            label: String::from("Line of the points that are as far from one point as from another"),
+            label: String::from(
+                "Line of the points that are as far from one point as from another",
+            ),
             operands: String::from("first, second"),
             doc: String::new(),
             also: "perpendicular bisector",

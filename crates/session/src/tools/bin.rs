@@ -9,8 +9,12 @@ use crate::view::BinEntry;
 use eval::Evaluator;
 use kernel::{ClassId, SlotId, Value};
 
-/// Returns the classes that a document can make things of, those of toolboxes first, then in order of declaration, its own last.
-pub(crate) fn entries(state: &State) -> Vec<BinEntry> {
+/// The class of an entry, and the toolbox that it lies in.
+type Made<'s> = (ClassId, &'s kernel::Class, Option<usize>);
+
+/// Returns the classes that a document can make things of, those of toolboxes first, then in order of declaration, its
+/// own last.
+fn made(state: &State) -> Vec<Made<'_>> {
     let document = &state.lowered.document;
     let classes = document.classes.iter();
     let made = classes.filter(|&(id, class)| recognise::is_candidate(state, id, class));
@@ -25,7 +29,18 @@ pub(crate) fn entries(state: &State) -> Vec<BinEntry> {
         all.enumerate().find(|(_, (_, class))| *class == id).map(|(order, (b, _))| (order, b))
     };
     made.sort_by_key(|&(id, _)| place(id).map_or(usize::MAX, |(order, _)| order));
-    let entry = |(id, class): (ClassId, &kernel::Class)| {
+    made.into_iter().map(|(id, class)| (id, class, place(id).map(|(_, b)| b))).collect()
+}
+
+/// Returns the names of the classes that a document can make things of, in the order of the bin.
+pub(crate) fn names(state: &State) -> Vec<String> {
+    made(state).into_iter().map(|(_, class, _)| class.name.to_string()).collect()
+}
+
+/// Returns what a document can make things of, in the order of the bin.
+pub(crate) fn entries(state: &State) -> Vec<BinEntry> {
+    let boxes = &state.lowered.toolboxes;
+    let entry = |(id, class, toolbox): Made<'_>| {
         let file = state.lowered.place(class.origin).file;
         BinEntry {
             class: class.name.to_string(),
@@ -36,11 +51,11 @@ pub(crate) fn entries(state: &State) -> Vec<BinEntry> {
                 .get(file)
                 .map(|file| file.name.clone())
                 .unwrap_or_default(),
-            toolbox: place(id).map(|(_, b)| boxes[b].title.clone()),
+            toolbox: toolbox.map(|b| boxes[b].title.clone()),
             picture: picture(state, id),
         }
     };
-    made.into_iter().map(entry).collect()
+    made(state).into_iter().map(entry).collect()
 }
 
 /// The picture of a class's prototype, from what is given alone.
