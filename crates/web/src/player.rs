@@ -7,7 +7,7 @@
 use crate::lab::{Lab, Zoom};
 use crate::values::{slider_range, whole_turn};
 use crate::{icons, js, sheet, words};
-use drawing::Bounds;
+use drawing::{Bounds, Drawing, Shape};
 use leptos::prelude::*;
 use session::view::ValueRow;
 
@@ -36,8 +36,10 @@ struct Course {
     at: f64,
     /// Whether it grows.
     grows: bool,
-    /// Whether the ends are one place, as those of a whole turn: then it goes on through them.
-    goes_round: bool,
+    /// Whether the range is a whole turn, whose ends may be one place.
+    is_turn: bool,
+    /// The numbers that were there at each end, once it was there.
+    seen: [Option<Vec<f64>>; 2],
     /// How often it has turned since it last got on.
     turns: u32,
     /// What the picture has covered of the sheet so far, while the view is one that fits.
@@ -45,18 +47,31 @@ struct Course {
 }
 
 impl Course {
-    /// Goes on by a part of the range, and turns round at its ends, or goes through them.
+    /// Goes on by a part of the range; from an end it turns round, or goes on from the other.
     fn step(&mut self, part: f64) {
         let (least, most) = self.ends;
-        let way = part * (most - least);
-        self.at += if self.grows { way } else { -way };
-        if self.goes_round {
-            self.at = least + (self.at - least).rem_euclid(most - least);
-            return;
+        if self.at >= most && self.grows || self.at <= least && !self.grows {
+            match self.goes_round() {
+                true => self.at = if self.grows { least } else { most },
+                false => self.grows = !self.grows,
+            }
         }
-        if self.at >= most || self.at <= least {
-            self.grows = self.at <= least;
-            self.at = self.at.clamp(least, most);
+        let way = part * (most - least);
+        self.at = (self.at + if self.grows { way } else { -way }).clamp(least, most);
+    }
+
+    /// Whether it goes on through its ends: only where all was the same at both, so that nothing jumps.
+    fn goes_round(&self) -> bool {
+        let [Some(first), Some(last)] = &self.seen else { return false };
+        let near = |(a, b): (&f64, &f64)| (a - b).abs() <= 1e-6 * (1.0 + a.abs().max(b.abs()));
+        self.is_turn && first.len() == last.len() && first.iter().zip(last).all(near)
+    }
+
+    /// Keeps what is there at an end, where it is at one.
+    fn see(&mut self, numbers: impl FnOnce() -> Vec<f64>) {
+        let at_end = [self.ends.0, self.ends.1].iter().position(|end| *end == self.at);
+        if let Some(end) = at_end.filter(|_| self.is_turn) {
+            self.seen[end] = Some(numbers());
         }
     }
 
@@ -90,7 +105,7 @@ impl Lab {
         let found = self.values.with_untracked(|rows| rows.get(row).cloned());
         let Some((of, at)) = found.and_then(|row| row.number.map(|at| (row, at))) else { return };
         // an angle that is computed has no value beyond its ends
-        let goes_round = !of.is_virtual && whole_turn(&of) == Some(ends);
+        let is_turn = !of.is_virtual && whole_turn(&of) == Some(ends);
         let path = of.path;
         let was = self.player.now.get_untracked();
         self.stop_playing();
@@ -100,7 +115,9 @@ impl Lab {
         let ends = (ends.0.min(at), ends.1.max(at));
         let covered = self.fits.get_value().then(|| self.covered());
         let grows = at < ends.1;
-        let course = Course { ends, at, grows, goes_round, turns: 0, covered };
+        let seen = [None, None];
+        let mut course = Course { ends, at, grows, is_turn, seen, turns: 0, covered };
+        course.see(|| self.numbers_beside(row));
         let playing = Playing { path, number: self.player.count.get_value() + 1 };
         self.player.count.set_value(playing.number);
         self.player.now.set(Some(playing.clone()));
@@ -127,6 +144,26 @@ impl Lab {
             let around = slider_range(row.number?, whole_turn(row), None);
             Some((at, row.range.unwrap_or(around)))
         })
+    }
+
+    /// Returns all numbers but those of a row: the other values, and where the picture lies.
+    fn numbers_beside(self, row: usize) -> Vec<f64> {
+        let mut numbers: Vec<f64> = self.values.with_untracked(|rows| {
+            let others = rows.iter().enumerate().filter(|(n, _)| *n != row);
+            others.filter_map(|(_, other)| other.number).collect()
+        });
+        self.picture.with_untracked(|picture| {
+            for element in &picture.drawing.elements {
+                // a word may tell the number that is played
+                if matches!(element.shape, Shape::Text { .. }) {
+                    continue;
+                }
+                let elements = vec![element.clone()];
+                let lies = sheet::bounds(&Drawing { elements, ..Drawing::default() });
+                numbers.extend([lies.least.x, lies.least.y, lies.most.x, lies.most.y]);
+            }
+        });
+        numbers
     }
 
     /// Returns the box around the picture.
@@ -173,6 +210,7 @@ fn frame(lab: Lab, row: usize, playing: Playing, mut course: Course, before: f64
         }
     } else {
         course.turns = 0;
+        course.see(|| lab.numbers_beside(row));
     }
     request_animation_frame(move || frame(lab, row, playing, course, time));
 }
@@ -231,31 +269,44 @@ mod tests {
             ends: (0.0, 10.0),
             at: 8.0,
             grows: true,
-            goes_round: false,
+            is_turn: false,
+            seen: [None, None],
             turns: 0,
             covered: None,
         }
     }
 
     #[test]
-    fn a_whole_turn_goes_on_through_its_ends() {
-        let mut course = Course { goes_round: true, ..course() };
-        course.step(0.5);
-        assert_eq!((course.at, course.grows), (3.0, true));
-        course.grows = false;
-        course.step(0.5);
-        assert_eq!((course.at, course.grows), (8.0, false));
+    fn a_whole_turn_goes_on_through_its_ends_where_all_is_the_same_there() {
+        let turn = || Course { is_turn: true, at: 10.0, ..course() };
+        let mut same = turn();
+        same.seen[0] = Some(vec![1.0, 2.0]);
+        same.see(|| vec![1.0, 2.0]);
+        same.step(0.25);
+        assert_eq!((same.at, same.grows), (2.5, true));
+        // what is geared to it would jump
+        let mut geared = turn();
+        geared.seen[0] = Some(vec![1.0, 0.0]);
+        geared.see(|| vec![1.0, 180.0]);
+        geared.step(0.25);
+        assert_eq!((geared.at, geared.grows), (7.5, false));
+        let mut unknown = turn();
+        unknown.see(|| vec![1.0]);
+        unknown.step(0.25);
+        assert_eq!((unknown.at, unknown.grows), (7.5, false));
     }
 
     #[test]
     fn a_value_turns_round_at_the_ends_of_its_range() {
         let mut course = course();
         course.step(0.25);
-        assert_eq!((course.at, course.grows), (10.0, false));
+        assert_eq!((course.at, course.grows), (10.0, true));
         course.step(0.25);
         assert_eq!((course.at, course.grows), (7.5, false));
         course.step(1.0);
-        assert_eq!((course.at, course.grows), (0.0, true));
+        assert_eq!((course.at, course.grows), (0.0, false));
+        course.step(0.25);
+        assert_eq!((course.at, course.grows), (2.5, true));
     }
 
     #[test]
