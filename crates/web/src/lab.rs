@@ -134,7 +134,7 @@ pub struct Lab {
     pub selected: RwSignal<Option<String>>,
     /// The paths of what is selected besides, in the order of choosing.
     pub also: RwSignal<Vec<String>>,
-    /// Whether fingers are at work, which have no keys.
+    /// Whether a finger or a pen is at work, which have no keys.
     pub touch: RwSignal<bool>,
     /// Whether what is picked next is selected besides, without a key.
     pub adding: RwSignal<bool>,

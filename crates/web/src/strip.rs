@@ -25,7 +25,8 @@ pub fn Strip(
     });
     let offers = Memo::new(move |_| found.with(|(offers, _)| offers.clone()));
     let held = Memo::new(move |_| found.with(|(_, held)| held.clone()));
-    let is_idle = move || lab.tool.with(Option::is_none) && lab.drafting.prompt.with(Option::is_none);
+    let is_idle =
+        move || lab.tool.with(Option::is_none) && lab.drafting.prompt.with(Option::is_none);
     let is_shown = move || {
         let something = !(offers.with(Vec::is_empty) && held.with(Vec::is_empty));
         something || lab.touch.get() && is_idle() && lab.selected.with(Option::is_some)
@@ -90,6 +91,17 @@ fn to_read(value: &str) -> String {
 }
 
 impl Lab {
+    /// Takes to what works on the sheet: a finger or a pen, or a mouse, beside which there are keys.
+    pub fn touched(self, touch: bool) {
+        if self.touch.get_untracked() == touch {
+            return;
+        }
+        self.touch.set(touch);
+        if !touch {
+            self.adding.set(false);
+        }
+    }
+
     /// What can be said of the selection; nothing of constraints.
     pub fn offers(self) -> Vec<Offer> {
         self.offers_and_held().0

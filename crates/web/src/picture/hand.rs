@@ -134,15 +134,15 @@ impl Hand {
         if e.button() == 1 {
             e.prevent_default();
         }
+        // a pen has no keys either
+        let touch = e.pointer_type() != "mouse";
         self.state.update_value(|state| {
-            state.touch = e.pointer_type() == "touch";
+            state.touch = touch;
             (state.shift, state.alt) = (e.shift_key(), e.alt_key());
             state.pointers.retain(|(id, _)| *id != e.pointer_id());
             state.pointers.push((e.pointer_id(), at));
         });
-        if self.lab.touch.get_untracked() != (e.pointer_type() == "touch") {
-            self.lab.touch.update(|touch| *touch = !*touch);
-        }
+        self.lab.touched(touch);
         let space = self.state.with_value(|state| state.space);
         if let Some(pinch) = self.pinch() {
             if let Mode::Drag { .. } = self.mode() {
