@@ -249,17 +249,30 @@ fn humps(name: &str) -> Vec<String> {
 
 #[cfg(test)]
 mod tests {
-    use super::{BinEntry, shelved};
+    use super::{BinEntry, Shelf, shelved};
 
-    #[test]
-    fn toolboxes_come_before_what_else_libraries_have() {
-        let entry = |class: &str, library: &str, toolbox: Option<&str>| BinEntry {
+    fn entry(class: &str, library: &str, toolbox: Option<&str>) -> BinEntry {
+        BinEntry {
             class: String::from(class),
             doc: String::new(),
             library: String::from(library),
             toolbox: toolbox.map(String::from),
             picture: drawing::Drawing::default(),
+        }
+    }
+
+    #[test]
+    fn a_shelf_with_other_tiles_is_another_however_many_they_are() {
+        let key = |class| {
+            let found = [entry(class, "circuits", Some("Circuits"))];
+            shelved(&found, true).iter().map(Shelf::key).collect::<Vec<_>>()
         };
+        assert_ne!(key("Resistor"), key("Capacitor"));
+        assert_eq!(key("Resistor"), key("Resistor"));
+    }
+
+    #[test]
+    fn toolboxes_come_before_what_else_libraries_have() {
         let found = [
             entry("Resistor", "circuits", Some("Circuits")),
             entry("Line", "geometry", None),

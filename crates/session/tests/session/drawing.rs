@@ -238,6 +238,8 @@ fn the_bin_has_every_class_in_use_and_says_where_it_comes_from() {
     assert_eq!(of("Own").library, "");
     assert!(!of("Resistor").picture.elements.is_empty());
     assert!(bin.iter().all(|e| e.class != "TwoLead"), "nothing is made of abstract classes");
+    let names: Vec<String> = bin.into_iter().map(|entry| entry.class).collect();
+    assert_eq!(desk.session.bin_names(desk.id), names);
 }
 
 #[test]
