@@ -44,13 +44,13 @@ pub(crate) fn lex(text: &str) -> Lexed {
 /// Adds the tokens of a text from a place on.
 fn add_tokens(text: &str, from: usize, lexed: &mut Lexed) {
     let mut at = from;
-    let mut after_of = false;
+    let mut count = Count::None;
     while at < text.len() {
         let (kind, length) = token(&text[at..]);
         let end = at + length;
         if kind == SyntaxKind::Text && closed(&text[at..end]) && add_pieces(&text[..end], at, lexed)
         {
-            (at, after_of) = (end, false);
+            (at, count) = (end, Count::None);
             continue;
         }
         lexed.tokens.push(RawToken { kind, start: at as u32 });
@@ -59,11 +59,54 @@ fn add_tokens(text: &str, from: usize, lexed: &mut Lexed) {
         }
         let start = at;
         at = end;
-        if kind == SyntaxKind::Number && !after_of {
+        if kind == SyntaxKind::Number && !matches!(count, Count::One | Count::First | Count::Operand) {
             at = unit(text, end, &mut lexed.tokens);
         }
-        if !kind.is_trivia() {
-            after_of = kind == SyntaxKind::Ident && &text[start..end] == "of";
+        count = count.after(kind, &text[start..end]);
+    }
+}
+
+/// How far the count of a list is read, `List of n + 1 C`: its numbers have no units, for a class follows.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Count {
+    /// No count.
+    None,
+    /// After `List`.
+    List,
+    /// After `of`, which need not be that of a list.
+    One,
+    /// After `List of`.
+    First,
+    /// After a name or number of a sum.
+    Operator,
+    /// After an operator of a sum.
+    Operand,
+}
+
+impl Count {
+    /// Returns how far it is read after a token.
+    fn after(self, kind: SyntaxKind, text: &str) -> Self {
+        match (self, kind) {
+            (Self::First | Self::Operator | Self::Operand, _)
+                if kind == SyntaxKind::Whitespace && text.contains('\n') =>
+            {
+                Self::None
+            }
+            _ if kind.is_trivia() => self,
+            (Self::List, SyntaxKind::Ident) if text == "of" => Self::First,
+            (_, SyntaxKind::Ident) if text == "of" => Self::One,
+            (_, SyntaxKind::Ident) if text == "List" => Self::List,
+            (Self::First | Self::Operand, SyntaxKind::Number) => Self::Operator,
+            (Self::First | Self::Operand, SyntaxKind::Ident)
+                if text.starts_with(char::is_lowercase) =>
+            {
+                Self::Operator
+            }
+            (
+                Self::Operator,
+                SyntaxKind::Plus | SyntaxKind::Minus | SyntaxKind::Star | SyntaxKind::Slash,
+            ) => Self::Operand,
+            _ => Self::None,
         }
     }
 }
@@ -345,6 +388,14 @@ mod tests {
     #[test]
     fn a_count_has_no_unit() {
         check("List of 12 C", "Ident List | Ident of | Number 12 | Ident C");
+        check(
+            "List of n + 1 C",
+            "Ident List | Ident of | Ident n | Plus + | Number 1 | Ident C",
+        );
+        check(
+            "List of n C = 2 * 1 C",
+            "Ident List | Ident of | Ident n | Ident C | Eq = | Number 2 | Star * | Number 1 | Unit C",
+        );
     }
     #[test]
     fn dots_after_numbers() {

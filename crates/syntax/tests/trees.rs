@@ -31,6 +31,10 @@ fn a_part_has_names_a_class_and_a_value() {
     );
     check("ls: List of 12 C", "(Part ls : (Type List of (NumberExpr 12) (Type C)))");
     check(
+        "ls: List of n + 1 C",
+        "(Part ls : (Type List of (BinaryExpr (NameExpr n) + (NumberExpr 1)) (Type C)))",
+    );
+    check(
         "ls: List of n Set of C",
         "(Part ls : (Type List of (NameExpr n) (Type Set of (Type C))))",
     );
