@@ -38,11 +38,20 @@ pub struct Document {
     /// True if its text writes lengths with their units and names no unit of the sheet: then bare lengths are metres
     /// to people, too.
     pub writes_lengths: bool,
-    /// The units in which the text writes quantities, where it writes them in none of SI with a prefix of a thousand:
-    /// feet, days, litres.
-    pub usual: BTreeMap<Dimension, Vec<Name>>,
+    /// The units in which the text writes quantities, by what they measure and the sort of their class
+    /// ([`crate::Quantity::sort`]); without a sort, where the class is not known.
+    pub usual: BTreeMap<(Dimension, Option<Name>), Usual>,
     /// The units of given numbers as they are written, by where that is; bare numbers have none.
     pub units: BTreeMap<OriginId, Name>,
+}
+
+/// The units in which a text writes a sort of quantity: feet, days, litres.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Usual {
+    /// The units; none where it writes one of SI with a prefix of a thousand.
+    pub units: Vec<Name>,
+    /// A smaller number is not shown in one of them.
+    pub least: f64,
 }
 
 /// Which way a place or a number goes from where two branches meet, and its values do not say it.

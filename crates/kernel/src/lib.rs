@@ -30,7 +30,7 @@ pub use class::{
     Parameter, Part, Primitive, Setting, Stay, Strength, Superclass, Switch, form,
 };
 pub use command::{Command, Literal};
-pub use document::{Document, PartRef, PartRole, Side, SideWay, Vertical, Voices};
+pub use document::{Document, PartRef, PartRole, Side, SideWay, Usual, Vertical, Voices};
 pub use instantiate::{Fault, FaultKind, MOST_THINGS, faults_of, instantiate, instantiate_again};
 pub use path::{Path, Step};
 pub use program::Program;

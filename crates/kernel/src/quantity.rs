@@ -4,7 +4,7 @@
 //! can be typed back. The unit is the one that the value was written in, where it reads well; else the one in which the
 //! text writes such quantities; else that of its class, with a prefix by steps of a thousand. Angles are in degrees.
 
-use crate::Document;
+use crate::{Document, Usual};
 use base::Name;
 use base::number::{shortest, significant};
 use expr::dimension::Dimension;
@@ -27,8 +27,8 @@ const PREFIXES: [(&str, i8, f64); 10] = [
     ("T", 12, 1e12),
 ];
 
-/// A value between these reads well in a unit in which the text writes others.
-const READABLE: std::ops::Range<f64> = 1e-2..1e6;
+/// A larger value does not read well in a unit in which the text writes others.
+const MOST_READABLE: f64 = 1e6;
 
 /// What is known of a number beside its value.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
@@ -53,7 +53,27 @@ impl Quantity<'_> {
                 | "AngularVelocity"
                 | "AngularAcceleration"
                 | "MassFlow"
+                | "Stress"
+                | "ElasticModulus"
+                | "SpecificWeight"
         )
+    }
+
+    /// Returns the sort of quantity that a class tells beyond what it measures; empty for what its dimension says.
+    ///
+    /// What is of one sort is written in the same units: torques and moments, no energies.
+    ///
+    /// ```
+    /// use kernel::Quantity;
+    /// assert_eq!(Quantity::sort("Moment"), Quantity::sort("Torque"));
+    /// assert_ne!(Quantity::sort("AngularVelocity"), Quantity::sort("Frequency"));
+    /// ```
+    pub fn sort(class: &str) -> &str {
+        match class {
+            "Moment" | "RotationalStiffness" => "Torque",
+            told if Self::is_told_by(told) => told,
+            _ => "",
+        }
     }
 }
 
@@ -100,10 +120,11 @@ pub fn spelling_for(x: f64, quantity: Quantity<'_>, document: &Document) -> Stri
         return "deg".into();
     }
     let last = written.trim_end_matches([')', ']', ',', '}']).rsplit(char::is_whitespace).next();
-    // `5%` is one word
-    let last = last.map(|word| word.trim_start_matches(|c: char| c.is_ascii_digit() || c == '.'));
+    // `5%` is one word, and `1/min` is a unit
+    let digits = |c: char| c.is_ascii_digit() || c == '.';
+    let words = last.into_iter().flat_map(|word| [word, word.trim_start_matches(digits)]);
     let fits = |spelling: &&str| units::unit(spelling).is_some_and(|u| u.dimension == dimension);
-    if let Some(spelling) = last.filter(fits)
+    if let Some(spelling) = { words }.find(fits)
         && (x == 0.0 || (1e-3..1e6).contains(&size(spelling)))
     {
         return spelling.into();
@@ -114,17 +135,29 @@ pub fn spelling_for(x: f64, quantity: Quantity<'_>, document: &Document) -> Stri
     if is_of_the_sheet(dimension) {
         return of_the_sheet(dimension, document, size);
     }
-    let spelling = match class {
-        "MassFlow" => "kg/s",
-        "Torque" | "Moment" | "RotationalStiffness" => "N*m",
-        "AngularVelocity" => "rad/s",
-        "AngularAcceleration" => "rad/s^2",
-        _ => match units::preferred(dimension) {
-            Some(spelling) => spelling,
-            None => return dimension.to_string(),
-        },
-    };
-    prefixed(spelling, size)
+    match of_si(class, dimension) {
+        Some(spelling) => prefixed(spelling, size),
+        None => dimension.to_string(),
+    }
+}
+
+/// Returns the unit of SI in which a class of quantities is shown; none for plain numbers, lengths and what has no name.
+///
+/// ```
+/// use expr::Dimension;
+/// use kernel::quantity::of_si;
+/// assert_eq!(of_si("MassFlow", Dimension::MASS_FLOW), Some("kg/s"));
+/// assert_eq!(of_si("Damping", Dimension::DAMPING), Some("N*s/m"));
+/// ```
+pub fn of_si(class: &str, dimension: Dimension) -> Option<&'static str> {
+    match class {
+        "MassFlow" => Some("kg/s"),
+        "Torque" | "Moment" | "RotationalStiffness" => Some("N*m"),
+        "AngularVelocity" => Some("rad/s"),
+        "AngularAcceleration" => Some("rad/s^2"),
+        "SpecificWeight" => Some("N/m^3"),
+        _ => units::preferred(dimension),
+    }
 }
 
 /// The unit in which the text writes such quantities, where it is none that a prefix of a thousand makes of that of SI:
@@ -138,15 +171,69 @@ fn usual(
     if dimension == Dimension::LENGTH && document.unit.is_some() {
         return None;
     }
-    // newton metres are no joules to people
-    let is_turning = matches!(class, "Torque" | "Moment" | "RotationalStiffness");
-    let fits = |unit: &&Name| dimension != Dimension::ENERGY || unit.contains('*') == is_turning;
-    let written = document.usual.get(&dimension)?.iter().filter(fits);
-    let mut sized: Vec<(f64, &Name)> = written.map(|unit| (size(unit), unit)).collect();
+    let (units, least) = usual_of(class, dimension, document)?;
+    let suits = |unit: &&Name| class.is_empty() || suits(unit, Quantity::sort(class), dimension);
+    let mut sized: Vec<(f64, &Name)> =
+        units.into_iter().filter(suits).map(|unit| (size(unit), unit)).collect();
     sized.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let readable = |x: f64| x == 0.0 || READABLE.contains(&x);
+    let is_readable = |x: f64| x == 0.0 && least < 1.0 || (least..MOST_READABLE).contains(&x);
     let best = sized.iter().find(|(x, _)| *x >= 1.0).or(sized.last());
-    best.filter(|(x, _)| readable(*x)).map(|(_, unit)| unit.to_string())
+    best.filter(|(x, _)| is_readable(*x)).map(|(_, unit)| unit.to_string())
+}
+
+/// The units in which the text writes the sort of a class, and the least number for which they are used; nothing where
+/// it writes some of SI.
+///
+/// What is written without a class counts where the units themselves tell the sort. A quantity without a class is shown
+/// in the units of the one sort that is written.
+fn usual_of<'d>(
+    class: &str,
+    dimension: Dimension,
+    document: &'d Document,
+) -> Option<(Vec<&'d Name>, f64)> {
+    let written = document.usual.range((dimension, None)..);
+    let written = || written.clone().take_while(|((d, _), _)| *d == dimension);
+    let sort = match class {
+        "" => {
+            let mut sorts = written().filter_map(|((_, sort), _)| sort.as_deref());
+            let one = sorts.next().unwrap_or_default();
+            if sorts.next().is_some() {
+                return None;
+            }
+            one
+        }
+        _ => Quantity::sort(class),
+    };
+    let is_told_by_unit = !matches!(sort, "Stress" | "ElasticModulus" | "SpecificWeight");
+    let counts = |of: Option<&str>| of.map_or(is_told_by_unit, |of| of == sort);
+    let usual: Vec<&Usual> =
+        written().filter(|((_, of), _)| counts(of.as_deref())).map(|(_, usual)| usual).collect();
+    if usual.is_empty() || usual.iter().any(|usual| usual.units.is_empty()) {
+        return None;
+    }
+    let least = usual.iter().map(|usual| usual.least).fold(f64::INFINITY, f64::min);
+    Some((usual.into_iter().flat_map(|usual| &usual.units).collect(), least))
+}
+
+/// Returns true for a unit in which people write a sort of quantity, of those that share its dimension: newton metres are
+/// no joules, turns no hertz, kilograms a second no damping, a specific weight is no gradient.
+fn suits(unit: &str, sort: &str, dimension: Dimension) -> bool {
+    match dimension {
+        Dimension::ENERGY => unit.contains('*') == (sort == "Torque"),
+        Dimension::FREQUENCY | Dimension::ANGULAR_ACCELERATION => match sort {
+            "" => !is_of_turning(unit),
+            _ => !unit.ends_with("Hz"),
+        },
+        Dimension::DAMPING => unit.contains('*') != (sort == "MassFlow"),
+        _ => true,
+    }
+}
+
+/// Returns true for turns, radians or degrees in a time.
+fn is_of_turning(unit: &str) -> bool {
+    let angle = unit.split('/').next().unwrap_or_default();
+    let is_angle = |u: Unit| u.dimension.is_none();
+    unit.starts_with("rpm") || angle != "1" && units::unit(angle).is_some_and(is_angle)
 }
 
 /// Returns true for a unit that a prefix of a thousand makes of the one of SI in which a quantity is shown.

@@ -5,8 +5,8 @@
 
 use base::Name;
 use expr::dimension::Dimension;
-use kernel::Scale;
 use kernel::builtin::{FUNCTIONS, NUMBER_MESSAGES, find};
+use kernel::{Quantity, Scale, Usual};
 use kernel::quantity::{is_of_si, is_of_the_sheet};
 use std::collections::BTreeMap;
 use syntax::ast::{Arg, Assign, AstNode, Expr, NumberExpr, Param, Part, Type, Word};
@@ -23,6 +23,10 @@ const NEAR: u16 = 8;
 /// no larger than 4 stay within what a number can be, 2^±1022.
 const MOST: f64 = 120.0;
 const TOGETHER: f64 = 300.0;
+/// A smaller number does not read well in a unit in which the text writes others.
+const LEAST: f64 = 1e-2;
+/// A smaller number is not told in a unit of time that the text only joins with others, `h` of `km/h`.
+const LEAST_WITHIN: f64 = 1.0;
 /// How many base quantities there are.
 const BASES: usize = 7;
 
@@ -32,8 +36,8 @@ pub(crate) struct Counting {
     pub(crate) scale: Scale,
     /// Whether it writes lengths with their units and names no unit of its sheet.
     pub(crate) writes_lengths: bool,
-    /// The units of its quantities that are none of SI.
-    pub(crate) usual: BTreeMap<Dimension, Vec<Name>>,
+    /// The units of its quantities, as [`kernel::Document::usual`] has them.
+    pub(crate) usual: BTreeMap<(Dimension, Option<Name>), Usual>,
 }
 
 /// Returns how a text counts; the scale is that of the text `before` where it is near.
@@ -47,38 +51,88 @@ pub(crate) fn of(parse: &Parse, before: Option<Scale>) -> Counting {
     let any = |is: fn(Dimension) -> bool| quantities.iter().any(|(_, d)| is(*d));
     let writes_lengths = !has_unit
         && (any(is_of_the_sheet) || any(names_a_length) && !has_bare_places(parse, &stated));
-    let usual = usual(&stated);
+    let usual = usual(parse, &stated);
     let best = best(quantities, has_unit);
     let is_near = |scale: &Scale| scale.0.iter().zip(best.0).all(|(a, b)| a.abs_diff(b) <= NEAR);
     let before = before.filter(|scale| *scale != Scale::default()).filter(is_near);
     Counting { scale: before.unwrap_or(best), writes_lengths, usual }
 }
 
-/// Returns the units that a text writes for each quantity, if it writes it in none of SI with a prefix of a thousand.
-fn usual(stated: &[NumberExpr]) -> BTreeMap<Dimension, Vec<Name>> {
-    let mut found: BTreeMap<Dimension, Option<Vec<Name>>> = BTreeMap::new();
-    for unit in stated.iter().filter_map(NumberExpr::unit) {
+/// Returns the units that a text writes for each sort of quantity; none for those that it writes in one of SI with a
+/// prefix of a thousand.
+fn usual(parse: &Parse, stated: &[NumberExpr]) -> BTreeMap<(Dimension, Option<Name>), Usual> {
+    let mut usual: BTreeMap<(Dimension, Option<Name>), Usual> = BTreeMap::new();
+    let unit = |number: &NumberExpr| number.unit().filter(|u| !is_of_si(u.text()));
+    if !stated.iter().any(|number| unit(number).is_some()) {
+        return usual;
+    }
+    let classes = classes(parse);
+    let mut of_si = Vec::new();
+    for number in stated {
+        let Some(unit) = number.unit() else { continue };
         let Some(known) = expr::units::unit(unit.text()) else { continue };
         if known.dimension.is_none() {
             continue;
         }
-        let units = found.entry(known.dimension).or_insert_with(|| Some(Vec::new()));
-        match units {
-            _ if is_of_si(unit.text()) => *units = None,
-            Some(units) if !units.iter().any(|u| **u == *unit.text()) => {
-                units.push(unit.text().into());
-            }
-            _ => {}
+        let class = class_of(number, &classes);
+        let class = class.filter(|class| Dimension::by_name(class) == Some(known.dimension));
+        let key = (known.dimension, class.map(|class| Name::new(Quantity::sort(&class))));
+        let found = usual.entry(key.clone());
+        let units = &mut found.or_insert(Usual { units: Vec::new(), least: LEAST }).units;
+        if is_of_si(unit.text()) {
+            of_si.push(key);
+        } else if !units.iter().any(|u| **u == *unit.text()) {
+            units.push(unit.text().into());
         }
     }
-    let mut usual: BTreeMap<Dimension, Vec<Name>> =
-        found.iter().filter_map(|(dimension, units)| Some((*dimension, units.clone()?))).collect();
-    if !found.contains_key(&Dimension::TIME)
+    for key in of_si {
+        usual.entry(key).and_modify(|usual| usual.units.clear());
+    }
+    if !usual.keys().any(|(dimension, _)| *dimension == Dimension::TIME)
         && let Some(time) = time_within(stated)
     {
-        usual.insert(Dimension::TIME, vec![time]);
+        let within = Usual { units: vec![time], least: LEAST_WITHIN };
+        usual.insert((Dimension::TIME, Some(Name::new(""))), within);
     }
     usual
+}
+
+/// Returns the classes of the names that a text declares; none for a name of several.
+fn classes(parse: &Parse) -> BTreeMap<Name, Option<Name>> {
+    let mut classes: BTreeMap<Name, Option<Name>> = BTreeMap::new();
+    for part in parse.syntax().descendants().filter_map(Part::cast) {
+        let class = innermost(part.class());
+        for word in part.names() {
+            let known = classes.entry(word.name()).or_insert_with(|| class.clone());
+            if *known != class {
+                *known = None;
+            }
+        }
+    }
+    classes
+}
+
+/// Returns the class of what a number is the value of, or a term of its value; none where the text alone does not tell.
+fn class_of(number: &NumberExpr, classes: &BTreeMap<Name, Option<Name>>) -> Option<Name> {
+    let named = |word: Word| classes.get(&word.name()).cloned().flatten();
+    let within = |kind| {
+        use SyntaxKind::{BinaryExpr, ListExpr, ParenExpr, UnaryExpr};
+        matches!(kind, BinaryExpr | UnaryExpr | ParenExpr | ListExpr)
+    };
+    let above = number.syntax().ancestors().skip(1).find(|n| !within(n.kind()))?;
+    match above.kind() {
+        SyntaxKind::Part => innermost(Part::cast(above)?.class()),
+        SyntaxKind::Param => innermost(Param::cast(above)?.class()),
+        SyntaxKind::Assign => named(last_word(&Assign::cast(above)?.target()?)?),
+        SyntaxKind::Arg if !is_of_function(&above) => named(Arg::cast(above)?.label()?),
+        _ => None,
+    }
+}
+
+/// Returns the class of a type, of a list that of its elements.
+fn innermost(class: Option<Type>) -> Option<Name> {
+    let text = class?.syntax().text().to_string();
+    text.split_whitespace().last().map(Name::new)
 }
 
 /// Returns the unit of time in all units that a text joins, `min` of `L/min`; nothing where it is the second, or there
@@ -142,8 +196,7 @@ fn has_bare_places(parse: &Parse, stated: &[NumberExpr]) -> bool {
 
 /// Returns true for `Length` and lists of it.
 fn is_length(class: Option<Type>) -> bool {
-    let text = class.map(|class| class.syntax().text().to_string()).unwrap_or_default();
-    text.split_whitespace().last() == Some("Length")
+    innermost(class).is_some_and(|class| *class == *"Length")
 }
 
 /// Returns the last word of a path.

@@ -1,8 +1,9 @@
 //! The words that the language itself has: functions, units, quantities, as completion and the manual list them.
 
 use expr::Dimension;
-use expr::units::{NAMED_UNITS, PREFIXES, preferred};
+use expr::units::{NAMED_UNITS, PREFIXES};
 use kernel::builtin::{FUNCTIONS, Given, Kind};
+use kernel::quantity::of_si;
 use serde::Serialize;
 
 /// A function of the language.
@@ -90,12 +91,12 @@ pub fn units() -> Vec<UnitWord> {
 
 /// Returns every quantity that a part may be, each with the unit of SI that it is shown in; empty for plain numbers.
 pub fn quantities() -> Vec<(&'static str, String)> {
-    let unit = |dimension: Dimension| match preferred(dimension) {
+    let unit = |name: &str, dimension: Dimension| match of_si(name, dimension) {
         Some(unit) => unit.to_string(),
         None if dimension.is_none() => String::new(),
         None => dimension.to_string(),
     };
-    let of = |name| Some((name, unit(Dimension::by_name(name)?)));
+    let of = |name| Some((name, unit(name, Dimension::by_name(name)?)));
     Dimension::names().filter_map(of).collect()
 }
 
