@@ -153,8 +153,10 @@ impl Lowerer<'_> {
                 self.own_message(scope, builtin::NUMBER_MESSAGES, receiver, word, args)
             }
             // what a text spells may measure anything
-            Kind::Text if name == "number" && args.is_empty() => Some((Vec::new(), Kind::Unknown)),
-            Kind::Text => self.own_message(scope, builtin::TEXT_MESSAGES, receiver, word, args),
+            Kind::Text | Kind::Color if name == "number" && args.is_empty() => Some((Vec::new(), Kind::Unknown)),
+            Kind::Text | Kind::Color => {
+                self.own_message(scope, builtin::TEXT_MESSAGES, receiver, word, args)
+            }
             Kind::List(_) => self.own_message(scope, builtin::LIST_MESSAGES, receiver, word, args),
             Kind::Picture => {
                 self.own_message(scope, builtin::PICTURE_MESSAGES, receiver, word, args)
@@ -413,7 +415,7 @@ impl Lowerer<'_> {
             Builtin::Plain => Kind::PLAIN,
             Builtin::Number => Kind::Unknown,
             // the measures of a text are lengths
-            Builtin::Same if *first == Kind::Text => Kind::LENGTH,
+            Builtin::Same if matches!(first, Kind::Text | Kind::Color) => Kind::LENGTH,
             // some of the elements, in another order
             Builtin::Same if matches!(first, Kind::Tuple(_)) => Kind::List(Box::new(Kind::Unknown)),
             Builtin::Same | Builtin::Numbers => first.clone(),
@@ -423,7 +425,8 @@ impl Lowerer<'_> {
             },
             Builtin::Length => Kind::Number(Some(Dimension::LENGTH)),
             Builtin::Bool => Kind::Bool,
-            Builtin::Text | Builtin::Color => Kind::Text,
+            Builtin::Text => Kind::Text,
+            Builtin::Color => Kind::Color,
             Builtin::List => Kind::List(Box::new(Kind::Unknown)),
             Builtin::Plains => Kind::List(Box::new(Kind::PLAIN)),
             Builtin::Element => match first {
@@ -597,7 +600,7 @@ fn asked_of_first(lowerer: &Lowerer<'_>, word: &ast::Word, args: &[Arg]) -> Opti
             None => lowerer.class_of_part(*class, &word.name()).map(|_| Vec::new())?,
         },
         Kind::List(_) => labels_of(builtin::LIST_MESSAGES, word)?,
-        Kind::Text => labels_of(builtin::TEXT_MESSAGES, word)?,
+        Kind::Text | Kind::Color => labels_of(builtin::TEXT_MESSAGES, word)?,
         Kind::Number(_) => labels_of(builtin::NUMBER_MESSAGES, word)?,
         Kind::Picture => labels_of(builtin::PICTURE_MESSAGES, word)?,
         Kind::Bool | Kind::Option(_) | Kind::Function | Kind::Tuple(_) | Kind::Unknown => {

@@ -119,6 +119,7 @@ impl Lowerer<'_> {
             Kind::Bool
             | Kind::Option(_)
             | Kind::Text
+            | Kind::Color
             | Kind::List(_)
             | Kind::Picture
             | Kind::Function

@@ -152,7 +152,7 @@ fn lower_row(
 ) -> Option<Row> {
     let kinds = crate::kinds::fields(&l.document, program);
     let mut values: Vec<ast::Expr> = row.elements().collect();
-    let takes_text = kinds.first() == Some(&Kind::Text);
+    let takes_text = matches!(kinds.first(), Some(Kind::Text | Kind::Color));
     let name = match values.first() {
         Some(ast::Expr::Text(text)) if !takes_text => text.plain(),
         _ => None,

@@ -19,7 +19,7 @@ impl Lowerer<'_> {
     /// Says of an unknown word that was to be a text, that texts stand in quotes.
     pub(crate) fn hint_value(&mut self, before: usize, wanted: &Kind, value: &Expr) {
         let Expr::Name(name) = value else { return };
-        let (Some(word), Kind::Text) = (name.name(), wanted) else { return };
+        let (Some(word), Kind::Text | Kind::Color) = (name.name(), wanted) else { return };
         let unknown = |d: &&mut Diagnostic| d.code == "unknown-name" && d.place.span == word.span();
         if let Some(d) = self.diagnostics.iter_mut().skip(before).find(unknown) {
             let quoted = format!("\"{}\"", word.text());
@@ -160,6 +160,7 @@ impl Lowerer<'_> {
         Some(match kind {
             Some(Kind::Number(Some(dimension))) => dimension.named()?.into(),
             Some(Kind::Text) => "Text".into(),
+            Some(Kind::Color) => "Color".into(),
             Some(Kind::Bool) => "Bool".into(),
             Some(Kind::Tuple(_)) => "Point".into(),
             Some(Kind::Thing(class) | Kind::Option(class)) => {
@@ -186,7 +187,7 @@ impl Lowerer<'_> {
                 d.hint(format!("a unit belongs to the number before it alone: write `{number}`"))
                     .fix(format!("write {number}"), [(place, number)])
             }
-            (Kind::Number(_), Kind::Text, Expr::Number(_)) => {
+            (Kind::Number(_), Kind::Text | Kind::Color, Expr::Number(_)) => {
                 let quoted = format!("\"{written}\"");
                 d.hint(format!("a text stands in quotes: `{quoted}`"))
                     .fix(format!("write {quoted}"), [(place, quoted)])

@@ -15,8 +15,10 @@ pub(crate) enum Kind {
     Bool,
     /// An option of a choice.
     Option(ClassId),
-    /// A text or a colour.
+    /// A text.
     Text,
+    /// A colour: a text that has components.
+    Color,
     /// A thing of a class with parts.
     Thing(ClassId),
     /// A list or set.
@@ -42,7 +44,8 @@ impl Kind {
             ClassKind::Primitive(Primitive::Integer) => Self::PLAIN,
             ClassKind::Primitive(Primitive::Bool) => Self::Bool,
             ClassKind::Primitive(Primitive::Choice(of)) => Self::Option(of),
-            ClassKind::Primitive(Primitive::Text | Primitive::Color) => Self::Text,
+            ClassKind::Primitive(Primitive::Text) => Self::Text,
+            ClassKind::Primitive(Primitive::Color) => Self::Color,
             ClassKind::Composite => Self::Thing(class),
             ClassKind::List(element) | ClassKind::Set(element) => {
                 Self::List(Box::new(Self::of_class(document, element)))
@@ -64,6 +67,7 @@ impl Kind {
             Self::Number(Some(d)) => dimension_in_words(*d),
             Self::Bool => "a truth value".into(),
             Self::Text => "a text".into(),
+            Self::Color => "a colour".into(),
             Self::Thing(class) | Self::Option(class) => {
                 let class = &document.classes[*class];
                 // what a body adds to makes a class of one, which nobody has named
@@ -87,6 +91,7 @@ impl Kind {
     pub(crate) fn fits(&self, wanted: &Self, document: &Document) -> bool {
         match (self, wanted) {
             (Self::Unknown, _) | (_, Self::Unknown) => true,
+            (Self::Text, Self::Color) | (Self::Color, Self::Text) => true,
             (Self::Number(a), Self::Number(b)) => a.is_none() || b.is_none() || a == b,
             (Self::Tuple(items), Self::Thing(class)) | (Self::Thing(class), Self::Tuple(items)) => {
                 let fields = fields(document, *class);
@@ -120,10 +125,12 @@ impl Kind {
         }
     }
 
-    /// Returns what is known of two values that fit: of bare numbers, what the other measures.
+    /// Returns what is known of two values that fit: of bare numbers, what the other measures; of a colour and a text, that
+    /// it is a colour.
     pub(crate) fn joined(self, other: Self) -> Self {
         match self {
             Self::Number(None) | Self::Unknown => other,
+            Self::Text if other == Self::Color => other,
             known => known,
         }
     }
@@ -137,7 +144,7 @@ impl Kind {
             (Builtin::Same, _) => matches!(self, Self::Number(_)) && self.fits(first, document),
             (Builtin::Length, _) => self.fits(&Self::LENGTH, document),
             (Builtin::Bool, _) => *self == Self::Bool,
-            (Builtin::Text | Builtin::Color, _) => *self == Self::Text,
+            (Builtin::Text | Builtin::Color, _) => matches!(self, Self::Text | Self::Color),
             (Builtin::Place, Self::Thing(class)) => ["x", "y"].iter().all(|name| {
                 let part = class_of_part(document, *class, name);
                 part.is_some() || document.find_message(*class, name, None).is_some()

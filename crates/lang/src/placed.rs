@@ -234,6 +234,7 @@ impl Lowerer<'_> {
                     | Kind::Bool
                     | Kind::Option(_)
                     | Kind::Text
+                    | Kind::Color
                     | Kind::Tuple(_)
                     | Kind::Picture
                     | Kind::Function => own,

@@ -7,7 +7,7 @@ use crate::scope::Scope;
 use base::{Diagnostic, Name, Place, Span};
 use expr::dimension::Dimension;
 use kernel::builtin::{FUNCTIONS, find};
-use kernel::{Argument, BinaryOperator, Quantity, Term, UnaryOperator};
+use kernel::{Argument, BinaryOperator, Term, UnaryOperator};
 use syntax::ast::{self, AstNode, BinaryOp, Expr, UnaryOp};
 
 type Lowered = Option<(Term, Kind)>;
@@ -130,7 +130,7 @@ impl Lowerer<'_> {
                 ast::TextPiece::Words(words) => Term::Text(words),
                 ast::TextPiece::Value(value) => {
                     let (term, kind) = self.expr(scope, &value)?;
-                    self.said(scope, value.span(), (term, &kind))?
+                    self.said(scope, &value, (term, &kind))?
                 }
             };
             joined = Some(match joined {
@@ -142,18 +142,20 @@ impl Lowerer<'_> {
     }
 
     /// Makes the text that a value in a text is read as; reports one that is none.
-    fn said(&mut self, scope: &Scope, span: Span, (term, kind): (Term, &Kind)) -> Option<Term> {
+    fn said(&mut self, scope: &Scope, value: &Expr, (term, kind): (Term, &Kind)) -> Option<Term> {
         match kind {
-            Kind::Text => Some(term),
+            Kind::Text | Kind::Color => Some(term),
             Kind::Number(_) => {
                 let class = self.declared_class(scope, &term);
+                let class = class.map(|c| self.document.named_class(c));
                 let class = class.map(|c| self.document.classes[c].name.to_string());
-                let class = class.filter(|name| Quantity::is_told_by(name)).map(Term::Text);
-                let arguments = class.map(|value| Argument { label: None, value });
+                let unit = unit_of_literal(value);
+                let class = class.or_else(|| unit.as_ref().map(|_| String::new()));
+                let known = class.into_iter().chain(unit).map(Term::Text);
                 Some(Term::Send {
                     to: Box::new(term),
                     name: Name::new("shown"),
-                    arguments: arguments.into_iter().collect(),
+                    arguments: known.map(|value| Argument { label: None, value }).collect(),
                     search: None,
                 })
             }
@@ -164,7 +166,7 @@ impl Lowerer<'_> {
                     format!("found {what} in a text, wanted a number, a text or a truth value");
                 let d = Diagnostic::error(
                     "value-of-wrong-class",
-                    Place { file: scope.file, span },
+                    Place { file: scope.file, span: value.span() },
                     message,
                 );
                 self.report(d.hint("name a part of it: `{p.x}`; a brace itself is doubled: `{{`"));
@@ -201,6 +203,11 @@ impl Lowerer<'_> {
         let mut d = Diagnostic::error(code_for(left, right), place, message);
         if let (Kind::Text, Kind::Number(_)) | (Kind::Number(_), Kind::Text) = (left, right) {
             d = d.hint("put the value into the text: `\"x = {x}\"`");
+        }
+        if let (Kind::Text, Kind::Color) | (Kind::Color, Kind::Text) = (left, right) {
+            d = d.hint(
+                "colours are mixed with colours, `c: Color = \"navy\"`; texts are joined by `\"{a}{b}\"`",
+            );
         }
         if (left, right) == (&Kind::Picture, &Kind::Picture) {
             d = d.hint("`picture(a, b)` draws both");
@@ -510,9 +517,9 @@ impl Lowerer<'_> {
                 return made;
             }
         }
-        if ka == Kind::Text || kb == Kind::Text {
-            let made = self.of_colours(scope, operator, (&a, &ka), (&b, &kb));
-            if made.is_some() {
+        if ka == Kind::Color || kb == Kind::Color {
+            let made = self.of_colours((scope, span), operator, (&a, &ka), (&b, &kb));
+            if let Some(made) = made {
                 return made;
             }
         }
@@ -591,8 +598,9 @@ impl Lowerer<'_> {
     ) -> Option<Kind> {
         let number = |k: &Kind| matches!(k, Kind::Number(_) | Kind::Unknown);
         let numbers = number(a) && number(b);
-        let texts =
-            matches!(a, Kind::Text | Kind::Unknown) && matches!(b, Kind::Text | Kind::Unknown);
+        let text = |k: &Kind| matches!(k, Kind::Text | Kind::Unknown);
+        let texts = text(a) && text(b);
+        let ordered = |k: &Kind| *k == Kind::Color || text(k);
         let bool = |k: &Kind| matches!(k, Kind::Bool | Kind::Unknown);
         let fit = a.fits(b, &self.document);
         let kind = match op {
@@ -611,7 +619,9 @@ impl Lowerer<'_> {
             BinaryOperator::Less
             | BinaryOperator::LessEqual
             | BinaryOperator::Greater
-            | BinaryOperator::GreaterEqual => (fit && (numbers || texts)).then_some(Kind::Bool)?,
+            | BinaryOperator::GreaterEqual => {
+                (fit && (numbers || ordered(a) && ordered(b))).then_some(Kind::Bool)?
+            }
             BinaryOperator::And | BinaryOperator::Or => {
                 (bool(a) && bool(b)).then_some(Kind::Bool)?
             }
@@ -622,6 +632,20 @@ impl Lowerer<'_> {
             },
         };
         Some(kind)
+    }
+}
+
+/// Returns the unit of a number that is written with one and measures something.
+fn unit_of_literal(value: &Expr) -> Option<String> {
+    match value {
+        Expr::Paren(inner) => unit_of_literal(&inner.inner()?),
+        Expr::Unary(unary) => unit_of_literal(&unary.operand()?),
+        Expr::Number(number) => {
+            let unit = number.unit()?;
+            let measures = expr::units::unit(unit.text()).is_some_and(|u| !u.dimension.is_none());
+            measures.then(|| unit.text().to_string())
+        }
+        _ => None,
     }
 }
 
