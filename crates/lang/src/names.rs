@@ -256,7 +256,7 @@ impl Lowerer<'_> {
             _ if !self.may_guess() => Vec::new(),
             Kind::Thing(class) => self.names_of(*class),
             Kind::Number(_) => builtin::NUMBER_MESSAGES.iter().map(|b| b.name.into()).collect(),
-            Kind::Text => builtin::TEXT_MESSAGES.iter().map(|b| b.name.into()).collect(),
+            Kind::Text | Kind::Color => builtin::TEXT_MESSAGES.iter().map(|b| b.name.into()).collect(),
             Kind::List(_) => builtin::LIST_MESSAGES.iter().map(|b| b.name.into()).collect(),
             Kind::Picture => builtin::PICTURE_MESSAGES.iter().map(|b| b.name.into()).collect(),
             Kind::Bool | Kind::Option(_) => vec!["text".into()],
@@ -480,14 +480,20 @@ pub(crate) fn class_at(document: &Document, class: ClassId, path: &Path) -> Opti
 fn per_unit(word: &ast::Word) -> Option<String> {
     expr::units::unit(word.text())?;
     let name = word.token.parent()?;
-    let quotient = ast::BinaryExpr::cast(name.parent()?)?;
+    let mut divisor = ast::BinaryExpr::cast(name.parent()?)?;
+    let mut unit = word.text().to_string();
+    if let (Some(BinaryOp::Power), Expr::Number(power)) = (divisor.op(), divisor.right()?) {
+        unit = format!("{unit}^{}", power.digits()?.text());
+        divisor = ast::BinaryExpr::cast(divisor.syntax().parent()?)?;
+    }
+    let quotient = divisor;
     let (Some(BinaryOp::Divide), Expr::Number(number)) = (quotient.op(), quotient.left()?) else {
         return None;
     };
     let digits = number.digits()?;
     let unit = match number.unit() {
-        Some(above) => format!("{}/{}", above.text(), word.text()),
-        None => format!("1/{}", word.text()),
+        Some(above) => format!("{}/{unit}", above.text()),
+        None => format!("1/{unit}"),
     };
     Some(format!("a unit stands behind its number: `{} {unit}`", digits.text()))
 }

@@ -568,6 +568,7 @@ fn is_truth(term: &Term) -> bool {
 
 /// Whether what a class says is offered by another label: `tangent outside` is `tangent`, `equal radii` `equal radius`.
 fn says_the_same(label: &str, other: &str) -> bool {
+    /// So many letters at the end of a word may change with what it says: `radius`, `radii`.
     const ENDING: usize = 2;
     let stem = other.get(..other.len().saturating_sub(ENDING)).unwrap_or(other);
     label.starts_with(other) || stem.contains(' ') && label.starts_with(stem)

@@ -9,12 +9,15 @@ use crate::lower::Lowerer;
 use crate::members::Definition;
 use crate::scope::{Constant, Scope};
 use base::{Diagnostic, Place};
-use kernel::{ClassKind, Primitive, Term};
+use kernel::{BinaryOperator, ClassKind, Primitive, Term, UnaryOperator};
 use std::rc::Rc;
 use syntax::ast::{self, AstNode, Expr};
 
 /// Lists within lists are followed so far.
 const DEEPEST: usize = 16;
+/// What a name stands for is no longer than so many terms, each text counted by its letters.
+const MOST_REPEATED: usize = 1000;
+const LETTERS: usize = 64;
 
 /// What is written out as a list.
 pub(super) struct Listed {
@@ -70,6 +73,8 @@ impl Lowerer<'_> {
             return Some(Written::Constant(constant));
         }
         if !matches!(e, Expr::Name(_) | Expr::Field(_) | Expr::Index(_) | Expr::Paren(_)) {
+            // what is wrong in it, aloud
+            self.expr(scope, e)?;
             let place = Place { file: scope.file, span: e.span() };
             let message = "a `for` goes through parts, and what is known as the text stands";
             let d = Diagnostic::error("not-a-path", place, message);
@@ -93,7 +98,8 @@ impl Lowerer<'_> {
         let found = self.expr(scope, e);
         self.silent -= 1;
         let (term, kind) = found?;
-        is_literal(&term).then_some(Constant::Value(term, kind))
+        let term = folded(term);
+        (is_literal(&term) && is_short(&term)).then_some(Constant::Value(term, kind))
     }
 
     /// Returns true for a list that a message answers, each element of which is a constant.
@@ -175,6 +181,68 @@ fn is_literal(term: &Term) -> bool {
         }
         _ => false,
     }
+}
+
+/// Returns false for a term that is too long to stand wherever its name does.
+fn is_short(term: &Term) -> bool {
+    let mut waiting = vec![term];
+    let mut count = 0;
+    while let Some(next) = waiting.pop() {
+        count += match next {
+            Term::Text(text) => 1 + text.len() / LETTERS,
+            _ => 1,
+        };
+        if count > MOST_REPEATED {
+            return false;
+        }
+        waiting.extend(next.operands());
+    }
+    true
+}
+
+/// Computes what arithmetic makes of numbers, and joined texts; what is infinite or no number stays as it is written.
+fn folded(term: Term) -> Term {
+    let all = |terms: Vec<Term>| terms.into_iter().map(folded).collect();
+    match term {
+        Term::Tuple(terms) => Term::Tuple(all(terms)),
+        Term::List(terms) => Term::List(all(terms)),
+        Term::Unary(UnaryOperator::Negate, operand) => match folded(*operand) {
+            Term::Number { value, dimension, bare } => {
+                Term::Number { value: 0.0 - value, dimension, bare }
+            }
+            other => Term::Unary(UnaryOperator::Negate, Box::new(other)),
+        },
+        Term::Binary(operator, a, b) => joined(operator, folded(*a), folded(*b)),
+        other => other,
+    }
+}
+
+fn joined(operator: BinaryOperator, a: Term, b: Term) -> Term {
+    use BinaryOperator::{Add, Divide, Multiply, Subtract};
+    let made = match (operator, &a, &b) {
+        (Add, Term::Text(x), Term::Text(y)) => Some(Term::Text(format!("{x}{y}"))),
+        (
+            Add | Subtract | Multiply | Divide,
+            Term::Number { value: x, dimension: dx, bare: bx },
+            Term::Number { value: y, dimension: dy, bare: by },
+        ) => {
+            let (value, dimension) = match operator {
+                Add => (x + y, *dx),
+                Subtract => (x - y, *dx),
+                Multiply => (x * y, dx.times(*dy)),
+                _ => (x / y, dx.over(*dy)),
+            };
+            let agrees = matches!(operator, Multiply | Divide) || dx == dy;
+            // negative zero is never stored
+            (value.is_finite() && agrees).then(|| Term::Number {
+                value: value + 0.0,
+                dimension,
+                bare: *bx && *by,
+            })
+        }
+        _ => None,
+    };
+    made.unwrap_or_else(|| Term::Binary(operator, Box::new(a), Box::new(b)))
 }
 
 /// Returns the elements of `[a, b]` and `(a, b)`.

@@ -214,6 +214,7 @@ const WRONG: &[(&str, &str, &str)] = &[
     ("for i in 0..1 { x, y, x: Real }", "duplicate-name", "x"),
     ("l: List of Real\nfor a in l.map(x => x) { }", "not-a-path", "l.map(x => x)"),
     ("x: Real\nfor a in [1, x + 1] { }", "not-a-path", "x + 1"),
+    ("for a in [2 mm + 3 s] { }", "dimension-mismatch", "2 mm + 3 s"),
     // counts
     ("class C { n: Real = 3  l: List of n Real }", "not-a-count", "n"),
     (
