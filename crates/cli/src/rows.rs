@@ -14,8 +14,14 @@ type Mark<'m> = &'m dyn Fn(&ValueRow) -> char;
 /// What stands together.
 enum Block<'r> {
     Rows(Vec<&'r ValueRow>),
-    Table(Table<'r>),
+    Table(Columns),
 }
+
+/// The columns of a table: words one below the other, the head first, all of a column equally wide.
+struct Columns(Vec<Vec<String>>);
+
+/// Between two columns.
+const GAP: &str = "  ";
 
 /// A list of things: a line for each, a column for each value that they have.
 struct Table<'r> {
@@ -40,7 +46,7 @@ pub(crate) fn written(rows: &[&ValueRow], mark: Mark<'_>) -> String {
                     let _ = writeln!(words, "{path:width$} {mark} {}", value(row, digits));
                 }
             }
-            Block::Table(table) => words.push_str(&table.written(mark)),
+            Block::Table(table) => words.push_str(&table.written()),
         }
     }
     words
@@ -50,8 +56,9 @@ fn blocks<'r>(rows: &[&'r ValueRow], mark: Mark<'_>) -> Vec<Block<'r>> {
     let mut blocks: Vec<Block<'r>> = Vec::new();
     let list = |row: &ValueRow| element(&row.shortest).map(|(list, ..)| list.to_string());
     for run in rows.chunk_by(|a, b| list(a) == list(b)) {
-        match (Table::of(run).filter(|table| table.reads_well(mark)), blocks.last_mut()) {
-            (Some(table), _) => blocks.push(Block::Table(table)),
+        let columns = Table::of(run).filter(Table::is_full).map(|table| table.columns(mark));
+        match (columns.filter(|columns| columns.width() <= WIDEST), blocks.last_mut()) {
+            (Some(columns), _) => blocks.push(Block::Table(columns)),
             (None, Some(Block::Rows(rows))) => rows.extend(run),
             (None, _) => blocks.push(Block::Rows(run.to_vec())),
         }
@@ -93,19 +100,17 @@ impl<'r> Table<'r> {
     }
 
     /// Returns true where a table says more at a glance than its rows would.
-    fn reads_well(&self, mark: Mark<'_>) -> bool {
+    fn is_full(&self) -> bool {
         let is_empty = |cell: &&Option<&ValueRow>| cell.is_none();
         let empty: usize =
             self.lines.iter().map(|(_, cells)| cells.iter().filter(is_empty).count()).sum();
         let all = self.lines.len() * self.columns.len();
-        self.lines.len() >= FEWEST
-            && self.columns.len() > 1
-            && 4 * empty <= all
-            && self.written(mark).lines().next().is_some_and(|head| head.chars().count() <= WIDEST)
+        self.lines.len() >= FEWEST && self.columns.len() > 1 && 4 * empty <= all
     }
 
-    fn written(&self, mark: Mark<'_>) -> String {
-        let mut columns = Vec::new();
+    fn columns(&self, mark: Mark<'_>) -> Columns {
+        let names: Vec<String> = self.lines.iter().map(|(name, _)| (*name).to_string()).collect();
+        let mut columns = vec![aligned(self.list, &names)];
         for (at, head) in self.columns.iter().enumerate() {
             let cells = || self.lines.iter().map(move |(_, cells)| cells[at]);
             let digits = cells().flatten().map(before_point).max().unwrap_or(0);
@@ -117,12 +122,24 @@ impl<'r> Table<'r> {
             };
             columns.push(aligned(head, &cells().map(cell).collect::<Vec<_>>()));
         }
-        let names: Vec<String> = self.lines.iter().map(|(name, _)| (*name).to_string()).collect();
-        columns.insert(0, aligned(self.list, &names));
+        Columns(columns)
+    }
+}
+
+impl Columns {
+    /// Returns how many letters the widest line may have.
+    fn width(&self) -> usize {
+        let head = |column: &Vec<String>| column.first().map_or(0, |cell| cell.chars().count());
+        let widths: usize = self.0.iter().map(head).sum();
+        widths + GAP.len() * self.0.len().saturating_sub(1)
+    }
+
+    fn written(&self) -> String {
         let mut words = String::new();
-        for line in 0..=self.lines.len() {
-            let cells: Vec<&str> = columns.iter().map(|column| &*column[line]).collect();
-            let _ = writeln!(words, "{}", cells.join("  ").trim_end());
+        let lines = self.0.first().map_or(0, Vec::len);
+        for line in 0..lines {
+            let cells: Vec<&str> = self.0.iter().map(|column| &*column[line]).collect();
+            let _ = writeln!(words, "{}", cells.join(GAP).trim_end());
         }
         words
     }
@@ -147,5 +164,43 @@ fn before_point(row: &ValueRow) -> usize {
     match row.text.parse::<f64>() {
         Ok(_) if row.number.is_some() => row.text.find(['.', 'e']).unwrap_or(row.text.len()),
         _ => 0,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A list of three things with a number and a text each.
+    fn rows(text: &str) -> Vec<ValueRow> {
+        let row = |path: String, text: &str| ValueRow {
+            shortest: path,
+            text: text.into(),
+            path: String::new(),
+            class: String::new(),
+            unit: String::new(),
+            exact: String::new(),
+            number: None,
+            options: Vec::new(),
+            given: false,
+            is_virtual: false,
+            anchored: false,
+            is_layout: false,
+            freedom: None,
+            doc: String::new(),
+            range: None,
+        };
+        let each = |i: usize| [row(format!("l[{i}].n"), "1"), row(format!("l[{i}].t"), text)];
+        (0..3).flat_map(each).collect()
+    }
+
+    #[test]
+    fn a_long_text_in_the_last_column_makes_no_wide_table() {
+        let wide = rows(&"x".repeat(300));
+        let lines = written(&wide.iter().collect::<Vec<_>>(), &|_| ' ');
+        assert!(lines.starts_with("l[0].n"), "{lines}");
+        let narrow = rows("x");
+        let lines = written(&narrow.iter().collect::<Vec<_>>(), &|_| ' ');
+        assert_eq!(lines, "l     n  t\nl[0]  1  x\nl[1]  1  x\nl[2]  1  x\n");
     }
 }
