@@ -25,10 +25,21 @@ pub(crate) struct Beside<'h> {
 
 impl<'h> Beside<'h> {
     pub(crate) fn of(host: &'h dyn Host, documents: &[Open], id: DocumentId) -> Self {
+        // a document that is being opened has no place among them yet
+        let user = documents.get(id.0 as usize).map_or("", |open| &open.name);
         let others = (0..).zip(documents).filter(|(i, _)| DocumentId(*i) != id);
-        let texts = others.map(|(_, open)| (open.name.clone(), open.state.text.clone()));
+        let texts = others
+            .filter_map(|(_, open)| Some((used_as(&open.name, user)?, open.state.text.clone())));
         Self { host, texts: texts.collect() }
     }
+}
+
+/// Returns what `use` calls a document (`parts/bolts.thing`) in the text of another (`frame.thing`): `parts.bolts`;
+/// nothing where it lies outside of that one's folder.
+pub(crate) fn used_as(name: &str, user: &str) -> Option<String> {
+    let folder = user.rfind('/').map_or("", |end| &user[..=end]);
+    let file = name.strip_prefix(folder)?;
+    Some(file.strip_suffix(".thing").unwrap_or(file).replace('/', "."))
 }
 
 impl Host for Beside<'_> {

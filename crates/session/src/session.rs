@@ -8,7 +8,7 @@ use crate::complaints;
 use crate::document::Open;
 use crate::drag;
 use crate::ghosts;
-use crate::host::{Beside, Host};
+use crate::host::{self, Beside, Host};
 use crate::joining;
 use crate::lessons;
 use crate::opening::Opening;
@@ -124,15 +124,20 @@ impl Session {
         let mut affected = Vec::new();
         for i in 0..self.documents.len() {
             let document = DocumentId(i as u32);
-            if document == id || !self.documents[i].state.lowered.uses(&name) {
-                continue;
-            }
-            let beside = Beside::of(&*self.host, &self.documents, document);
-            if let Some(unsatisfied) = apply::catch_up(&mut self.documents[i], &beside) {
-                affected.push(Affected { document, unsatisfied });
+            let name = host::used_as(&name, &self.documents[i].name);
+            let is_used = |name: &String| self.documents[i].state.lowered.uses(name);
+            if document != id && name.as_ref().is_some_and(is_used) {
+                affected.extend(self.catch_up(document));
             }
         }
         affected
+    }
+    /// Reads again what a document uses, where that has changed or is there only now: no step of its own. Returns what
+    /// came of it.
+    pub fn catch_up(&mut self, document: DocumentId) -> Option<Affected> {
+        let (open, beside) = self.beside_others(document);
+        let unsatisfied = apply::catch_up(open, &beside)?;
+        Some(Affected { document, unsatisfied })
     }
     /// Returns what has to be asked before a command is applied, if anything: whether it is meant of
     /// one thing, which becomes a class of one, or of all things of its class.

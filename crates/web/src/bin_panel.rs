@@ -34,18 +34,29 @@ pub fn Bin(
         let is_filtered = wanted.with(|wanted| !wanted.is_empty());
         found.with(|found| shelved(found, is_filtered))
     });
-    let libraries = Memo::new(move |_| {
+    let unused = move |mut names: Vec<String>| {
         let text = lab.text.with(|text| text.source.clone());
-        let used = |name: &String| text.lines().any(|line| line.trim() == format!("use {name}"));
-        lab.libraries().into_iter().filter(|name| !used(name)).collect::<Vec<_>>()
+        names.retain(|name| !text.lines().any(|line| line.trim() == format!("use {name}")));
+        names
+    };
+    let libraries = Memo::new(move |_| unused(lab.libraries()));
+    let beside = Memo::new(move |_| unused(lab.beside()));
+    Effect::new(move |_| {
+        lab.current.track();
+        leptos::task::spawn_local(async move {
+            // without a server nothing lies beside a document
+            let _ = lab.fetch_list().await;
+        });
     });
-    // Enter: the library of that name, else the class that is called so, or begins so, or is found alone
+    // Enter: the library or document of that name, else the class that is called so, or begins so, or is found alone
     let take = move || {
         let typed = wanted.get_untracked().trim().to_lowercase();
         if typed.is_empty() {
             return;
         }
-        let library = libraries.get_untracked().into_iter().find(|name| *name == typed);
+        let is_typed = |name: &String| name.to_lowercase() == typed;
+        let library = libraries.get_untracked().into_iter().find(is_typed);
+        let document = beside.get_untracked().into_iter().find(is_typed);
         let class = found.with_untracked(|found| {
             let is_it = |entry: &&BinEntry| entry.class.to_lowercase() == typed;
             let begins = |entry: &&BinEntry| entry.class.to_lowercase().starts_with(&typed);
@@ -53,10 +64,11 @@ pub fn Bin(
             let entry = entry.or_else(|| found.first().filter(|_| found.len() == 1));
             entry.map(|entry| entry.class.clone())
         });
-        match (library, class) {
-            (Some(library), _) => lab.use_library(&library),
-            (None, Some(class)) => lab.insert(&class),
-            (None, None) => lab.say_refused(words::nothing_called(&typed)),
+        match (library, document, class) {
+            (Some(library), ..) => lab.use_library(&library),
+            (None, Some(document), _) => lab.use_document(document),
+            (None, None, Some(class)) => lab.insert(&class),
+            (None, None, None) => lab.say_refused(words::nothing_called(&typed)),
         }
     };
     view! {
@@ -95,20 +107,34 @@ pub fn Bin(
                 </For>
                 <Show when=move || !libraries.with(Vec::is_empty)>
                     <h3>{words::MORE_LIBRARIES}</h3>
-                    <p class="choices">
-                        <For each=move || libraries.get() key=Clone::clone let(name)>
-                            {
-                                let (label, library) = (format!("use {name}"), name.clone());
-                                view! {
-                                    <button data-library=name.clone()
-                                        on:click=move |_| lab.use_library(&library)>{label}</button>
-                                }
-                            }
-                        </For>
-                    </p>
+                    <Uses names=libraries take=move |name: String| lab.use_library(&name) />
+                </Show>
+                <Show when=move || !beside.with(Vec::is_empty)>
+                    <details class="beside">
+                        <summary>{words::DOCUMENTS_BESIDE}</summary>
+                        <Uses names=beside take=move |name| lab.use_document(name) />
+                    </details>
                 </Show>
             </div>
         </section>
+    }
+}
+
+/// A button for each of what could be used.
+#[component]
+fn Uses(names: Memo<Vec<String>>, take: impl Fn(String) + Copy + Send + 'static) -> impl IntoView {
+    view! {
+        <p class="choices">
+            <For each=move || names.get() key=Clone::clone let(name)>
+                {
+                    let label = format!("use {name}");
+                    let named = name.clone();
+                    view! {
+                        <button data-library=named on:click=move |_| take(name.clone())>{label}</button>
+                    }
+                }
+            </For>
+        </p>
     }
 }
 

@@ -108,6 +108,7 @@ pub const BIN: &str = "Bin";
 pub const FILTER_BIN: &str = "Filter the bin";
 pub const OWN_CLASSES: &str = "this document";
 pub const MORE_LIBRARIES: &str = "More libraries";
+pub const DOCUMENTS_BESIDE: &str = "Documents beside this one";
 pub const SELECT: &str = "Select and drag";
 pub const INSERT: &str = "Insert from the bin";
 pub const NO_CLASS: &str = "no library in use has this; the bin offers more";

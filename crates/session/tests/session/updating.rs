@@ -2,6 +2,8 @@
 
 use super::desk::{Desk, at};
 use session::{Command, DocumentId, Host, Literal, Session};
+use std::cell::RefCell;
+use std::rc::Rc;
 
 fn edit(target: &str, members: &str) -> Command {
     Command::Edit { target: at(target), members: members.into() }
@@ -145,6 +147,43 @@ fn an_edit_of_a_class_reaches_the_documents_that_use_it() {
     assert!(!session.status(user).satisfied);
     session.apply(parts, &Command::Undo).expect("there is a step");
     assert!(session.status(user).satisfied);
+}
+
+#[test]
+fn a_document_in_a_folder_is_used_by_its_name_there() {
+    let mut session = Session::new(Box::new(Folder));
+    let user = session.open("shop/user.thing", "use parts\np: Peg\n");
+    let elsewhere = session.open("user.thing", "use parts\np: Peg\n");
+    let parts = session.open("shop/parts.thing", PARTS);
+    let change = session.apply(parts, &edit("Peg", "depth: Real = 9")).expect("it can be edited");
+    let reached: Vec<DocumentId> = change.documents.iter().map(|a| a.document).collect();
+    assert_eq!(reached, [user]);
+    assert_eq!(number(&session, user, "p.depth"), Some(9.0));
+    assert_eq!(number(&session, elsewhere, "p.depth"), None, "parts in its folder is another");
+}
+
+/// A folder that has what was put into it.
+#[derive(Clone, Default)]
+struct Shelf(Rc<RefCell<Option<&'static str>>>);
+
+impl Host for Shelf {
+    fn read(&self, _: &str) -> Option<String> {
+        self.0.borrow().map(String::from)
+    }
+}
+
+#[test]
+fn what_was_missing_is_read_once_it_is_there() {
+    let shelf = Shelf::default();
+    let mut session = Session::new(Box::new(shelf.clone()));
+    let user = session.open("user.thing", "use parts\np: Peg\n");
+    assert_eq!(session.text(user).diagnostics[0].code, "missing-file");
+    assert_eq!(session.catch_up(user), None, "it is not there yet");
+    shelf.0.replace(Some(PARTS));
+    assert!(session.catch_up(user).is_some());
+    assert_eq!(number(&session, user, "p.width"), Some(4.0));
+    assert!(session.apply(user, &Command::Undo).is_err(), "it is no step");
+    assert_eq!(session.catch_up(user), None);
 }
 
 #[test]

@@ -102,6 +102,57 @@ impl Lab {
         found
     }
 
+    /// Fetches what the shown document was found to use just now, and reads it with that.
+    pub(super) fn fetch_missing(self) {
+        let Some(path) = self.current.get_untracked() else { return };
+        if self.files.with_value(|files| files.wanted.is_empty()) {
+            return;
+        }
+        leptos::task::spawn_local(async move {
+            let found = self.fetch_used(&path).await;
+            if found && self.current.get_untracked().is_some_and(|shown| shown == path) {
+                self.tell(|session, id| session.catch_up(id));
+                self.refresh();
+                self.fetch_missing();
+            }
+        });
+    }
+
+    /// Has the shown document use another one, named as `use` names it.
+    pub fn use_document(self, name: String) {
+        let Some(path) = self.current.get_untracked() else { return };
+        leptos::task::spawn_local(async move {
+            self.files.update_value(|files| {
+                files.find(&name);
+            });
+            self.fetch_used(&path).await;
+            self.use_library(&name);
+        });
+    }
+
+    /// What lies beside the shown document, named as `use` names it.
+    pub fn beside(self) -> Vec<String> {
+        let Some(shown) = self.current.get() else { return Vec::new() };
+        self.listed.with(|all| {
+            all.iter().filter_map(|one| usable(&one.path, &shown).map(String::from)).collect()
+        })
+    }
+
+    /// Notes what a file holds now, for those that use it.
+    pub(super) fn note_saved(self, path: &str, text: &str) {
+        self.files.update_value(|files| {
+            let libraries = files.libraries.clone();
+            let known = files.texts.iter_mut().filter(|(name, _)| !libraries.contains(name));
+            for (name, known) in known {
+                let file = beside("", name);
+                let rest = path.strip_suffix(&file);
+                if rest.is_some_and(|rest| rest.is_empty() || rest.ends_with('/')) {
+                    *known = Some(String::from(text));
+                }
+            }
+        });
+    }
+
     /// Shows a document that is loaded.
     pub fn show(self, path: &str) {
         self.flush_text();
@@ -117,6 +168,7 @@ impl Lab {
         self.sums.set(Vec::new());
         self.notice.set(None);
         self.conflict.set(None);
+        self.order(|session| session.catch_up(opened.id));
         self.current.set(Some(String::from(path)));
         self.document.set(Some(opened));
         self.offer_draft(path);
@@ -211,6 +263,7 @@ impl Lab {
         match outcome {
             Saved::Done(version) => {
                 self.forget_draft(&old);
+                self.note_saved(&path, &text);
                 self.order(|session| session.rename(document.id, &path));
                 let writable = true;
                 let opened = Opened { version, writable, saved: text, dirty: false, ..document };
@@ -251,6 +304,9 @@ impl Lab {
     }
 
     pub(super) fn saved(self, path: &str, text: String, outcome: Saved) {
+        if let Saved::Done(_) = outcome {
+            self.note_saved(path, &text);
+        }
         if self.current.with_untracked(|current| current.as_deref() != Some(path)) {
             return;
         }
@@ -318,9 +374,31 @@ fn used_as(file: &str) -> String {
     file.strip_suffix(".thing").unwrap_or(file).replace('/', ".")
 }
 
+/// What `use` calls a file in the text of another in the same folder; nothing for that other one itself, and where the
+/// file's name is no name.
+fn usable<'p>(path: &'p str, user: &str) -> Option<&'p str> {
+    let folder = user.rfind('/').map_or("", |end| &user[..=end]);
+    let name = path.strip_prefix(folder)?.strip_suffix(".thing")?;
+    let is_name = name.chars().all(|c| c.is_alphanumeric() || c == '_')
+        && name.chars().next().is_some_and(|c| !c.is_numeric());
+    (is_name && path != user).then_some(name)
+}
+
 #[cfg(test)]
 mod tests {
-    use super::{beside, used_as};
+    use super::{beside, usable, used_as};
+
+    #[test]
+    fn what_lies_in_the_same_folder_can_be_used() {
+        assert_eq!(usable("flange.thing", "plate.thing"), Some("flange"));
+        assert_eq!(usable("shop/flange.thing", "shop/plate.thing"), Some("flange"));
+        for other in
+            ["plate.thing", "shop/flange.thing", "old-flange.thing", "2.thing", "notes.txt"]
+        {
+            assert_eq!(usable(other, "plate.thing"), None, "{other}");
+        }
+        assert_eq!(usable("flange.thing", "shop/plate.thing"), None);
+    }
 
     #[test]
     fn a_used_file_lies_beside_its_user() {

@@ -366,6 +366,7 @@ impl Lab {
                 self.follow_prototype();
                 self.refresh();
                 self.renew_tool();
+                self.fetch_missing();
                 if change.structure && self.fits.get_value() {
                     self.zoom.set(Some(Zoom::Fit));
                 }
