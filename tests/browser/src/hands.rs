@@ -113,6 +113,8 @@ pub async fn chord(visit: &Visit, held: &[char], key: char) {
 
 /// Keys by the names that people give them, as WebDriver writes them.
 pub mod key {
+    /// End.
+    pub const END: char = '\u{e010}';
     /// Ctrl.
     pub const CONTROL: char = '\u{e009}';
     /// Alt.

@@ -2,7 +2,7 @@
 //! first minute.
 
 use browser::Visit;
-use browser::hands::{drag, grip, show, state};
+use browser::hands::{chord, drag, grip, key, keys, show, state, text_of, use_library};
 
 #[tokio::test]
 async fn a_conflict_is_explained_and_repaired_by_a_button() {
@@ -86,6 +86,38 @@ async fn a_link_carries_a_whole_document() {
     visit.script(&format!("location.hash = '#share={packed}'")).await;
     visit.until("window.__thinglab.state().path === 'sent.thing'").await;
     assert_eq!(state(&visit).await["text"], "a: Real = 7\n");
+}
+
+#[tokio::test]
+async fn a_program_of_the_document_beside_is_used_from_the_bin_and_followed() {
+    let visit = Visit::open(None).await;
+    let program = "use geometry
+program Flange(outer: Length = 30) {
+    rim = Circle(center: Point(0, 0), radius: outer)
+}
+";
+    visit.put("flange.thing", program);
+    visit.put("plate.thing", "use geometry\nx: Real = 1\n");
+    show(&visit, "plate.thing").await;
+    use_library(&visit, "flange").await;
+    visit.until("document.querySelector('[data-class=Flange]')").await;
+    let press = "new KeyboardEvent('keydown', { key: 'Enter', bubbles: true })";
+    visit
+        .script(&format!("document.querySelector('[data-class=Flange]').dispatchEvent({press})"))
+        .await;
+    visit.until("window.__thinglab.state().text.includes('Placed of Flange')").await;
+    // what is typed there counts here, saved or not
+    show(&visit, "flange.thing").await;
+    chord(&visit, &[key::ALT], '4').await;
+    visit.until("document.activeElement.classList.contains('cm-content')").await;
+    chord(&visit, &[key::CONTROL], key::END).await;
+    keys(&visit, "class Extra { a: Real }").await;
+    visit.until("document.querySelector('[data-class=Extra]')").await;
+    show(&visit, "plate.thing").await;
+    visit.until("document.querySelector('[data-class=Flange]')").await;
+    visit.until("document.querySelector('[data-class=Extra]')").await;
+    let text = text_of(&state(&visit).await);
+    assert!(text.contains("use flange") && !text.contains("Extra"), "{text}");
 }
 
 #[tokio::test]
