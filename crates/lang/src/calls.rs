@@ -153,7 +153,9 @@ impl Lowerer<'_> {
                 self.own_message(scope, builtin::NUMBER_MESSAGES, receiver, word, args)
             }
             // what a text spells may measure anything
-            Kind::Text | Kind::Color if name == "number" && args.is_empty() => Some((Vec::new(), Kind::Unknown)),
+            Kind::Text | Kind::Color if name == "number" && args.is_empty() => {
+                Some((Vec::new(), Kind::Unknown))
+            }
             Kind::Text | Kind::Color => {
                 self.own_message(scope, builtin::TEXT_MESSAGES, receiver, word, args)
             }

@@ -51,7 +51,8 @@ impl Lowerer<'_> {
         };
         if repeated(a, left).max(repeated(b, right)) > MOST_REPEATED {
             let place = Place { file: scope.file, span };
-            let message = "found a long expression beside an operator of colours, wanted a short one";
+            let message =
+                "found a long expression beside an operator of colours, wanted a short one";
             let d = Diagnostic::error("too-large", place, message);
             self.report(d.hint("give what is long a name: `let share = … in share * c`"));
             return Some(None);

@@ -256,7 +256,9 @@ impl Lowerer<'_> {
             _ if !self.may_guess() => Vec::new(),
             Kind::Thing(class) => self.names_of(*class),
             Kind::Number(_) => builtin::NUMBER_MESSAGES.iter().map(|b| b.name.into()).collect(),
-            Kind::Text | Kind::Color => builtin::TEXT_MESSAGES.iter().map(|b| b.name.into()).collect(),
+            Kind::Text | Kind::Color => {
+                builtin::TEXT_MESSAGES.iter().map(|b| b.name.into()).collect()
+            }
             Kind::List(_) => builtin::LIST_MESSAGES.iter().map(|b| b.name.into()).collect(),
             Kind::Picture => builtin::PICTURE_MESSAGES.iter().map(|b| b.name.into()).collect(),
             Kind::Bool | Kind::Option(_) => vec!["text".into()],

@@ -6,8 +6,8 @@
 use base::Name;
 use expr::dimension::Dimension;
 use kernel::builtin::{FUNCTIONS, NUMBER_MESSAGES, find};
-use kernel::{Quantity, Scale, Usual};
 use kernel::quantity::{is_of_si, is_of_the_sheet};
+use kernel::{Quantity, Scale, Usual};
 use std::collections::BTreeMap;
 use syntax::ast::{Arg, Assign, AstNode, Expr, NumberExpr, Param, Part, Type, Word};
 use syntax::{Parse, SyntaxKind, SyntaxNode, WalkEvent};

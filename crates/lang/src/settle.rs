@@ -162,7 +162,9 @@ impl Lowerer<'_> {
                     let known = found.is(builtin::Kind::Pictures, &Kind::Unknown, &self.document);
                     (known, "a picture, a thing, or a list of these")
                 }
-                "description" => (matches!(found, Kind::Text | Kind::Color | Kind::Unknown), "a text"),
+                "description" => {
+                    (matches!(found, Kind::Text | Kind::Color | Kind::Unknown), "a text")
+                }
                 "accepts" => (matches!(found, Kind::Bool | Kind::Unknown), "a truth value"),
                 "structure" | "values" => {
                     (matches!(found, Kind::List(_) | Kind::Unknown), "a list of parts or of rows")

@@ -59,7 +59,9 @@ fn add_tokens(text: &str, from: usize, lexed: &mut Lexed) {
         }
         let start = at;
         at = end;
-        if kind == SyntaxKind::Number && !matches!(count, Count::One | Count::First | Count::Operand) {
+        if kind == SyntaxKind::Number
+            && !matches!(count, Count::One | Count::First | Count::Operand)
+        {
             at = unit(text, end, &mut lexed.tokens);
         }
         count = count.after(kind, &text[start..end]);
@@ -388,10 +390,7 @@ mod tests {
     #[test]
     fn a_count_has_no_unit() {
         check("List of 12 C", "Ident List | Ident of | Number 12 | Ident C");
-        check(
-            "List of n + 1 C",
-            "Ident List | Ident of | Ident n | Plus + | Number 1 | Ident C",
-        );
+        check("List of n + 1 C", "Ident List | Ident of | Ident n | Plus + | Number 1 | Ident C");
         check(
             "List of n C = 2 * 1 C",
             "Ident List | Ident of | Ident n | Ident C | Eq = | Number 2 | Star * | Number 1 | Unit C",

@@ -234,7 +234,7 @@ fn joined(operator: BinaryOperator, a: Term, b: Term) -> Term {
             };
             let agrees = matches!(operator, Multiply | Divide) || dx == dy;
             // negative zero is never stored
-            (value.is_finite() && agrees).then(|| Term::Number {
+            (value.is_finite() && agrees).then_some(Term::Number {
                 value: value + 0.0,
                 dimension,
                 bare: *bx && *by,
