@@ -162,6 +162,28 @@ impl Open {
         self.planner.take_course(self.state.model(), &self.state.values);
         Some(label)
     }
+    /// Tries something of several steps: where it is refused none of them was done, and what was undone can still be done
+    /// again.
+    ///
+    /// # Errors
+    /// It is refused.
+    pub(crate) fn tried<T, E>(
+        &mut self,
+        act: impl FnOnce(&mut Self) -> Result<T, E>,
+    ) -> Result<T, E> {
+        let since = self.done.len();
+        let undone = std::mem::take(&mut self.undone);
+        let outcome = act(self);
+        if outcome.is_err() {
+            while self.done.len() > since {
+                self.travel(Direction::Back);
+            }
+        }
+        if self.done.len() == since {
+            self.undone = undone;
+        }
+        outcome
+    }
     /// Makes one step of all that were done since there were so many.
     pub(crate) fn one_step(&mut self, since: usize) {
         let Some(label) = self.done.last().map(|last| last.label.clone()) else { return };

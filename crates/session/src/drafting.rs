@@ -8,7 +8,7 @@
 //! them in a copy of the text. So a construction that a library gains is a tool at once.
 //!
 //! Reading order: `catalogue`, `scene`, `typed`, `outcome`, `dialogue`, `older`, `hands`, `recording`, `parameters`, `blocks`,
-//! `operands`, `repeat`, `choice`, `demonstrating`, `measure`, `steps`, `visit`, `remove`, `changing`, `visiting`,
+//! `operands`, `patterns`, `repeat`, `choice`, `demonstrating`, `measure`, `steps`, `visit`, `remove`, `changing`, `visiting`,
 //! `text`.
 mod blocks;
 mod catalogue;
@@ -23,6 +23,7 @@ mod older;
 mod operands;
 mod outcome;
 mod parameters;
+mod patterns;
 mod recording;
 mod remove;
 mod repeat;
@@ -36,7 +37,7 @@ mod visit;
 mod visiting;
 
 pub(crate) use dialogue::Dialogue;
-pub(crate) use recording::retext;
+pub(crate) use recording::{retext, span_recorded};
 pub(crate) use repeat::Tried;
 pub(crate) use visit::keep_own;
 

@@ -57,20 +57,15 @@ impl Session {
         let (open, beside) = self.beside_others(id);
         open.drag = None;
         let since = open.done.len();
-        let mut change = Change::default();
-        for name in PLACE {
-            let command = Command::Anchor { path: path.then(part(name)), held };
-            match apply::apply(open, &beside, &command) {
-                Ok(one) => change.edits.extend(one.edits),
-                Err(refusal) => {
-                    while open.done.len() > since {
-                        open.travel(crate::document::Direction::Back);
-                        open.undone.pop();
-                    }
-                    return Err(refusal);
-                }
+        let edits = open.tried(|open| {
+            let mut edits = Vec::new();
+            for name in PLACE {
+                let command = Command::Anchor { path: path.then(part(name)), held };
+                edits.extend(apply::apply(open, &beside, &command)?.edits);
             }
-        }
+            Ok::<_, Refusal>(edits)
+        })?;
+        let mut change = Change { edits, ..Change::default() };
         let label = if held { "hold" } else { "let go" };
         open.one_step(since);
         open.label_last(format!("{label} {thing}"));

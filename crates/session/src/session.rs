@@ -6,6 +6,7 @@ use crate::calculator;
 use crate::check;
 use crate::complaints;
 use crate::document::Open;
+use crate::drafting;
 use crate::drag;
 use crate::ghosts;
 use crate::host::{self, Beside, Host};
@@ -647,9 +648,12 @@ impl Session {
     pub fn text(&self, id: DocumentId) -> TextView {
         let open = self.document(self.home(id));
         let mut view = views::text::view(&open.state);
-        if open.recording.is_some() {
+        if let Some(own) = drafting::span_recorded(open) {
             // what is demonstrated is not finished, and nothing is wrong with that
-            let is_open = |d: &&mut DiagnosticView| d.code == "open-block";
+            let is_open = |d: &&mut DiagnosticView| {
+                let is_own = d.file.is_empty() && own.start <= d.start && d.end <= own.end;
+                d.code == "open-block" && is_own
+            };
             view.diagnostics
                 .iter_mut()
                 .filter(is_open)

@@ -5,12 +5,12 @@
 
 use super::parameters::{self, Asks};
 use super::view::ConstructionRow;
-use super::{Home, synonyms};
+use super::{Home, synonyms, text};
 use crate::recognise;
 use crate::state::State;
-use base::Name;
+use base::{Name, Span};
 use kernel::{Class, ClassId, ClassKind, Document, Message, Term};
-use syntax::ast::{AstNode, Expr};
+use syntax::ast::{AstNode, Expr, span_without_doc};
 
 /// A construction, as a tool.
 #[derive(Clone, Debug)]
@@ -77,9 +77,30 @@ impl Pattern {
                 format!("{what}.moved(by: Point(nth * {by}.x, nth * {by}.y))")
             }
         };
-        let from = if first == First::There { 1 } else { 0 };
-        format!("({from}..{count} - 1).map(nth => {one})")
+        format!("({}..{count} - 1).map(nth => {one})", first.written())
     }
+}
+
+impl First {
+    /// The number of the first that a pattern makes.
+    pub(crate) fn written(self) -> &'static str {
+        match self {
+            Self::Made => "0",
+            Self::There => "1",
+        }
+    }
+}
+
+/// Reads whether a pattern makes the first, and where that is written.
+pub(crate) fn first_of_pattern(formula: &Expr) -> Option<(First, Span)> {
+    let Expr::Field(map) = formula else { return None };
+    let Expr::Paren(range) = map.receiver()? else { return None };
+    let Expr::Range(range) = range.inner()? else { return None };
+    let from = range.start()?;
+    let said = from.syntax().text().to_string();
+    let of =
+        [First::Made, First::There].into_iter().find(|first| first.written() == said.trim())?;
+    Some((of, span_without_doc(from.syntax())))
 }
 
 /// Reads what a pattern is made of, where a formula is one: the set, how each is led on to the next, how many; the last
@@ -326,14 +347,13 @@ pub(crate) fn tools(state: &State, home: &Home) -> Vec<Tool> {
         all.extend(value(document));
     }
     // what was recorded here is looked for first
-    let own =
-        |tool: &Tool| matches!(tool.call, Call::Make | Call::Placed) && is_program(document, tool);
-    all.sort_by_key(|tool| !own(tool));
+    let source = text::Source::now(state);
+    let own = |tool: &Tool| {
+        matches!(tool.call, Call::Make | Call::Placed)
+            && text::program(&source, &tool.class).is_some()
+    };
+    all.sort_by_cached_key(|tool| !own(tool));
     all
-}
-
-fn is_program(document: &Document, tool: &Tool) -> bool {
-    document.class_named(&tool.class).is_some_and(|class| document.program(class).is_some())
 }
 
 /// Finds a construction.

@@ -4,7 +4,7 @@
 use super::operands::{self, Occurrence};
 use super::scene::{self, Curve};
 use super::view::{Prompt, StepOperand, Wants};
-use super::{Around, Home, blocks, catalogue, outcome, recording, remove, text, visit};
+use super::{Around, Home, blocks, catalogue, outcome, patterns, recording, remove, text, visit};
 use crate::document::Open;
 use crate::host::Host;
 use crate::state::State;
@@ -209,8 +209,9 @@ pub(crate) fn set(
     let none = || words::refuse(format!("{address} says nothing called {slot}"));
     let source = text::Source::now(&open.state);
     let (found, _) = find(&source, program, (address, slot)).ok_or_else(none)?;
-    // others go on from what stands twice
-    let typed = if found.again.is_some() { catalogue::bracketed(typed) } else { typed.into() };
+    // the text goes on from what stands twice, from what a message is sent to, and from a count
+    let is_gone_on_from = found.again.is_some() || matches!(slot, "what" | "count");
+    let typed = if is_gone_on_from { catalogue::bracketed(typed) } else { typed.into() };
     let mut edited = source.to_string();
     for span in found.again.iter().chain([&found.span]) {
         edited.replace_range(span.start as usize..span.end as usize, &typed);
@@ -220,12 +221,16 @@ pub(crate) fn set(
         said.map(|d| d.message.clone()).collect::<Vec<_>>()
     };
     let before = ended(&open.state);
-    let change = recording::retext(open, host, edited, format!("{slot} of {address}"))?;
-    let after = ended(&open.state);
-    if let Some(why) = after.into_iter().find(|_| before.is_empty()) {
-        open.travel(crate::document::Direction::Back);
-        open.undone.pop();
-        return Err(words::refuse(why));
-    }
-    Ok(change)
+    let edited = match slot {
+        "what" => patterns::settled(open, host, program, (edited, &[address.to_string()]))?,
+        _ => edited,
+    };
+    open.tried(|open| {
+        let change = recording::retext(open, host, edited, format!("{slot} of {address}"))?;
+        let after = ended(&open.state);
+        match after.into_iter().find(|_| before.is_empty()) {
+            Some(why) => Err(words::refuse(why)),
+            None => Ok(change),
+        }
+    })
 }

@@ -98,7 +98,8 @@ impl Dialogue {
                 "" => format!("{}:", slot.name),
                 prompt => format!("{prompt} ({})", slot.name),
             };
-            let range = asks.range.as_ref().map_or(String::new(), |(a, b)| format!(", {a} to {b}"));
+            let range =
+                asks.range.as_ref().map_or(String::new(), |r| format!(", {}", r.in_words()));
             let usual = asks.usual.as_ref().map_or(String::new(), |u| format!("; Enter takes {u}"));
             format!("{question} {wanted}{range}{usual}")
         });

@@ -1,16 +1,15 @@
 //! Drafting at the boundary: what the page asks of a session.
 
-use super::catalogue::{Call, First, SlotKind, Tool};
+use super::catalogue::{Call, SlotKind, Tool};
 use super::dialogue::{Dialogue, Goal, Operand};
 use super::view::{
     Computed, ConstructionRow, Ends, Hover, MeasureKind, OlderUse, Prompt, Turn, Wants,
 };
 use super::{
-    Home, blocks, catalogue, changing, choice, measure, older, outcome, parameters, recording,
-    remove, repeat, scene, steps, text, typed,
+    Home, blocks, catalogue, changing, choice, measure, older, outcome, parameters, patterns,
+    recording, remove, repeat, scene, steps, text, typed,
 };
-use crate::apply;
-use crate::document::{Direction, Open};
+use crate::document::Open;
 use crate::host::Host;
 use crate::session::Session;
 use crate::state::State;
@@ -104,24 +103,21 @@ fn give(open: &mut Open, host: &dyn Host, operand: Operand) -> Result<Turn, Refu
     }
     let line = recording::line(open, &home, &dialogue, (&filled, &chosen.text));
     let since = open.done.len();
-    let mut change = recording::write(open, host, &home, &line)?;
-    let also = filled[0].also.clone();
-    for more in &also {
-        filled[0].text.clone_from(more);
-        match drawn_also(open, host, (&home, &dialogue, &filled)) {
-            Ok(made) => change = made,
-            Err(refusal) => {
-                // all of it, or nothing
-                while open.done.len() > since {
-                    open.travel(Direction::Back);
-                    open.undone.pop();
-                }
-                return Err(refusal);
-            }
+    let mut names = vec![line.name.clone()];
+    // all of it, or nothing
+    let change = open.tried(|open| {
+        let mut change = recording::write(open, host, &home, &line)?;
+        for more in filled[0].also.clone() {
+            filled[0].text = more;
+            let (made, name) = drawn_also(open, host, (&home, &dialogue, &filled))?;
+            change = made;
+            names.push(name);
         }
-    }
-    if !also.is_empty() {
+        Ok::<_, Refusal>(change)
+    })?;
+    if names.len() > 1 {
         open.one_step(since);
+        open.label_last(format!("draw {}", names.join(", ")));
     }
     if let Some(dialogue) = &mut open.dialogue {
         dialogue.filled.clear();
@@ -130,30 +126,30 @@ fn give(open: &mut Open, host: &dyn Host, operand: Operand) -> Result<Turn, Refu
         dialogue.turned = 0;
     }
     let next = prompt(open);
-    Ok(Turn::Made { change: Box::new(change), name: line.name, text: chosen.text, next })
+    Ok(Turn::Made { change: Box::new(change), name: names.join(", "), text: chosen.text, next })
 }
 
 /// Settles whether a pattern makes the first figure: not where what it is of is drawn.
 fn settle_first((state, home): (&State, &Home), tool: &mut Tool, of: &str) {
     if let Call::Pattern(_, first) = &mut tool.call {
-        let is_there = text::is_drawn(&text::Source::now(state), home, of);
-        *first = if is_there { First::There } else { First::Made };
+        *first = patterns::first_of(state, home, of);
     }
 }
 
-/// Does the same for a further set.
+/// Does the same for a further set; says what it is called.
 fn drawn_also(
     open: &mut Open,
     host: &dyn Host,
     (home, dialogue, filled): (&Home, &Dialogue, &[Operand]),
-) -> Result<Change, Refusal> {
+) -> Result<(Change, String), Refusal> {
     let mut dialogue = dialogue.clone();
     settle_first((&open.state, home), &mut dialogue.tool, &filled[0].text);
     let dialogue = &dialogue;
     let given = (&dialogue.tool, filled, dialogue.pointer, dialogue.turned);
     let chosen = outcome::choose(&open.state, home, given)?;
     let line = recording::line(open, home, dialogue, (filled, &chosen.text));
-    recording::write(open, host, home, &line)
+    let change = recording::write(open, host, home, &line)?;
+    Ok((change, line.name))
 }
 
 /// Says anew what a step does.
@@ -328,7 +324,8 @@ impl Session {
         };
         let makes_one = dialogue.goal.is_some() || dialogue.replaces.is_some();
         let found = scene::within(&open.state, &home, corners);
-        let fits = |found: &scene::Found| slot.takes(&open.state, found.class);
+        // a copy of what is drawn for construction would be part of the result
+        let fits = |found: &scene::Found| found.is_result && slot.takes(&open.state, found.class);
         let found: Vec<scene::Found> = found.into_iter().filter(fits).collect();
         let (single, sets) = match makes_one {
             true => (found.into_iter().map(|found| found.text).collect(), Vec::new()),
@@ -374,7 +371,9 @@ impl Session {
             return Ok(turn);
         }
         let Turn::Made { name, text, next, .. } = turn else { return Ok(turn) };
-        let members = crate::tools::member_of(&self.document(id).state.text, &name);
+        let text_of = |name| crate::tools::member_of(&self.document(id).state.text, name);
+        let members: Vec<String> = name.split(", ").map(text_of).collect();
+        let members = members.join("\n");
         let command = Command::Edit { target: kernel::Path::default(), members };
         let carried = self.apply_in_pane(id, &command);
         if carried.is_err() {
@@ -446,18 +445,16 @@ impl Session {
         let none = || words::refuse("nothing outside of the program was picked".into());
         let older = open.picking.older.clone().ok_or_else(none)?;
         let home = home(open);
-        let since = open.done.len();
-        let text = older::settle(open, &beside, &home, (&older, to))?;
-        if let Some(dialogue) = &mut open.dialogue {
-            dialogue.pointer = None;
-        }
-        match give(open, &beside, Operand::new(text, Some(older.at))) {
+        let done = open.tried(|open| {
+            let text = older::settle(open, &beside, &home, (&older, to))?;
+            if let Some(dialogue) = &mut open.dialogue {
+                dialogue.pointer = None;
+            }
+            give(open, &beside, Operand::new(text, Some(older.at)))
+        });
+        match done {
             Ok(turn) => Ok(self.reached(id, turn)),
             Err(refusal) => {
-                if open.done.len() > since {
-                    apply::apply(open, &beside, &Command::Undo)?;
-                    open.undone.clear();
-                }
                 open.picking.older = Some(older);
                 Err(refusal)
             }

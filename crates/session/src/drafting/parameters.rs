@@ -4,7 +4,7 @@
 //! becomes one, in the same step, and the hand is told so. Where it is a length for other steps already it stays one.
 
 use super::view::{NewParameter, Prompt, Turn};
-use super::{Home, outcome, recording, text};
+use super::{Home, outcome, recording, text, typed};
 use crate::document::Open;
 use crate::host::Host;
 use crate::state::State;
@@ -13,7 +13,7 @@ use crate::words;
 use base::{Name, Span};
 use eval::Answer;
 use expr::dimension::Dimension;
-use syntax::ast::{AstNode, Param};
+use syntax::ast::{AstNode, Expr, Param, span_without_doc};
 
 /// A parameter as its program declares it.
 pub(crate) struct Declared {
@@ -29,8 +29,49 @@ pub(crate) struct Declared {
     pub(crate) prompt: String,
     /// Where its name stands.
     named: Span,
-    /// Where all of it stands.
-    span: Span,
+    /// How it is written.
+    node: Param,
+}
+
+/// A range as it is written.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub(crate) struct Range {
+    /// The least value that is allowed.
+    least: String,
+    /// The largest one, or the one that all are less than.
+    most: String,
+    /// Whether the largest one is not allowed itself.
+    is_open: bool,
+}
+
+impl Range {
+    /// Reads `1..10` and `1..<10`; nothing else is a range.
+    fn of(text: &str) -> Option<Self> {
+        let Expr::Range(range) = typed::expression(text)? else { return None };
+        let said = |end: Option<Expr>| Some(end?.syntax().text().to_string().trim().to_string());
+        Some(Self {
+            least: said(range.start())?,
+            most: said(range.end())?,
+            is_open: range.is_open(),
+        })
+    }
+
+    /// Says it: `1 to 10`, `1 to less than 10`.
+    pub(crate) fn in_words(&self) -> String {
+        let Self { least, most, is_open } = self;
+        format!("{least} to {}{most}", if *is_open { "less than " } else { "" })
+    }
+
+    /// The same with numbers without a unit as degrees.
+    fn in_degrees(&self) -> String {
+        let dots = if self.is_open { "..<" } else { ".." };
+        format!("{}{dots}{}", in_degrees(&self.least), in_degrees(&self.most))
+    }
+}
+
+/// An angle as it is typed: a number without a unit is one of degrees.
+fn in_degrees(typed: &str) -> String {
+    if typed::is_number(typed) { format!("{typed} deg") } else { typed.into() }
 }
 
 /// Lists the parameters that a program of a text declares, in order.
@@ -43,11 +84,9 @@ pub(crate) fn declared(source: &text::Source, program: &str) -> Vec<Declared> {
             class: written(param.class().map(|c| c.syntax().text().to_string())),
             range: written(param.domain().map(|d| d.syntax().text().to_string())),
             example: written(param.value().map(|v| v.syntax().text().to_string())),
-            prompt: param
-                .prompt()
-                .map_or_else(String::new, |word| word.text().trim_matches('"').into()),
+            prompt: param.prompt().map_or_else(String::new, |word| word.unquoted()),
             named: param.name()?.span(),
-            span: syntax::ast::span_without_doc(param.syntax()),
+            node: param,
         })
     };
     list.into_iter().flat_map(|list| list.params()).filter_map(one).collect()
@@ -60,8 +99,8 @@ pub(crate) struct Asks {
     pub(crate) prompt: String,
     /// What is taken where nothing is typed; nothing where that depends on other parameters.
     pub(crate) usual: Option<String>,
-    /// The least and the largest value that are allowed, where these are constants.
-    pub(crate) range: Option<(String, String)>,
+    /// The values that are allowed, where its ends are constants.
+    pub(crate) range: Option<Range>,
 }
 
 /// Lists what a program of a document, or of what it uses, asks of each parameter, by name.
@@ -78,10 +117,9 @@ pub(crate) fn asked(state: &State, program: &str) -> Vec<(String, Asks)> {
         !text.is_empty() && is_constant(text) && (file == 0 || is_plain || has_unit)
     };
     let one = |d: &Declared| {
-        let range =
-            d.range.split_once("..").map(|(a, b)| (a.trim().to_string(), b.trim().to_string()));
         let usual = Some(d.example.clone()).filter(|example| is_here(d, example));
-        let range = range.filter(|(a, b)| is_here(d, a) && is_here(d, b));
+        let range = Range::of(&d.range);
+        let range = range.filter(|range| is_here(d, &range.least) && is_here(d, &range.most));
         (d.name.clone(), Asks { prompt: d.prompt.clone(), usual, range })
     };
     all.iter().map(one).collect()
@@ -98,11 +136,13 @@ impl Asks {
         home: &Home,
         (name, value): (&str, &str),
     ) -> Result<(), Refusal> {
-        let Some((least, most)) = &self.range else { return Ok(()) };
-        let is_within = format!("{least} <= ({value}) and ({value}) <= {most}");
+        let Some(range) = &self.range else { return Ok(()) };
+        let Range { least, most, is_open } = range;
+        let less = if *is_open { "<" } else { "<=" };
+        let is_within = format!("{least} <= ({value}) and ({value}) {less} {most}");
         match outcome::worth(state, home, &is_within) {
             Ok(outcome::Worth::Truth(false)) => {
-                let message = format!("{name} is {value}: {least} to {most} are allowed");
+                let message = format!("{name} is {value}: {} are allowed", range.in_words());
                 Err(words::refuse(message))
             }
             Ok(_) | Err(_) => Ok(()),
@@ -124,27 +164,29 @@ pub(crate) fn define(
         return Err(words::refuse("a parameter is one of a program: record one first".into()));
     };
     let name = new.name.trim();
-    let written = written(&open.state, name, new)?;
+    let starts_well = name.chars().next().is_some_and(char::is_alphabetic);
+    if !starts_well || !name.chars().all(|c| c.is_alphanumeric() || c == '_') {
+        return Err(words::refuse(format!("`{name}` is no name for a parameter")));
+    }
     let instead = new.instead_of.trim();
     if instead.is_empty() {
+        let said = Said::of(&open.state, new, None)?;
+        let written = said.written(name);
         let text = text::with_parameter(&text::Source::now(&open.state), program, &written)?;
         return recording::retext(open, host, text, format!("define {name}"));
     }
     let since = open.done.len();
-    if instead != name {
-        let text = renamed(&open.state, host, (program, instead), name)?;
-        recording::retext(open, host, text, format!("rename {instead}"))?;
-    }
-    match said_anew(open, host, (program, name), &written) {
-        Ok(change) => {
-            open.one_step(since);
-            Ok(change)
+    let change = open.tried(|open| {
+        if instead != name {
+            let text = renamed(&open.state, (program, instead), name)?;
+            recording::retext(open, host, text, format!("rename {instead}"))?;
         }
-        Err(refusal) => {
-            take_back(open, since);
-            Err(refusal)
-        }
+        said_anew(open, host, (program, name), new)
+    })?;
+    if open.done.len() > since + 1 {
+        open.one_step(since);
     }
+    Ok(change)
 }
 
 /// Takes a parameter from a program.
@@ -169,74 +211,143 @@ pub(crate) fn remove(
     }
     let none = || words::refuse(format!("{program} has no parameter {name}"));
     let known = declared(&source, program).into_iter().find(|d| d.name == name).ok_or_else(none)?;
-    let mut gone: Vec<Span> = spoken_of(&open.state, host, known.named)
+    let given: Vec<text::Given> = spoken_of(&open.state, known.named)
         .into_iter()
         .filter_map(|span| text::given_at(&source, span))
         .collect();
-    gone.push(with_comma(&source, known.span));
+    let mut gone: Vec<Span> = given.iter().map(|given| given.span).collect();
+    gone.push(text::with_lines_of(&source, known.node.span()));
     gone.sort_by_key(|span| std::cmp::Reverse(span.start));
     let text = gone.into_iter().fold(source.to_string(), |text, span| replaced(&text, span, ""));
-    recording::retext(open, host, text, format!("delete {name}"))
+    let change = recording::retext(open, host, text, format!("delete {name}"))?;
+    Ok(Change { along: given.into_iter().map(|given| given.says).collect(), ..change })
 }
 
-/// A parameter with the comma after it and the white space before it.
-fn with_comma(text: &str, span: Span) -> Span {
-    let (before, after) = (&text[..span.start as usize], &text[span.end as usize..]);
-    let rest = after.trim_start().strip_prefix(',');
-    let end = rest.map_or(span.end as usize, |rest| text.len() - rest.len());
-    Span::new(before.trim_end().len() as u32, end as u32)
+/// What is said of a parameter.
+struct Said {
+    class: String,
+    range: String,
+    example: String,
+    prompt: String,
 }
 
-/// Writes a parameter as a program declares it.
-fn written(state: &State, name: &str, new: &NewParameter) -> Result<String, Refusal> {
-    let starts_well = name.chars().next().is_some_and(char::is_alphabetic);
-    if !starts_well || !name.chars().all(|c| c.is_alphanumeric() || c == '_') {
-        return Err(words::refuse(format!("`{name}` is no name for a parameter")));
-    }
-    let example = new.example.trim();
-    let place = super::typed::pair(example, ',').map(|(x, y)| format!("Point({x}, {y})"));
-    let example = place.as_deref().unwrap_or_else(|| super::typed::truth(example));
-    let class = match new.class.trim() {
-        "" => class_of_example(state, example)?,
-        class => class.into(),
-    };
-    let prompt = match new.prompt.trim() {
-        "" => String::new(),
-        prompt => format!(" \"{}\"", prompt.replace(['"', '\\'], "")),
-    };
-    let range = match new.range.trim() {
-        "" => String::new(),
-        range if range.contains("..") => format!(" in {range}"),
-        range => {
+impl Said {
+    /// Reads what is said of a parameter; what it was already stays as it is written.
+    fn of(state: &State, new: &NewParameter, old: Option<&Declared>) -> Result<Self, Refusal> {
+        let is_old =
+            |text: &str, get: fn(&Declared) -> &String| old.is_some_and(|old| get(old) == text);
+        let mut example = new.example.trim().to_string();
+        let keeps_example = is_old(&example, |old| &old.example);
+        if !keeps_example {
+            // a place that is typed is no expression
+            let is_place = typed::expression(&example).is_none();
+            let place = typed::pair(&example, ',').filter(|_| is_place);
+            example = match place {
+                Some((x, y)) => format!("Point({x}, {y})"),
+                None => typed::truth(&example).into(),
+            };
+        }
+        let class = match new.class.trim() {
+            "" => class_of_example(state, &example)?,
+            class => class.into(),
+        };
+        let mut range = new.range.trim().to_string();
+        let keeps_range = is_old(&range, |old| &old.range);
+        let read = Range::of(&range);
+        if read.is_none() && !range.is_empty() && !keeps_range {
             let message = format!("`{range}` is no range: wanted is from..to, as 1 mm..100 mm");
             return Err(words::refuse(message));
         }
-    };
-    Ok(format!("{name}: {class}{range} = {example}{prompt}"))
+        if class == "Angle" {
+            let becomes = old.is_some_and(|old| old.class != "Angle");
+            if becomes || !keeps_example {
+                example = in_degrees(&example);
+            }
+            if becomes || !keeps_range {
+                range = read.map_or(range, |range| range.in_degrees());
+            }
+        }
+        Ok(Self { class, range, example, prompt: new.prompt.trim().into() })
+    }
+
+    /// Writes a parameter as a program declares it.
+    fn written(&self, name: &str) -> String {
+        let Self { class, range, example, prompt } = self;
+        let range = if range.is_empty() { String::new() } else { format!(" in {range}") };
+        let prompt = if prompt.is_empty() { String::new() } else { format!(" {}", quoted(prompt)) };
+        format!("{name}: {class}{range} = {example}{prompt}")
+    }
+
+    /// Returns a text in which a parameter says this; what is the same is not touched, and comments stay.
+    fn instead_of(&self, source: &text::Source, old: &Declared) -> String {
+        let own = |node: &syntax::SyntaxNode| {
+            let span = span_without_doc(node);
+            let text = &source[span.start as usize..span.end as usize];
+            Span::new(span.start, span.start + text.trim_end().len() as u32)
+        };
+        let node = &old.node;
+        let spans = (node.class(), node.value());
+        let (Some(class), Some(value)) = spans else {
+            let whole = own(node.syntax());
+            return replaced(source, whole, &self.written(&old.name));
+        };
+        let (class, value) = (own(class.syntax()), own(value.syntax()));
+        let range = node.domain().map(|range| own(range.syntax()));
+        let prompt = node.prompt().map(|word| word.span());
+        let mut edits: Vec<(Span, String)> = Vec::new();
+        if self.prompt != old.prompt {
+            edits.push(match (prompt, self.prompt.as_str()) {
+                (Some(at), "") => (Span::new(value.end, at.end), String::new()),
+                (Some(at), text) => (at, quoted(text)),
+                (None, text) => (Span::new(value.end, value.end), format!(" {}", quoted(text))),
+            });
+        }
+        if self.example != old.example {
+            edits.push((value, self.example.clone()));
+        }
+        if self.range != old.range {
+            edits.push(match (range, self.range.as_str()) {
+                (Some(at), "") => (Span::new(class.end, at.end), String::new()),
+                (Some(at), text) => (at, text.into()),
+                (None, text) => (Span::new(class.end, class.end), format!(" in {text}")),
+            });
+        }
+        if self.class != old.class {
+            edits.push((class, self.class.clone()));
+        }
+        // from the last to the first
+        edits
+            .into_iter()
+            .fold(source.to_string(), |text, (span, with)| replaced(&text, span, &with))
+    }
+}
+
+/// A question as the language writes it.
+fn quoted(question: &str) -> String {
+    format!("\"{}\"", question.replace('\\', "\\\\").replace('"', "\\\""))
 }
 
 /// Returns the text with a parameter called otherwise, wherever it is spoken of.
-fn renamed(
-    state: &State,
-    host: &dyn Host,
-    (program, from): (&Name, &str),
-    to: &str,
-) -> Result<String, Refusal> {
+fn renamed(state: &State, (program, from): (&Name, &str), to: &str) -> Result<String, Refusal> {
     let source = text::Source::now(state);
     if text::words_in(&source, program).contains(to) {
         return Err(words::refuse(format!("{to} stands for something else in {program}")));
     }
     let none = || words::refuse(format!("{program} has no parameter {from}"));
     let named = declared(&source, program).into_iter().find(|d| d.name == from).ok_or_else(none)?;
-    let mut spoken = spoken_of(state, host, named.named);
+    let mut spoken = spoken_of(state, named.named);
     spoken.push(named.named);
     spoken.sort_by_key(|span| std::cmp::Reverse(span.start));
     Ok(spoken.into_iter().fold(source.to_string(), |text, span| replaced(&text, span, to)))
 }
 
 /// Where the document's own text speaks of a parameter, apart from where it declares it.
-fn spoken_of(state: &State, host: &dyn Host, named: Span) -> Vec<Span> {
-    let mentions = lang::mentions(&state.text, &|name| host.read(name));
+fn spoken_of(state: &State, named: Span) -> Vec<Span> {
+    let used = |name: &str| {
+        let mut files = state.lowered.files.iter().skip(1).map(|(_, file)| file);
+        files.find(|file| file.name == name).map(|file| file.text.to_string())
+    };
+    let mentions = lang::mentions(&state.text, &used);
     let is_it = |m: &lang::Mention| m.declared == Some((String::new(), named)) && m.span != named;
     mentions.iter().filter(|m| is_it(m)).map(|m| m.span).collect()
 }
@@ -245,25 +356,27 @@ fn said_anew(
     open: &mut Open,
     host: &dyn Host,
     (program, name): (&Name, &str),
-    written: &str,
+    new: &NewParameter,
 ) -> Result<Change, Refusal> {
     let source = text::Source::now(&open.state);
     let none = || words::refuse(format!("{program} has no parameter {name}"));
     let old = declared(&source, program).into_iter().find(|d| d.name == name).ok_or_else(none)?;
-    let text = replaced(&source, old.span, written);
+    let said = Said::of(&open.state, new, Some(&old))?;
+    let are_others = (said.class == "Angle") != (old.class == "Angle");
+    if are_others && !spoken_of(&open.state, old.named).is_empty() {
+        // a number without a unit is a millimetre of a length and a radian of an angle
+        let message = format!(
+            "{name} is spoken of elsewhere as of the class {}: define another one of the class {}",
+            old.class, said.class
+        );
+        return Err(words::refuse(message));
+    }
+    let text = said.instead_of(&source, &old);
     recording::retext(open, host, text, format!("change {name}"))
 }
 
 fn replaced(text: &str, span: Span, with: &str) -> String {
     format!("{}{with}{}", &text[..span.start as usize], &text[span.end as usize..])
-}
-
-/// Goes back to how many steps were done; what is left cannot be done again.
-fn take_back(open: &mut Open, since: usize) {
-    while open.done.len() > since {
-        open.travel(crate::document::Direction::Back);
-        open.undone.pop();
-    }
 }
 
 /// The steps of a program that speak of a parameter; of blocks the outermost.
@@ -319,14 +432,14 @@ struct Other {
     name: String,
     class: &'static str,
     text: String,
-    /// Whether steps speak of it as a length.
-    is_used: bool,
+    /// Why it stays a length.
+    stays: Option<String>,
 }
 
 /// Lists what the parameters that an expression speaks of may be where a class is wanted: those that were defined by a
-/// number without a unit, whose example has no value of its own.
+/// number without a unit.
 fn others(state: &State, home: &Home, typed: &str, wanted: &str) -> Vec<Other> {
-    let Home::Program { program, example, .. } = home else { return Vec::new() };
+    let Home::Program { program, .. } = home else { return Vec::new() };
     let source = text::Source::now(state);
     let is_alone = |name: &str| typed.trim() == name;
     let one = |d: Declared| {
@@ -343,23 +456,20 @@ fn others(state: &State, home: &Home, typed: &str, wanted: &str) -> Vec<Other> {
             "Real" | "Angle" => "Real",
             _ => return None,
         };
-        let unit = if class == "Angle" { " deg" } else { "" };
-        // lengths would be none of an angle: a range, or one that the example has of its own
-        let is_own = !unit.is_empty() && (!d.range.is_empty() || has_own_value(state, example, &d));
-        let old = &source[d.span.start as usize..d.span.end as usize];
-        let said = old.replacen(": Length", &format!(": {class}"), 1);
-        let said = said.replacen(&format!("= {}", d.example), &format!("= {}{unit}", d.example), 1);
-        let text = replaced(&source, d.span, &said);
-        (!is_own && said != old).then_some(Other { name: d.name, class, text, is_used })
+        // a number without a unit is another one as an angle: in the range, where things are given it, in a demand
+        let stays = match class {
+            _ if is_used => Some("a length for other steps"),
+            "Angle" if !d.range.is_empty() => Some("a length by its range"),
+            "Angle" if !spoken_of(state, d.named).is_empty() => Some("a length elsewhere, too"),
+            _ => None,
+        };
+        let example = if class == "Angle" { in_degrees(&d.example) } else { d.example.clone() };
+        let said =
+            Said { class: class.into(), range: d.range.clone(), example, prompt: d.prompt.clone() };
+        let text = said.instead_of(&source, &d);
+        Some(Other { name: d.name, class, text, stays: stays.map(String::from) })
     };
     declared(&source, program).into_iter().filter_map(one).collect()
-}
-
-/// Whether the example has another value of a parameter than the program gives it.
-fn has_own_value(state: &State, example: &Name, parameter: &Declared) -> bool {
-    let is_as_declared = format!("{example}.{} = {}", parameter.name, parameter.example);
-    let worth = outcome::worth(state, &Home::Document, &is_as_declared);
-    !matches!(worth, Ok(outcome::Worth::Truth(true)))
 }
 
 /// Says what a parameter would become where a class is wanted.
@@ -368,7 +478,7 @@ pub(crate) fn may_become(
     home: &Home,
     (typed, wanted): (&str, &str),
 ) -> Option<String> {
-    let other = others(state, home, typed, wanted).into_iter().find(|other| !other.is_used)?;
+    let other = others(state, home, typed, wanted).into_iter().find(|o| o.stays.is_none())?;
     Some(format!("{} becomes {}", other.name, class_in_words(other.class)))
 }
 
@@ -387,42 +497,43 @@ pub(crate) fn retried(
     let others = others(&open.state, home, typed, wanted);
     let since = open.done.len();
     let dialogue = open.dialogue.clone();
-    for other in others.iter().filter(|other| !other.is_used) {
-        let label = format!("{} is {}", other.name, class_in_words(other.class));
-        if recording::retext(open, host, other.text.clone(), label).is_err() {
-            continue;
-        }
-        match again(open) {
+    let mut why = None;
+    for other in others.iter().filter(|other| other.stays.is_none()) {
+        let now = format!("{} is {}", other.name, class_in_words(other.class));
+        let mut stood = false;
+        let done = open.tried(|open| {
+            recording::retext(open, host, other.text.clone(), now.clone())?;
+            stood = true;
+            again(open)
+        });
+        match done {
             Ok(Turn::Made { change, name, text, next }) => {
                 open.one_step(since);
-                let now = format!("{} is {} now", other.name, class_in_words(other.class));
-                let next = next.map(|p| Prompt { words: format!("{now}. {}", p.words), ..p });
-                return Ok(Turn::Made { change, name, text: format!("{text}; {now}"), next });
+                let next = next.map(|p| Prompt { words: format!("{now} now. {}", p.words), ..p });
+                return Ok(Turn::Made { change, name, text: format!("{text}; {now} now"), next });
             }
             // further operands are wanted: what it is now stands
             Ok(Turn::Wants(prompt)) => {
-                let words = format!(
-                    "{} is {} now. {}",
-                    other.name,
-                    class_in_words(other.class),
-                    prompt.words
-                );
+                let words = format!("{now} now. {}", prompt.words);
                 return Ok(Turn::Wants(Prompt { words, ..prompt }));
             }
-            Err(_) => {
-                take_back(open, since);
+            Err(refusal) => {
                 open.dialogue.clone_from(&dialogue);
+                if stood {
+                    why.get_or_insert(refusal);
+                }
             }
         }
     }
     match others.first() {
-        Some(other) if other.is_used && other.name == typed.trim() => Err(words::refuse(format!(
-            "{} is a length for other steps: where {} is wanted, define one of the class {}",
-            other.name,
-            class_in_words(other.class),
-            other.class,
-        ))),
-        Some(_) | None => Err(refused),
+        Some(Other { name, class, stays: Some(stays), .. }) if name == typed.trim() => {
+            let wanted = class_in_words(class);
+            let message = format!(
+                "{name} is {stays}: where {wanted} is wanted, define one of the class {class}"
+            );
+            Err(words::refuse(message))
+        }
+        Some(_) | None => Err(why.unwrap_or(refused)),
     }
 }
 

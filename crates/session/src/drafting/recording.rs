@@ -11,9 +11,10 @@ use crate::recognise;
 use crate::state::State;
 use crate::view::{Change, Refusal};
 use crate::words;
-use base::{Name, Severity};
+use base::{Name, Severity, Span};
 use kernel::{ClassId, Command, DOCUMENT, Path};
 use std::collections::BTreeSet;
+use syntax::ast::AstNode;
 
 /// A line of text that makes something.
 pub(crate) struct Line {
@@ -210,8 +211,14 @@ pub(crate) fn begin(open: &mut Open, host: &dyn Host, name: &str) -> Result<Chan
     Ok(change)
 }
 
+/// Returns where the program that is recorded stands in the text.
+pub(crate) fn span_recorded(open: &Open) -> Option<Span> {
+    let recording = open.recording.as_ref()?;
+    Some(text::program(&text::Source::now(&open.state), &recording.program)?.span())
+}
+
 /// Returns the first thing of the document that a program draws.
-fn example_of(state: &State, program: &Name) -> Option<Name> {
+pub(crate) fn example_of(state: &State, program: &Name) -> Option<Name> {
     let document = &state.lowered.document;
     let class = document.class_named(program)?;
     let mut own = state.structure.parts(DOCUMENT);

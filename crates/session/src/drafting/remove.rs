@@ -1,7 +1,7 @@
 //! A step deleted: for each step that speaks of it another object is asked for, or it goes too; one by one.
 
 use super::view::{Prompt, Wants};
-use super::{Home, blocks, hands, outcome, recording, scene, steps, text, visit};
+use super::{Home, blocks, hands, outcome, patterns, recording, scene, steps, text, visit};
 use crate::document::Open;
 use crate::host::Host;
 use crate::view::{Change, Pointer, Refusal};
@@ -156,7 +156,17 @@ pub(crate) fn along(open: &mut Open, host: &dyn Host) -> Result<Option<Change>, 
 /// Why a step cannot speak of what lies under a pointer.
 pub(super) fn why_nothing(open: &Open, step: &str, pointer: &Pointer) -> String {
     let all = scene::scene(&open.state, &hands::home(open));
+    let own = |text: &str| {
+        // `column[0].ring` is what the step `column.ring` drew
+        let parts = text.split('.').map(|part| part.split('[').next().unwrap_or_default());
+        let named =
+            step.split('.').filter(|s| !s.starts_with('#') && !matches!(*s, "then" | "else"));
+        parts.take(named.clone().count()).eq(named)
+    };
     match scene::nearest(all.iter(), pointer) {
+        Some(found) if own(&found.text) => {
+            format!("a step cannot speak of itself, as {step} would")
+        }
         Some(later) => format!("{} is drawn after {step}, which cannot speak of it", later.text),
         None => format!("nothing that {step} can speak of lies here"),
     }
@@ -247,14 +257,18 @@ fn finish(open: &mut Open, host: &dyn Host) -> Result<Option<Change>, Refusal> {
         return Ok(None);
     }
     let mut edited = open.state.text.clone();
+    let mut resettled: Vec<String> = Vec::new();
     for asked in &removing.asked {
         if let Some(Answer::Instead(found)) = &asked.answer
             && !removing.gone.contains(&asked.step)
         {
             let source = text::Source::of(edited);
+            let step = std::slice::from_ref(&asked.step);
+            resettled.extend(patterns::among(&source, &program, (step, &asked.of)));
             edited = substituted(&source, &program, (&asked.step, &asked.of), found)?;
         }
     }
+    let edited = patterns::settled(open, host, &program, (edited, &resettled))?;
     let edited = steps::without(&text::Source::of(edited), &program, &removing.gone)?;
     let label = format!("delete {}", removing.gone.join(", "));
     let change = recording::retext(open, host, edited, label);

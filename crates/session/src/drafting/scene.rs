@@ -6,9 +6,10 @@ use crate::view::Pointer;
 use crate::views::drawn;
 use base::Name;
 use base::number::{atan2, hypot};
-use eval::{Answer, Context, Evaluator};
+use eval::{Answer, Context, Entry, Evaluator, Standing};
 use geometry::Figure;
 use kernel::{ClassId, DOCUMENT};
+use std::collections::{BTreeMap, BTreeSet};
 
 /// A figure with its name.
 #[derive(Clone, Debug)]
@@ -21,6 +22,8 @@ pub(crate) struct Found {
     pub(crate) curve: Curve,
     /// What it is in, from the nearest: a turn of a loop, the loop.
     pub(crate) wholes: Vec<String>,
+    /// Whether it is part of what is drawn: no guide, not erased, no place of another figure.
+    pub(crate) is_result: bool,
 }
 
 impl Found {
@@ -50,21 +53,18 @@ pub(crate) fn nearest<'f>(
 pub(crate) fn within(state: &State, home: &Home, (a, b): ((f64, f64), (f64, f64))) -> Vec<Found> {
     let across = a.0.min(b.0)..=a.0.max(b.0);
     let up = a.1.min(b.1)..=a.1.max(b.1);
-    let mut caught: Vec<Found> = Vec::new();
     let all = scene(state, home);
-    let is_part = |found: &Found| {
-        let owner = found.text.rsplit_once('.').map(|(owner, _)| owner);
-        owner.is_some_and(|owner| all.iter().any(|f| f.text == owner))
-    };
-    for found in &all {
-        let is_in = found.curve.box_of().is_some_and(|[low, high]| {
+    let known: BTreeSet<&str> = all.iter().map(|found| found.text.as_str()).collect();
+    let is_part =
+        |found: &Found| found.text.rsplit_once('.').is_some_and(|(owner, _)| known.contains(owner));
+    let is_in = |found: &Found| {
+        found.curve.box_of().is_some_and(|[low, high]| {
             [low, high].iter().all(|p| across.contains(&p[0]) && up.contains(&p[1]))
-        });
-        if is_in && !is_part(found) && caught.iter().all(|known| known.text != found.text) {
-            caught.push(found.clone());
-        }
-    }
-    caught
+        })
+    };
+    let mut caught: BTreeSet<&str> = BTreeSet::new();
+    let found = all.iter().filter(|found| is_in(found) && !is_part(found));
+    found.filter(|found| caught.insert(&found.text)).cloned().collect()
 }
 
 /// Names figures: one by one, and sets where all of one are among them. What a loop or a pattern makes more of, by other
@@ -75,15 +75,20 @@ pub(crate) fn whole_sets(
     caught: &[Found],
 ) -> (Vec<String>, Vec<String>) {
     let all = scene(state, home);
-    let is_caught = |found: &Found| caught.iter().any(|c| c.text == found.text);
-    let is_whole = |set: &String| {
-        let mut of_set = all.iter().filter(|found| found.wholes.contains(set));
-        of_set.all(is_caught)
-    };
+    let caught_texts: BTreeSet<&str> = caught.iter().map(|found| found.text.as_str()).collect();
+    let mut is_whole: BTreeMap<&str, bool> = BTreeMap::new();
+    for found in all.iter().filter(|found| found.is_result) {
+        let is_caught = caught_texts.contains(found.text.as_str());
+        for set in &found.wholes {
+            *is_whole.entry(set).or_insert(true) &= is_caught;
+        }
+    }
     let (mut single, mut sets) = (Vec::new(), Vec::new());
+    let mut known: BTreeSet<&str> = BTreeSet::new();
     for found in caught {
-        match found.wholes.iter().rev().find(|set| is_whole(set)) {
-            Some(set) if !sets.contains(set) => sets.push(set.clone()),
+        let set = found.wholes.iter().rev().find(|set| is_whole.get(set.as_str()) == Some(&true));
+        match set {
+            Some(set) if known.insert(set) => sets.push(set.clone()),
             Some(_) => {}
             None => single.push(found.text.clone()),
         }
@@ -303,17 +308,35 @@ fn place<'a>(evaluator: &Evaluator<'a>, of: &Answer<'a>, name: &str) -> Option<[
 
 /// Returns the figures that can be picked.
 pub(crate) fn scene(state: &State, home: &Home) -> Vec<Found> {
+    surveyed(state, home).0
+}
+
+/// Says of each figure that can be picked, and of each set of them, whether it is part of what is drawn.
+pub(crate) fn standings(state: &State, home: &Home) -> BTreeMap<String, bool> {
+    let (found, sets) = surveyed(state, home);
+    sets.into_iter().chain(found.into_iter().map(|found| (found.text, found.is_result))).collect()
+}
+
+fn surveyed(state: &State, home: &Home) -> (Vec<Found>, Vec<(String, bool)>) {
     let evaluator = state.evaluator(&state.values);
-    let mut all = Scene { state, evaluator: &evaluator, found: Vec::new() };
+    let mut all = Scene {
+        state,
+        evaluator: &evaluator,
+        found: Vec::new(),
+        sets: Vec::new(),
+        is_result: true,
+    };
     match home {
         Home::Document => all.document(),
         Home::Program { example, way, .. } => {
             let mut path = kernel::Path::of(&[example]);
             for name in parameters(state, home) {
                 if let Ok(given) = evaluator.at(&path.then(kernel::Step::Part(name.clone()))) {
+                    all.is_result = false;
                     all.add((name, &[]), &given, true);
                 }
             }
+            all.is_result = true;
             let mut levels = text::visible(&text::Source::now(state), home).into_iter();
             all.level(&path, &levels.next().unwrap_or_default());
             for around in way {
@@ -326,7 +349,7 @@ pub(crate) fn scene(state: &State, home: &Home) -> Vec<Found> {
             }
         }
     }
-    all.found
+    (all.found, all.sets)
 }
 
 /// The parameters of the program that a home is in.
@@ -344,6 +367,10 @@ struct Scene<'e, 'a> {
     state: &'a State,
     evaluator: &'e Evaluator<'a>,
     found: Vec<Found>,
+    /// The sets that were gone through, and whether each is part of what is drawn.
+    sets: Vec<(String, bool)>,
+    /// Whether what is gone through is part of what is drawn.
+    is_result: bool,
 }
 
 impl<'a> Scene<'_, 'a> {
@@ -385,7 +412,7 @@ impl<'a> Scene<'_, 'a> {
         };
         for entry in &run.made {
             if names.iter().any(|name| **name == *entry.name) {
-                self.add((&entry.name, &[]), &entry.answer, true);
+                self.entry((&entry.name, &[]), entry);
             }
         }
     }
@@ -393,15 +420,26 @@ impl<'a> Scene<'_, 'a> {
     fn context(&mut self, (prefix, wholes): (&str, &[String]), context: &Context<'a>) {
         for entry in &context.made {
             if !entry.name.is_empty() {
-                self.add((&format!("{prefix}{}", entry.name), wholes), &entry.answer, true);
+                self.entry((&format!("{prefix}{}", entry.name), wholes), entry);
             }
         }
+    }
+
+    /// Adds what a step made, as what that is for.
+    fn entry(&mut self, at: (&str, &[String]), entry: &Entry<'a>) {
+        let around = self.is_result;
+        self.is_result &= entry.standing == Standing::Result;
+        self.add(at, &entry.answer, true);
+        self.is_result = around;
     }
 
     /// Adds what an answer is, or what is in it, and its places where these are no things of their own.
     fn add(&mut self, (text, wholes): (&str, &[String]), answer: &Answer<'a>, with_places: bool) {
         let within =
             || std::iter::once(text.to_string()).chain(wholes.iter().cloned()).collect::<Vec<_>>();
+        if matches!(answer, Answer::Context(_) | Answer::List(_)) {
+            self.sets.push((text.into(), self.is_result));
+        }
         match answer {
             Answer::Context(inner) => return self.context((&format!("{text}."), &within()), inner),
             Answer::List(items) => {
@@ -415,7 +453,8 @@ impl<'a> Scene<'_, 'a> {
         }
         let Some(class) = self.evaluator.class_of(answer) else { return };
         let Some(curve) = Curve::of(self.evaluator, answer) else { return };
-        self.found.push(Found { text: text.into(), class, curve, wholes: wholes.to_vec() });
+        let (wholes, is_result) = (wholes.to_vec(), self.is_result);
+        self.found.push(Found { text: text.into(), class, curve, wholes, is_result });
         if !with_places || matches!(curve.figure, Figure::Point(_)) {
             return;
         }
@@ -424,8 +463,8 @@ impl<'a> Scene<'_, 'a> {
                 && let (Some(class), Some(curve)) =
                     (self.evaluator.class_of(&part), Curve::of(self.evaluator, &part))
             {
-                let wholes = Vec::new();
-                self.found.push(Found { text: format!("{text}.{name}"), class, curve, wholes });
+                let (text, wholes) = (format!("{text}.{name}"), Vec::new());
+                self.found.push(Found { text, class, curve, wholes, is_result: false });
             }
         }
     }

@@ -12,7 +12,7 @@ use crate::views::values;
 use crate::words;
 use eval::{Answer, Evaluator};
 use kernel::{DOCUMENT, Path, Values};
-use syntax::ast::{AstNode, Member, Value};
+use syntax::ast::{AstNode, Expr, Member, Value};
 
 /// Returns the steps of what is recorded, or of the program of a thing.
 pub(crate) fn view(open: &Open, home: &Home, thing: Option<&str>) -> Option<StepsView> {
@@ -108,7 +108,7 @@ impl<'a> Rows<'_, 'a> {
                 path: address.clone(),
                 name: step.name.clone().unwrap_or_default(),
                 depth,
-                words: pattern_in_words(step).unwrap_or_else(|| in_words(&formula)),
+                words: pattern_in_words(step).unwrap_or_else(|| in_words(step, &formula)),
                 formula,
                 value: answer.map(|answer| value_words(self.state, self.evaluator, &answer)),
                 is_guide: step.is_guide,
@@ -167,28 +167,44 @@ fn pattern_in_words(step: &StepNode) -> Option<String> {
     })
 }
 
-/// Says a formula as a draughtsman does: `circle tangent: -under, axis, radius r`.
-fn in_words(formula: &str) -> String {
-    // `mirrored of line, line2: about axis`
-    let of_list = formula.strip_prefix('[').and_then(|rest| rest.split_once("]."));
-    if let Some((all, (word, arguments))) =
-        of_list.and_then(|(a, rest)| Some((a, rest.split_once('(')?)))
-        && let Some(arguments) = arguments.strip_suffix(')')
-    {
-        return format!("{word} of {all}: {}", arguments.replace(": ", " "));
-    }
-    let Some((head, arguments)) = formula.split_once('(') else { return formula.into() };
-    let Some(arguments) = arguments.strip_suffix(')') else { return formula.into() };
-    let is_class = head.chars().next().is_some_and(char::is_uppercase);
-    let is_plain = head.chars().all(|c| c.is_alphanumeric() || "_.[]".contains(c));
-    let head = match head.split_once('.') {
-        _ if !is_plain => return formula.into(),
-        Some((class, word)) if is_class => format!("{} {word}", class.to_lowercase()),
-        Some((of, word)) => format!("{word} of {of}"),
-        None if is_class => head.to_lowercase(),
-        None => return formula.into(),
+/// Says a formula as a draughtsman does: `circle tangent: -under, axis, radius r`; one that is no construction as it is
+/// written.
+fn in_words(step: &StepNode, formula: &str) -> String {
+    let Some(Value::Expr(value)) = &step.value else { return formula.into() };
+    let said = |node: &syntax::SyntaxNode| {
+        node.text().to_string().split_whitespace().collect::<Vec<_>>().join(" ")
     };
-    format!("{head}: {}", arguments.replace(": ", " "))
+    let is_class = |text: &str| text.starts_with(char::is_uppercase);
+    let (head, list) = match value {
+        Expr::Call(call) => {
+            let name = call.name().map(|word| word.text().to_string()).filter(|n| is_class(n));
+            (name.map(|name| name.to_lowercase()), call.args())
+        }
+        Expr::Field(field) => {
+            let head = || {
+                let (of, word) = (said(field.receiver()?.syntax()), field.name()?);
+                let word = word.text();
+                Some(match field.receiver()? {
+                    Expr::Name(_) if is_class(&of) => format!("{} {word}", of.to_lowercase()),
+                    Expr::List(_) => format!("{word} of {}", of[1..of.len() - 1].trim()),
+                    Expr::Name(_) | Expr::Field(_) | Expr::Index(_) => format!("{word} of {of}"),
+                    _ => return None,
+                })
+            };
+            (head(), field.args())
+        }
+        _ => (None, None),
+    };
+    let (Some(head), Some(list)) = (head, list) else { return formula.into() };
+    let argument = |argument: syntax::ast::Arg| {
+        let value = said(argument.value()?.syntax());
+        Some(match argument.label() {
+            Some(label) => format!("{} {value}", label.text()),
+            None => value,
+        })
+    };
+    let arguments: Vec<String> = list.args().filter_map(argument).collect();
+    format!("{head}: {}", arguments.join(", "))
 }
 
 fn value_words<'a>(state: &'a State, evaluator: &Evaluator<'a>, answer: &Answer<'a>) -> String {

@@ -258,27 +258,17 @@ pub(crate) fn visible(text: &Source, home: &Home) -> Vec<Vec<String>> {
     levels
 }
 
-/// Whether what a path leads to is part of what a program draws: a step that is no guide, what stands in a turn of one, or
-/// a list of such.
-pub(crate) fn is_drawn(text: &Source, home: &Home, path: &str) -> bool {
-    let Home::Program { program: name, .. } = home else { return true };
-    if let Some(all) = path.strip_prefix('[').and_then(|rest| rest.strip_suffix(']')) {
-        return all.split(',').all(|one| is_drawn(text, home, one.trim()));
-    }
-    let is_word = |c: char| c.is_alphanumeric() || c == '_';
-    let head = path.split(|c| !is_word(c)).next().unwrap_or_default();
-    let is_itself = head == path || path[head.len()..].starts_with('[');
-    let address = address_of(home);
-    let mut ways: Vec<&str> = address.match_indices('.').map(|(at, _)| &address[..at]).collect();
-    ways.extend(["", &address]);
-    ways.sort_by_key(|way| std::cmp::Reverse(way.len()));
-    let made = |way: &&str| walk(text, name, way)?.steps().into_iter().find(|s| s.segment == head);
-    is_itself && ways.iter().find_map(made).is_some_and(|step| !step.is_guide)
+/// A value that a thing at the top of a text gives to a part.
+pub(crate) struct Given {
+    /// The value with its part, as it is written: `g.m = 4`.
+    pub(crate) says: String,
+    /// What goes with it: its doc comment, and the braces where nothing else is in them.
+    pub(crate) span: Span,
 }
 
-/// Where a thing at the top of a text is given a value, by the place of the part's name: with the braces, where it is
-/// given no other.
-pub(crate) fn given_at(text: &Source, name: Span) -> Option<Span> {
+/// Finds where a thing at the top of a text is given a value, by the place of the part's name.
+pub(crate) fn given_at(text: &Source, name: Span) -> Option<Given> {
+    let of = |span: Span| &text[span.start as usize..span.end as usize];
     let is_it = |member: &Member| match member {
         Member::Assign(assign) => assign.target().is_some_and(|target| target.span() == name),
         _ => false,
@@ -286,13 +276,48 @@ pub(crate) fn given_at(text: &Source, name: Span) -> Option<Span> {
     let of_part = |member: Member| {
         let Member::Part(part) = member else { return None };
         let body = part.body()?;
-        let all: Vec<Member> = body.members().collect();
-        let own = all.iter().find(|member| is_it(member))?;
-        let span = if all.len() == 1 { body.span() } else { span_without_doc(own.syntax()) };
-        let before = text[..span.start as usize].trim_end().len() as u32;
-        Some(Span::new(before, span.end))
+        let own = { body.members() }.find(is_it)?;
+        let thing = of(span_without_doc(part.syntax()));
+        let thing = thing.split(':').next().unwrap_or_default().trim();
+        let says = format!("{thing}.{}", of(span_without_doc(own.syntax())).trim());
+        let (around, own) = (body.span(), own.span());
+        let before = &text[around.start as usize..own.start as usize];
+        let after = &text[own.end as usize..around.end as usize];
+        let is_alone = before.trim() == "{" && after.trim() == "}";
+        let span = match is_alone {
+            true => {
+                let before = text[..around.start as usize].trim_end().len() as u32;
+                Span::new(before, around.end)
+            }
+            false => with_lines_of(text, own),
+        };
+        Some(Given { says, span })
     };
     { text.file.members() }.find_map(of_part)
+}
+
+/// What goes where a span does: the comma after it, and the lines that nothing else is on.
+pub(crate) fn with_lines_of(text: &str, span: Span) -> Span {
+    let (mut start, mut end) = (span.start as usize, span.end as usize);
+    start += text[start..end].len() - text[start..end].trim_start().len();
+    end = start + text[start..end].trim_end().len();
+    let rest = &text[end..];
+    if let Some(after) = rest.trim_start_matches([' ', '\t']).strip_prefix(',') {
+        end = text.len() - after.len();
+    }
+    let gap = |text: &str| text.len() - text.trim_start_matches([' ', '\t', '\r']).len();
+    let line = text[..start].rfind('\n').map_or(0, |at| at + 1);
+    let is_first = text[line..start].trim().is_empty();
+    let after = end + gap(&text[end..]);
+    match (is_first, text[after..].starts_with('\n')) {
+        (true, true) => Span::new(line as u32, after as u32 + 1),
+        (true, false) => Span::new(start as u32, after as u32),
+        (false, false) if text[..start].ends_with('(') => Span::new(start as u32, after as u32),
+        (false, _) => {
+            let before = text[..start].trim_end_matches([' ', '\t']).len();
+            Span::new(before as u32, end as u32)
+        }
+    }
 }
 
 /// Joins two parts of an address.

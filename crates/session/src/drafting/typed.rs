@@ -82,7 +82,7 @@ pub(super) fn truth(typed: &str) -> &str {
     }
 }
 
-fn is_number(text: &str) -> bool {
+pub(super) fn is_number(text: &str) -> bool {
     text.trim().parse::<f64>().is_ok()
 }
 
@@ -121,7 +121,7 @@ fn further(from: &str, by: &str) -> String {
 }
 
 /// Reads an expression; nothing where the text is none.
-fn expression(text: &str) -> Option<Expr> {
+pub(super) fn expression(text: &str) -> Option<Expr> {
     let parse = syntax::parse_expression(base::FileId(0), text);
     parse.file().expression().filter(|_| parse.diagnostics().is_empty())
 }

@@ -2,7 +2,7 @@
 
 use super::hands::{home, prompt, replaced, turn_of};
 use super::view::{Go, Prompt, StepOperand, StepsView, Turn};
-use super::{blocks, changing, choice, recording, remove, scene, steps, text, visit};
+use super::{blocks, changing, choice, patterns, recording, remove, scene, steps, text, visit};
 
 use crate::session::Session;
 use crate::view::{Change, DocumentId, Refusal};
@@ -231,9 +231,12 @@ impl Session {
         (program, step): (&str, &str),
         is_guide: bool,
     ) -> Result<Change, Refusal> {
-        let source = text::Source::now(&self.document(id).state);
-        let text = steps::with_guide(&source, (program, step), is_guide)?;
         let (open, beside) = self.beside_others(id);
+        let source = text::Source::now(&open.state);
+        let text = steps::with_guide(&source, (program, step), is_guide)?;
+        let users = steps::users(&source, program, step);
+        let patterns = patterns::among(&source, program, (&users, step));
+        let text = patterns::settled(open, &beside, &program.into(), (text, &patterns))?;
         let label = format!("{step} {}", if is_guide { "as a guide" } else { "drawn" });
         let change = recording::retext(open, &beside, text, label)?;
         Ok(*self.with_reach(id, change))

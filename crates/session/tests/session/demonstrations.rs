@@ -90,8 +90,70 @@ fn a_nut_is_a_flat_in_a_polar_pattern() {
     assert_eq!(value(&desk, "nut.pattern"), "7 figures");
     desk.session.make_guide(desk.id, ("Nut", "line"), true).expect("it has a name");
     assert!(desk.text().contains("guide line = Line("), "{}", desk.text());
+    // there are as many flats, whether the first one is drawn by the pattern or by the line
+    assert_eq!(value(&desk, "nut.pattern"), "8 figures");
     desk.session.make_guide(desk.id, ("Nut", "line"), false).expect("it has a name");
     assert!(!desk.text().contains("guide line"), "{}", desk.text());
+    assert_eq!(value(&desk, "nut.pattern"), "7 figures");
+    for (what, flats) in [("Line(point2, point)", "8 figures"), ("-line", "7 figures")] {
+        desk.session.set_operand(desk.id, ("nut", "pattern", "what"), what).expect("it is a line");
+        assert_eq!(value(&desk, "nut.pattern"), flats, "{what}");
+    }
+    assert_eq!(desk.wrong(), [], "{}", desk.text());
+}
+
+#[test]
+fn a_pattern_of_what_is_only_typed_draws_all_of_it() {
+    let typed = "Circle(center: Point(45, 0), radius: 5)";
+    let mut desk = Desk::of("use geometry\nunit mm\n");
+    draw(&mut desk, ":pattern(about,count)", &[Typed(typed), Typed("0, 0"), Typed("6")]);
+    assert_eq!(value(&desk, "pattern"), "6 figures");
+    let mut desk = record("Flange", &[]);
+    let operands = [Typed(typed), Typed("0, 0"), Typed("6")];
+    draw(&mut desk, ":pattern(about,count)", &operands);
+    assert_eq!(value(&desk, "flange.pattern"), "6 figures");
+    // what is drawn is there, though it is turned round
+    draw(&mut desk, "Circle", &[Typed("90, 0"), Typed("5")]);
+    draw(&mut desk, ":pattern(about,count)", &[Typed("-circle"), Typed("0, 0"), Typed("6")]);
+    assert_eq!(value(&desk, "flange.pattern2"), "5 figures");
+    // a guide is not
+    guide(&mut desk, "Circle", &[Typed("20, 0"), Typed("5")]);
+    draw(&mut desk, ":pattern(about,count)", &[Typed("circle2"), Typed("0, 0"), Typed("6")]);
+    assert_eq!(value(&desk, "flange.pattern3"), "6 figures");
+}
+
+#[test]
+fn a_rubber_band_for_copies_takes_no_guides() {
+    let mut desk = record("Flange", &[]);
+    guide(&mut desk, "Circle", &[Typed("0, 0"), Typed("3")]);
+    draw(&mut desk, "Circle", &[Typed("10, 0"), Typed("2")]);
+    guide(&mut desk, "Axis.vertical(x)", &[Typed("100")]);
+    desk.session.begin(desk.id, "Point:mirrored").expect("figures are mirrored");
+    desk.session.point_all(desk.id, ((-20.0, -20.0), (20.0, 20.0))).expect("a circle");
+    desk.session.enter(desk.id, "axis").expect("it is a line");
+    let wanted = "mirrored = circle2.mirrored(about: axis)";
+    assert!(desk.text().contains(wanted), "{}", desk.text());
+}
+
+#[test]
+fn a_step_of_a_list_with_turns_is_told_by_its_parts() {
+    let mut desk = Desk::of(
+        "use geometry
+unit mm
+program P() {
+    turns = repeat 2 times {
+        c = Circle(center: Point(5, 0), radius: 2)
+    }
+    circle = Circle(center: Point(10, 0), radius: 2)
+    mirrored = [turns[0].c, circle].mirrored(about: Axis.vertical(x: 20))
+}
+",
+    );
+    assert_eq!(desk.wrong(), []);
+    desk.session.record(desk.id, "P").expect("it is there");
+    let rows = desk.session.steps(desk.id, None).expect("it is recorded").rows;
+    let words = &rows.last().expect("there are steps").words;
+    assert_eq!(words, "mirrored of turns[0].c, circle: about Axis.vertical(x: 20)");
 }
 
 #[test]
@@ -265,7 +327,9 @@ fn a_rubber_band_takes_a_pattern_as_a_whole_so_that_its_count_may_change() {
     let steps = desk.session.history(desk.id).0.len();
     desk.session.begin(desk.id, "Point:mirrored").expect("figures are mirrored");
     desk.session.point_all(desk.id, ((-70.0, -70.0), (70.0, 70.0))).expect("all of it");
-    desk.session.enter(desk.id, "axis").expect("it is a line");
+    let turn = desk.session.enter(desk.id, "axis").expect("it is a line");
+    let Turn::Made { name, .. } = turn else { panic!("all is given") };
+    assert_eq!(name, "mirrored, mirrored2");
     for wanted in [
         "mirrored = [circle, circle2].mirrored(about: axis)",
         "mirrored2 = pattern.mirrored(about: axis)",

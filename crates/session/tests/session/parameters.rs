@@ -163,3 +163,162 @@ program Hole(d: Length in 1..20 = 11 \"Diameter?\", deep: Length = 2 * d) {
     enter(&mut desk, "40, 0");
     assert!(desk.text().contains("d = 11"), "{}", desk.text());
 }
+
+/// A parameter said anew.
+fn anew(name: &str, (class, range, example): (&str, &str, &str), prompt: &str) -> NewParameter {
+    NewParameter {
+        name: name.into(),
+        class: class.into(),
+        range: range.into(),
+        example: example.into(),
+        prompt: prompt.into(),
+        instead_of: name.into(),
+    }
+}
+
+/// A desk where a program of a document is recorded further.
+fn recorded(program: &str, text: &str) -> Desk {
+    let mut desk = Desk::of(&format!("use geometry\nunit mm\n{text}"));
+    assert_eq!(desk.wrong(), [], "{text}");
+    desk.session.record(desk.id, program).expect("it is there");
+    desk
+}
+
+#[test]
+fn a_length_that_things_are_given_becomes_no_angle() {
+    let text = "program G(first: Length = 30) {
+    point = Point(10, 0)
+}
+g: G
+h: G {
+    first = 40
+}
+";
+    let mut desk = recorded("G", text);
+    let before = desk.text();
+    desk.session.begin(desk.id, "Point:turned").expect("figures are turned");
+    pick(&mut desk, 10.0, 0.0);
+    enter(&mut desk, "0, 0");
+    let refused = desk.session.enter(desk.id, "first").expect_err("h has one of 40 mm");
+    let wanted =
+        "first is a length elsewhere, too: where an angle is wanted, define one of the class Angle";
+    assert_eq!(refused.message, wanted);
+    let angle = anew("first", ("Angle", "", "30"), "");
+    assert!(desk.session.define_parameter(desk.id, &angle).is_err());
+    assert_eq!(desk.text(), before);
+}
+
+#[test]
+fn a_number_of_a_parameter_that_is_said_to_be_an_angle_is_of_degrees() {
+    let text = "program G(first: Length in 1..<90 = 30) {
+    point = Point(10, 0)
+}
+g: G
+";
+    let mut desk = recorded("G", text);
+    let angle = anew("first", ("Angle", "1..<90", "30"), "");
+    desk.session.define_parameter(desk.id, &angle).expect("nothing speaks of it");
+    assert!(desk.text().contains("(first: Angle in 1 deg..<90 deg = 30 deg)"), "{}", desk.text());
+    assert_eq!(desk.wrong(), []);
+}
+
+#[test]
+fn what_is_refused_keeps_what_can_be_done_again() {
+    let mut desk = flange();
+    define(&mut desk, "spare", "3");
+    desk.undo();
+    let text = NewParameter { name: "hole".into(), ..anew("d", ("", "", "true"), "") };
+    let before = desk.text();
+    assert!(desk.session.define_parameter(desk.id, &text).is_err());
+    assert_eq!(desk.text(), before);
+    desk.redo();
+    assert!(desk.text().contains("spare: Length = 3"), "{}", desk.text());
+}
+
+#[test]
+fn a_parameter_said_anew_keeps_what_is_the_same() {
+    let text = "program G(
+    by x: Length = 30, // as drawn
+    note: Text = \"a, b\" \"Say \\\"big\\\"\",
+) {
+    point = Point(x, 0)
+}
+g: G
+";
+    let mut desk = recorded("G", text);
+    let rows = desk.session.steps(desk.id, None).expect("it is recorded").parameters;
+    assert_eq!(rows[1].prompt, "Say \"big\"");
+    let note = anew("note", ("Text", "", "\"a, c\""), "Say \"small\"");
+    desk.session.define_parameter(desk.id, &note).expect("a text");
+    let x = anew("x", ("Length", "1..50", "40"), "");
+    desk.session.define_parameter(desk.id, &x).expect("a length");
+    for wanted in [
+        "    by x: Length in 1..50 = 40, // as drawn\n",
+        "    note: Text = \"a, c\" \"Say \\\"small\\\"\",\n",
+    ] {
+        assert!(desk.text().contains(wanted), "{}", desk.text());
+    }
+}
+
+#[test]
+fn a_range_may_leave_its_end_out() {
+    let mut desk = Desk::of(
+        "use geometry
+unit mm
+program Hole(holes: Integer in 1..<10 = 3) {
+    circle = Circle(center: Point(0, 0), radius: holes * 1 mm)
+}
+",
+    );
+    let prompt = desk.session.begin(desk.id, "Hole").expect("it is a tool");
+    assert!(prompt.words.contains(", 1 to less than 10;"), "{}", prompt.words);
+    let refused = desk.session.enter(desk.id, "10").expect_err("it is the end");
+    assert_eq!(refused.message, "holes is 10: 1 to less than 10 are allowed");
+    enter(&mut desk, "9");
+}
+
+#[test]
+fn a_parameter_that_is_deleted_takes_its_values_and_no_comments() {
+    let text = "program G(
+    // the sizes
+    m: Length = 3, k: Length = 2,
+) {
+    point = Point(k, 0)
+}
+g: G { // as built
+    m = 4
+    // end
+}
+h: G {
+    /// the small one
+    m = 5
+}
+";
+    let mut desk = recorded("G", text);
+    let change = desk.session.remove_parameter(desk.id, "m").expect("no step speaks of it");
+    assert_eq!(change.along, ["g.m = 4", "h.m = 5"]);
+    let text = desk.text();
+    assert!(text.contains("    // the sizes\n    k: Length = 2,\n"), "{text}");
+    assert!(text.ends_with("g: G { // as built\n    // end\n}\nh: G\n"), "{text}");
+    assert_eq!(desk.wrong(), [], "{text}");
+}
+
+#[test]
+fn a_loop_that_is_open_in_another_program_stays_a_warning() {
+    let mut desk = Desk::of(
+        "use geometry
+unit mm
+program Other() {
+    turns = repeat {
+        circle = Circle(center: Point(0, 0), radius: 3)
+    }
+}
+",
+    );
+    desk.session.record(desk.id, "Mine").expect("a new program");
+    desk.session.begin_loop(desk.id, "").expect("it is recorded");
+    let all = desk.session.text(desk.id).diagnostics;
+    let said: Vec<_> = all.iter().filter(|d| d.code == "open-block").collect();
+    let said: Vec<_> = said.iter().map(|d| d.severity.as_str()).collect();
+    assert_eq!(said, ["warning", "recording"]);
+}
