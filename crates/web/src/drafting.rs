@@ -303,6 +303,7 @@ impl Lab {
             Some(Err(refusal)) => self.notice.set(Some(Notice::Refused(refusal))),
             stopped => {
                 self.settle(stopped);
+                self.drafting.parameter.set(NewParameter::default());
                 // its steps stay in sight, and its values to be tried
                 self.select(steps.map(|steps| steps.example));
                 self.drafting.lit.set(None);

@@ -152,6 +152,10 @@ impl Hand {
         } else if e.button() == 1 || (e.button() == 0 && space == Space::Down) {
             self.set_mode(Mode::Pan { last: at });
         } else if e.button() == 0 && self.lab.takes_band() {
+            if self.lab.drafts() {
+                // The keyboard stays with what is typed.
+                e.prevent_default();
+            }
             self.set_mode(Mode::Band { start: at });
         } else if e.button() == 0 && self.lab.drafting.seeking.get_untracked() {
             self.lab.visit_picked(&self.pointer(at));
