@@ -130,7 +130,9 @@ fn made(lab: Lab) -> Array {
     lab.structure.with_untracked(|rows| {
         let rows = rows.iter().filter(|row| row.kind == session::view::RowKind::Virtual);
         let valued = rows.filter_map(|row| Some((&row.path, row.value.as_ref()?)));
-        valued.map(|(path, value)| object(&[("path", text(path)), ("value", text(value))])).collect()
+        valued
+            .map(|(path, value)| object(&[("path", text(path)), ("value", text(value))]))
+            .collect()
     })
 }
 

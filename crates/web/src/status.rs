@@ -135,7 +135,8 @@ pub fn Refused(
                 sentences.push(sentence);
             }
         }
-        let diagnostics = sentences.into_iter().map(|sentence| view! { <p>{marked(&sentence)}</p> });
+        let diagnostics =
+            sentences.into_iter().map(|sentence| view! { <p>{marked(&sentence)}</p> });
         view! {
             <div class="notice refused" role="alert">
                 <div class="words">

@@ -391,7 +391,12 @@ async fn the_nine_points_of_a_triangle_are_constructed_and_lie_on_one_circle() {
     let [a, b, c] = corners;
     let (ab, bc, ca) = (between(a, b, 0.5), between(b, c, 0.5), between(c, a, 0.5));
     // what a point nearest to a line is called in textbooks
-    construct(&visit, "foot", &[c, between(a, b, 0.9), a, between(b, c, 0.9), b, between(c, a, 0.1)]).await;
+    construct(
+        &visit,
+        "foot",
+        &[c, between(a, b, 0.9), a, between(b, c, 0.9), b, between(c, a, 0.1)],
+    )
+    .await;
     construct(&visit, "midpoint", &[a, b, b, c, c, a]).await;
     construct(&visit, "nine-point", &[ab, bc, ca]).await;
     let built = state(&visit).await;

@@ -79,7 +79,8 @@ async fn a_lesson_goes_on_as_its_tasks_are_done() {
 async fn no_page_is_wider_than_its_window() {
     let visit = Visit::open(None).await;
     // a page at 200 % is one of half the width
-    let sizes = [("wide", 1440, 900), ("tablet", 820, 1000), ("phone", 390, 844), ("large", 720, 450)];
+    let sizes =
+        [("wide", 1440, 900), ("tablet", 820, 1000), ("phone", 390, 844), ("large", 720, 450)];
     for document in ["quadrilateral.thing", "voltage-divider.thing", "warren-truss.thing"] {
         show(&visit, document).await;
         for (n, (size, width, height)) in sizes.into_iter().enumerate() {

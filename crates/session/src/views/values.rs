@@ -497,7 +497,9 @@ fn virtual_parts(document: &Document, class: ClassId) -> Rc<[Answers]> {
             }
         }
     }
-    let read = found.into_iter().filter(|(_, (_, is_drawn))| !is_drawn);
+    // what is placed stands there by its own names
+    let is_read = |name: &Name, is_drawn: bool| !is_drawn && name.as_str() != lang::PLACED;
+    let read = found.into_iter().filter(|(name, (_, is_drawn))| is_read(name, *is_drawn));
     read.map(|(name, (doc, _))| Answers {
         name: name.clone(),
         doc: doc.to_string(),

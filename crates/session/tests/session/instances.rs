@@ -77,6 +77,9 @@ fn what_is_placed_is_dragged_and_held_in_its_place_it_is_fitted() {
     let mut desk = Desk::of(
         &WASHER.replace("washer: Washer\n", "washer: Placed of Washer { at = (20, 0) }\n"),
     );
+    // each value stands there once, by a name that a text can say
+    let paths: Vec<String> = desk.session.values(desk.id).into_iter().map(|row| row.path).collect();
+    assert!(paths.iter().all(|path| session::parse_path(path).is_some()), "{paths:?}");
     desk.drag("washer.rim.center", &[(30.0, 5.0)]);
     assert_eq!(circle(&desk, "washer.rim"), [30.0, 5.0, 5.0]);
     assert_eq!(desk.session.is_held_in_place(desk.id, "washer"), Some(false));

@@ -5,7 +5,8 @@ pub const EMPTY_SHEET: &str = "The sheet is empty. Draw with a tool of the rail,
 /// A dimension that only reads.
 pub const ONLY_READ: &str = "Only read it";
 /// What that does.
-pub const ONLY_READ_HELP: &str = "A reference dimension: it shows the value in parentheses and sets nothing";
+pub const ONLY_READ_HELP: &str =
+    "A reference dimension: it shows the value in parentheses and sets nothing";
 /// What is touched next is selected besides.
 pub const ALSO: &str = "+ also";
 /// What that does.
