@@ -114,8 +114,9 @@ pub(crate) fn settled(
             home.and_then(|home| is_drawn(&scene::standings(&state, &home), &pattern.what));
         let Some(is_there) = is_there else {
             let what = pattern.what.syntax().text().to_string();
+            let name = address.rsplit('.').next().unwrap_or_default();
             let message = format!(
-                "{address} is a pattern of {}, which is not drawn by these values: choose others first",
+                "{name} is a pattern of {}, which is not drawn by these values: choose others first",
                 what.trim()
             );
             return Err(words::refuse(message));

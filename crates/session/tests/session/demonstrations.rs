@@ -341,3 +341,38 @@ fn a_rubber_band_takes_a_pattern_as_a_whole_so_that_its_count_may_change() {
     assert_eq!(value(&desk, "flange.mirrored2"), "3 figures");
     assert_eq!(desk.wrong(), [], "{}", desk.text());
 }
+
+#[test]
+fn a_pattern_of_what_is_not_drawn_by_these_values_is_not_settled_by_chance() {
+    let mut desk = Desk::of(
+        "use geometry
+unit mm
+program P(d: Length = 4) {
+    if d > 5 {
+        c = Circle(center: Point(10, 0), radius: 2)
+        many = (1..3 - 1).map(nth => c.turned(about: Point(0, 0), by: nth * 360 deg / 3))
+    }
+}
+p: P
+",
+    );
+    assert_eq!(desk.wrong(), []);
+    let before = desk.text();
+    let refused = desk.session.make_guide(desk.id, ("P", "#0.then.c"), true);
+    let wanted = "many is a pattern of c, which is not drawn by these values: choose others first";
+    assert_eq!(refused.expect_err("nothing tells").message, wanted);
+    assert_eq!(desk.text(), before);
+    desk.set("p.d", 6.0).expect("a parameter can be set");
+    desk.session.make_guide(desk.id, ("P", "#0.then.c"), true).expect("it is drawn");
+    assert!(desk.text().contains("many = (0..3 - 1)"), "{}", desk.text());
+}
+
+#[test]
+fn a_step_cannot_speak_of_itself() {
+    let mut desk = record("Mark", &[]);
+    draw(&mut desk, "Circle", &[Typed("0, 0"), Typed("3")]);
+    desk.session.begin_change(desk.id, ("circle", "center")).expect("it has a centre");
+    let pointer = Pointer { at: (3.0, 0.0), reach: 0.4, ..Pointer::default() };
+    let refused = desk.session.point(desk.id, &pointer).expect_err("it is the circle's own");
+    assert_eq!(refused.message, "a step cannot speak of itself, as circle would");
+}
