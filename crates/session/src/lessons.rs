@@ -6,16 +6,56 @@
 use crate::apply;
 use crate::check::{command_of, expect_rule, literal_of, meant};
 use crate::document::Open;
-use crate::host::Host;
+use crate::host::{Beside, Host};
+use crate::session::Session;
 use crate::state::State;
 use crate::tools::of_classes;
-use crate::view::{Change, CheckReport, LessonEntry, LessonView, Refusal, Shortfall};
+use crate::view::{Change, CheckReport, DocumentId, LessonEntry, LessonView, Refusal, Shortfall};
 use crate::{views, words};
 use base::LineIndex;
 use drawing::Drawing;
 use kernel::{Command, DOCUMENT, Path, Term};
 use lang::{Expectation, Goal, Lesson, LessonStep, StatementKind};
 use std::rc::Rc;
+
+impl Session {
+    /// Lists the lessons of a document.
+    pub fn lessons(&self, id: DocumentId) -> Vec<LessonEntry> {
+        list(&self.document(id).state)
+    }
+    /// Begins one of a document's lessons by its number, or leaves the one that goes on.
+    pub fn begin_lesson(&mut self, id: DocumentId, which: Option<usize>) {
+        let open = self.document_mut(id);
+        match which {
+            Some(which) => begin(open, which),
+            None => open.study = None,
+        }
+    }
+    /// Returns what the lesson shows that goes on, at the first step that is not done; `explained` says that the
+    /// reasons are asked for. Nothing where no lesson goes on.
+    pub fn lesson(&mut self, id: DocumentId, explained: bool) -> Option<LessonView> {
+        let (open, beside) = self.beside_others(id);
+        follow(open, &beside, explained)
+    }
+    /// Goes to the next step of the lesson, whether or not this one is done.
+    pub fn next_step(&mut self, id: DocumentId) {
+        go_on(self.document_mut(id));
+    }
+    /// Does the task of the present step as the lesson does it.
+    ///
+    /// # Errors
+    /// The lesson does not show it, or it can no longer be done.
+    pub fn show_solution(&mut self, id: DocumentId) -> Result<Change, Refusal> {
+        let (open, beside) = self.beside_others(id);
+        open.drag = None;
+        show(open, &beside)
+    }
+    /// Goes through the lessons, each on a fresh copy of the document: every task must be done by its solution.
+    pub fn run_lessons(&self, id: DocumentId) -> Vec<CheckReport> {
+        let beside = Beside::of(&*self.host, &self.documents, id);
+        run_all(&self.document(id).state, &beside)
+    }
+}
 
 /// Where someone is in a lesson.
 pub(crate) struct Study {

@@ -11,7 +11,6 @@ use crate::drag;
 use crate::ghosts;
 use crate::host::{self, Beside, Host};
 use crate::joining;
-use crate::lessons;
 use crate::opening::Opening;
 use crate::plotting::{self, Plot, Request, Sweeping};
 use crate::recognise;
@@ -22,9 +21,9 @@ use crate::tools::{self, Tool};
 use crate::view::{
     Advice, Affected, Along, Analysis, BinEntry, Change, CheckReport, CompletionView,
     DiagnosticView, DocumentId, DragState, Explanation, FamilyRow, FamilyView, FixView, Ghost,
-    HeldView, LessonEntry, LessonView, MovedView, PictureView, PlotEntry, Pointer, Question,
-    Recognised, Refusal, RowFormats, RowOutcome, Status, StructureRow, TableView, TextView,
-    TokenView, ToolView, ValueRow,
+    HeldView, MovedView, PictureView, PlotEntry, Pointer, Question, Recognised, Refusal,
+    RowFormats, RowOutcome, Status, StructureRow, TableView, TextView, TokenView, ToolView,
+    ValueRow,
 };
 use crate::views;
 use crate::views::listing::Listing;
@@ -724,42 +723,6 @@ impl Session {
     /// it changed nothing it should not have. It shares no code with what computed the values.
     pub fn complaints(&self, id: DocumentId) -> Vec<String> {
         complaints::of(self.document(id))
-    }
-    /// Lists the lessons of a document.
-    pub fn lessons(&self, id: DocumentId) -> Vec<LessonEntry> {
-        lessons::list(&self.document(id).state)
-    }
-    /// Begins one of a document's lessons by its number, or leaves the one that goes on.
-    pub fn begin_lesson(&mut self, id: DocumentId, which: Option<usize>) {
-        let open = self.document_mut(id);
-        match which {
-            Some(which) => lessons::begin(open, which),
-            None => open.study = None,
-        }
-    }
-    /// Returns what the lesson shows that goes on, at the first step that is not done; `explained` says that the
-    /// reasons are asked for. Nothing where no lesson goes on.
-    pub fn lesson(&mut self, id: DocumentId, explained: bool) -> Option<LessonView> {
-        let (open, beside) = self.beside_others(id);
-        lessons::follow(open, &beside, explained)
-    }
-    /// Goes to the next step of the lesson, whether or not this one is done.
-    pub fn next_step(&mut self, id: DocumentId) {
-        lessons::go_on(self.document_mut(id));
-    }
-    /// Does the task of the present step as the lesson does it.
-    ///
-    /// # Errors
-    /// The lesson does not show it, or it can no longer be done.
-    pub fn show_solution(&mut self, id: DocumentId) -> Result<Change, Refusal> {
-        let (open, beside) = self.beside_others(id);
-        open.drag = None;
-        lessons::show(open, &beside)
-    }
-    /// Goes through the lessons, each on a fresh copy of the document: every task must be done by its solution.
-    pub fn run_lessons(&self, id: DocumentId) -> Vec<CheckReport> {
-        let beside = Beside::of(&*self.host, &self.documents, id);
-        lessons::run_all(&self.document(id).state, &beside)
     }
     /// Runs the `check` blocks, each on a fresh copy of the document as it is.
     pub fn run_checks(&self, id: DocumentId) -> Vec<CheckReport> {

@@ -7,10 +7,12 @@ mod drafting;
 mod family;
 mod hand;
 mod jobs;
+mod lessons;
 pub use drafting::*;
 pub use family::*;
 pub use hand::*;
 pub use jobs::*;
+pub use lessons::*;
 
 pub const LAB: &str = "ThingLab";
 pub const GALLERY: &str = "Gallery";
@@ -31,12 +33,6 @@ pub const PICTURE: &str = "Picture";
 pub const STRUCTURE: &str = "Structure";
 pub const FIRST_LEAD: &str = "New here? One minute with a figure that keeps its promises.";
 pub const FIRST_BEGIN: &str = "Drag a corner";
-pub const LESSON: &str = "Lesson";
-pub const LESSONS: &str = "Lessons";
-pub const LESSON_BEGIN: &str = "Begin";
-pub const LESSON_NEXT: &str = "Go on";
-pub const LESSON_HINT: &str = "Hint";
-pub const LESSON_SHOW: &str = "Show me";
 pub const FIRST_SKIP: &str = "Skip";
 pub const INSPECTOR: &str = "Inspector";
 pub const PARAMETERS: &str = "what is given in this document";
@@ -280,8 +276,6 @@ pub fn sweeping(of: &str, done: u32, all: u32) -> String {
     format!("sweeping {of}: {done} of {all}; Esc stops")
 }
 
-/// What a change did besides what it was meant to do; nothing if that is all.
-/// Says what a chart shows, to those who do not see it.
 pub fn calculator_without(written: &str) -> String {
     format!("Remove {written}")
 }
@@ -289,19 +283,7 @@ pub fn expression_kept(name: &str) -> String {
     format!("the document answers {name} now")
 }
 
-pub fn lesson_offered(title: &str) -> String {
-    format!("This document has a lesson: {title}.")
-}
-pub fn lesson_place(title: &str, at: u32, of: u32) -> String {
-    format!("{title}: {at} of {of}")
-}
-pub fn lesson_over(title: &str) -> String {
-    format!("{title}: done.")
-}
-pub fn lesson_next(title: &str) -> String {
-    format!("Next: {title}")
-}
-
+/// Says what a chart shows, to those who do not see it.
 pub fn chart_of(plot: &session::plotting::Plot) -> String {
     let curves = plot.curves.iter().map(|curve| curve.axis.in_words());
     let loci = plot.loci.iter().map(|locus| format!("the locus of {}", locus.label));
@@ -319,6 +301,7 @@ pub fn with_unit(number: &str, unit: &str) -> String {
     if unit.is_empty() { String::from(number) } else { format!("{number} {unit}") }
 }
 
+/// What a change did besides what it was meant to do; nothing if that is all.
 pub fn done(change: &session::view::Change) -> Option<String> {
     const SHOWN: usize = 3;
     let listed = |items: &[String]| {
