@@ -111,7 +111,7 @@ impl Lab {
         leptos::task::spawn_local(async move {
             let found = self.fetch_used(&path).await;
             if found && self.current.get_untracked().is_some_and(|shown| shown == path) {
-                self.tell(|session, id| session.catch_up(id));
+                self.tell(session::Session::catch_up);
                 self.refresh();
                 self.fetch_missing();
             }
