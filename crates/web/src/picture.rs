@@ -294,6 +294,8 @@ fn zoom_as_asked(lab: Lab, size: (f64, f64)) {
     }
     lab.zoom.set(None);
     let margin = MARGIN.min(0.12 * size.0.min(size.1));
+    // what waits or is offered lies over the lower edge
+    let room = if size.1 > LOW { size.1 - BELOW } else { size.1 };
     match asked {
         Zoom::Over(all) => {
             let is_seen = |p: Point| {
@@ -317,14 +319,13 @@ fn zoom_as_asked(lab: Lab, size: (f64, f64)) {
             });
             let vertical = lab.picture.with_untracked(|p| p.drawing.vertical);
             let all = all.unwrap_or_else(|| bounds(&Drawing::default()));
-            // what waits or is offered lies over the lower edge
-            let room = if size.1 > LOW { size.1 - BELOW } else { size.1 };
             let fitting = fit_box(all, vertical, (size.0, room), margin);
             let view = lab.picture.with_untracked(|p| with_words(&p.drawing, fitting, size));
             lab.view.set(view);
         }
         Zoom::By(factor) => {
-            lab.look_at(|view| view.zoomed(factor, (size.0 / 2.0, size.1 / 2.0)));
+            // about the middle of what is fitted, so that this stays in sight
+            lab.look_at(|view| view.zoomed(factor, (size.0 / 2.0, room / 2.0)));
         }
     }
 }

@@ -22,11 +22,7 @@ pub fn Constructions(
     });
     let found = Memo::new(move |_| {
         let wanted = wanted.get().to_lowercase();
-        let fits = |row: &ConstructionRow| {
-            let text = [&row.label, &row.id, &row.operands, &row.doc, row.also].join(" ");
-            let text = text.to_lowercase();
-            wanted.split_whitespace().all(|word| text.contains(word))
-        };
+        let fits = |row: &ConstructionRow| says(row, row.also, &wanted);
         all.with(|all| all.iter().filter(|row| fits(row)).cloned().collect::<Vec<_>>())
     });
     // Enter begins this one
@@ -36,7 +32,9 @@ pub fn Constructions(
             true => 0,
             false if row.label.to_lowercase().starts_with(&wanted) => 1,
             false if row.also.contains(&wanted) => 2,
-            false => 3,
+            // its own words count more than others for it
+            false if says(row, "", &wanted) => 3,
+            false => 4,
         };
         let first =
             found.with(|rows| rows.iter().min_by_key(|row| rank(row)).map(|r| r.id.clone()));
@@ -88,6 +86,12 @@ pub fn Constructions(
         </Show>
         <div class="shelves" on:keydown=|e| keyboard::go_in(LIST, &e)>{shelves}</div>
     }
+}
+
+/// Whether a construction's words, with other words for it, have all that are wanted.
+fn says(row: &ConstructionRow, also: &str, wanted: &str) -> bool {
+    let text = [&row.label, &row.id, &row.operands, &row.doc, also].join(" ").to_lowercase();
+    wanted.split_whitespace().all(|word| text.contains(word))
 }
 
 #[component]
