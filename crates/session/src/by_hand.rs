@@ -4,7 +4,7 @@
 use crate::apply;
 use crate::classing;
 use crate::document::Open;
-use crate::host::Beside;
+use crate::host::{Beside, Host as _};
 use crate::kinds;
 use crate::offers;
 use crate::outlines;
@@ -317,7 +317,8 @@ impl Session {
         };
         let is_empty = state.structure.parts(kernel::DOCUMENT).next().is_none();
         let is_told = is_y(&state.text).is_some();
-        let wants = self.host.read(library).and_then(|text| is_y(&text)) == Some(true);
+        let beside = Beside::of(&*self.host, &self.documents, id);
+        let wants = beside.read(library).and_then(|text| is_y(&text)) == Some(true);
         let y = if is_empty && !is_told && wants { "\ny down" } else { "" };
         Command::Edit { target: Path::default(), members: format!("use {library}{y}") }
     }

@@ -59,7 +59,7 @@ mod words;
 mod write_back;
 mod yielding;
 
-pub use host::Host;
+pub use host::{Host, used_as};
 pub use kernel::{Command, Literal, Path, Step};
 pub use opening::Opening;
 pub use session::{Session, format, misspelled, parse_path};

@@ -34,6 +34,11 @@ impl Opening {
         Self { name: name.into(), stage: Stage::Text(text.into()) }
     }
 
+    /// Returns the name of the document.
+    pub(crate) fn name(&self) -> &str {
+        &self.name
+    }
+
     /// Returns true if nothing is left to do.
     pub fn is_over(&self) -> bool {
         matches!(self.stage, Stage::Drawn(_))

@@ -64,7 +64,7 @@ impl Session {
     /// Opens a document. Never fails: what is wrong with its text, [`Session::text`] says.
     pub fn open(&mut self, name: &str, text: &str) -> DocumentId {
         let id = DocumentId(self.documents.len() as u32);
-        let beside = Beside::of(&*self.host, &self.documents, id);
+        let beside = Beside::opening(&*self.host, &self.documents, name);
         let open = Open::of(name, text.into(), &beside);
         self.documents.push(open);
         id
@@ -75,13 +75,14 @@ impl Session {
     }
     /// Goes on with an opening by one stage.
     pub fn go_on_opening(&self, opening: Opening) -> Opening {
-        let id = DocumentId(self.documents.len() as u32);
-        opening.go_on(&Beside::of(&*self.host, &self.documents, id))
+        let name = opening.name().to_string();
+        opening.go_on(&Beside::opening(&*self.host, &self.documents, &name))
     }
     /// Ends an opening, with all that is left of it.
     pub fn end_opening(&mut self, opening: Opening) -> DocumentId {
         let id = DocumentId(self.documents.len() as u32);
-        let open = opening.finished(&Beside::of(&*self.host, &self.documents, id));
+        let name = opening.name().to_string();
+        let open = opening.finished(&Beside::opening(&*self.host, &self.documents, &name));
         self.documents.push(open);
         id
     }

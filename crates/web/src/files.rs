@@ -7,24 +7,28 @@ use leptos::prelude::*;
 use session::Host;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// The texts that are known, and the names that were asked for in vain.
+/// The texts that are known, and the paths that were asked for in vain.
 #[derive(Clone, Debug, Default)]
 pub struct FileSet {
-    /// Texts by the name that `use` gives them; nothing where it is known that there is none.
+    /// The libraries, by the name that `use` gives them.
+    pub libraries: BTreeMap<String, String>,
+    /// Documents by path; nothing where it is known that there is none.
     pub texts: BTreeMap<String, Option<String>>,
-    /// The names of the libraries.
-    pub libraries: Vec<String>,
-    /// Names that nothing is known of.
+    /// The paths that nothing is known of.
     pub wanted: BTreeSet<String>,
 }
 
 impl FileSet {
-    /// Returns a text, or notes that it is wanted.
-    pub fn find(&mut self, name: &str) -> Option<String> {
-        match self.texts.get(name) {
+    /// Returns the text of a library, or of a document by its name in a folder; or notes that this is wanted.
+    pub fn find(&mut self, folder: &str, name: &str) -> Option<String> {
+        if let Some(library) = self.libraries.get(name) {
+            return Some(library.clone());
+        }
+        let path = format!("{folder}{}.thing", name.replace('.', "/"));
+        match self.texts.get(&path) {
             Some(known) => known.clone(),
             None => {
-                self.wanted.insert(String::from(name));
+                self.wanted.insert(path);
                 None
             }
         }
@@ -37,10 +41,13 @@ pub struct Files(pub StoredValue<FileSet>);
 
 impl Host for Files {
     fn read(&self, name: &str) -> Option<String> {
-        self.0.try_update_value(|files| files.find(name)).flatten()
+        self.read_beside("", name)
+    }
+    fn read_beside(&self, folder: &str, name: &str) -> Option<String> {
+        self.0.try_update_value(|files| files.find(folder, name)).flatten()
     }
     fn libraries(&self) -> Vec<String> {
-        self.0.try_with_value(|files| files.libraries.clone()).unwrap_or_default()
+        self.0.try_with_value(|files| files.libraries.keys().cloned().collect()).unwrap_or_default()
     }
 }
 
@@ -49,15 +56,17 @@ mod tests {
     use super::FileSet;
 
     #[test]
-    fn what_is_not_there_is_wanted_once() {
+    fn what_is_not_there_is_wanted_once_by_its_path() {
         let mut files = FileSet::default();
-        files.texts.insert(String::from("geometry"), Some(String::from("class Point {}")));
-        files.texts.insert(String::from("nowhere"), None);
-        assert_eq!(files.find("geometry").as_deref(), Some("class Point {}"));
-        assert_eq!(files.find("nowhere"), None);
+        files.libraries.insert(String::from("geometry"), String::from("class Point {}"));
+        files.texts.insert(String::from("nowhere.thing"), None);
+        files.texts.insert(String::from("shop/parts/bolts.thing"), Some(String::from("x: Real")));
+        assert_eq!(files.find("shop/", "geometry").as_deref(), Some("class Point {}"));
+        assert_eq!(files.find("", "nowhere"), None);
+        assert_eq!(files.find("shop/", "parts.bolts").as_deref(), Some("x: Real"));
         assert!(files.wanted.is_empty());
-        assert_eq!(files.find("bolts"), None);
-        assert_eq!(files.find("bolts"), None);
-        assert_eq!(files.wanted.len(), 1);
+        assert_eq!(files.find("", "parts.bolts"), None, "another folder has others");
+        assert_eq!(files.find("", "parts.bolts"), None);
+        assert_eq!(files.wanted.iter().collect::<Vec<_>>(), ["parts/bolts.thing"]);
     }
 }

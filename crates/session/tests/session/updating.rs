@@ -162,6 +162,30 @@ fn a_document_in_a_folder_is_used_by_its_name_there() {
     assert_eq!(number(&session, elsewhere, "p.depth"), None, "parts in its folder is another");
 }
 
+/// Folders that have a document of the same name each.
+struct Folders;
+
+impl Host for Folders {
+    fn read(&self, _: &str) -> Option<String> {
+        None
+    }
+    fn read_beside(&self, folder: &str, name: &str) -> Option<String> {
+        let width = if folder == "shop/" { 4 } else { 9 };
+        (name == "parts").then(|| format!("class Peg {{ width: Real = {width} }}\n"))
+    }
+}
+
+#[test]
+fn documents_in_two_folders_use_each_its_own() {
+    let mut session = Session::new(Box::new(Folders));
+    // what is open elsewhere by the same name is another one, while a document is opened too
+    session.open("parts.thing", "class Peg { width: Real = 7 }\n");
+    for (name, width) in [("shop/user.thing", 4.0), ("user.thing", 7.0), ("yard/user.thing", 9.0)] {
+        let user = session.open(name, "use parts\np: Peg\n");
+        assert_eq!(number(&session, user, "p.width"), Some(width), "{name}");
+    }
+}
+
 /// A folder that has what was put into it.
 #[derive(Clone, Default)]
 struct Shelf(Rc<RefCell<Option<&'static str>>>);

@@ -6,8 +6,8 @@ use crate::lab::Notice;
 use crate::server::{self, Listed, Saved, Stored};
 use crate::{js, route, words};
 use leptos::prelude::*;
-use session::Command;
 use session::view::DocumentId;
+use session::{Command, used_as};
 use wasm_bindgen::JsCast;
 use wasm_bindgen::closure::Closure;
 
@@ -22,10 +22,8 @@ impl Lab {
     pub async fn fetch_library(self) {
         match server::library().await {
             Ok(library) => self.files.update_value(|files| {
-                files.libraries = library.iter().map(|(file, _)| used_as(file)).collect();
-                files
-                    .texts
-                    .extend(library.into_iter().map(|(file, text)| (used_as(&file), Some(text))));
+                let named = |(file, text): (String, String)| Some((used_as(&file, "")?, text));
+                files.libraries = library.into_iter().filter_map(named).collect();
             }),
             Err(message) => self.say_refused(message),
         }
@@ -58,7 +56,7 @@ impl Lab {
     /// Opens a text in the session under a path, with the files that it uses.
     pub(super) async fn take_up(self, path: &str, stored: Stored) -> Result<Opened, String> {
         let mut id = self.open(path, &stored.text).await;
-        while self.fetch_used(path).await {
+        while self.fetch_used().await {
             id = self.open(path, &stored.text).await;
         }
         let title = self.session.with_value(|session| session.title(id));
@@ -86,18 +84,19 @@ impl Lab {
         self.order(|session| session.end_opening(opening))
     }
 
-    /// Fetches the files that a document was found to use; returns whether there are new ones.
-    pub(super) async fn fetch_used(self, path: &str) -> bool {
-        let folder = path.rsplit_once('/').map_or("", |(folder, _)| folder);
+    /// Fetches the files that documents were found to use; returns whether there are new ones.
+    pub(super) async fn fetch_used(self) -> bool {
         let wanted = self.files.try_update_value(|f| std::mem::take(&mut f.wanted));
         let mut found = false;
-        for name in wanted.unwrap_or_default() {
-            let stored = server::document(&beside(folder, &name)).await.ok().flatten();
-            let text = stored.map(|stored| stored.text);
-            found |= text.is_some();
-            self.files.update_value(|files| {
-                files.texts.insert(name, text);
-            });
+        for path in wanted.unwrap_or_default() {
+            // a server that does not answer is asked again
+            if let Ok(stored) = server::document(&path).await {
+                let text = stored.map(|stored| stored.text);
+                found |= text.is_some();
+                self.files.update_value(|files| {
+                    files.texts.insert(path, text);
+                });
+            }
         }
         found
     }
@@ -109,7 +108,7 @@ impl Lab {
             return;
         }
         leptos::task::spawn_local(async move {
-            let found = self.fetch_used(&path).await;
+            let found = self.fetch_used().await;
             if found && self.current.get_untracked().is_some_and(|shown| shown == path) {
                 self.tell(session::Session::catch_up);
                 self.refresh();
@@ -120,36 +119,26 @@ impl Lab {
 
     /// Has the shown document use another one, named as `use` names it.
     pub fn use_document(self, name: String) {
-        let Some(path) = self.current.get_untracked() else { return };
+        let Some(id) = self.id() else { return };
         leptos::task::spawn_local(async move {
-            self.files.update_value(|files| {
-                files.find(&name);
-            });
-            self.fetch_used(&path).await;
+            // what it wants of the document is known once it was looked for
+            self.ask(|session| session.using(id, &name));
+            self.fetch_used().await;
             self.use_library(&name);
         });
     }
 
-    /// What lies beside the shown document, named as `use` names it.
+    /// What lies in the folder of the shown document, named as `use` names it.
     pub fn beside(self) -> Vec<String> {
         let Some(shown) = self.current.get() else { return Vec::new() };
-        self.listed.with(|all| {
-            all.iter().filter_map(|one| usable(&one.path, &shown).map(String::from)).collect()
-        })
+        let named = |one: &Listed| usable(&one.path, &shown);
+        self.listed.with(|all| all.iter().filter_map(named).collect())
     }
 
     /// Notes what a file holds now, for those that use it.
     pub(super) fn note_saved(self, path: &str, text: &str) {
         self.files.update_value(|files| {
-            let libraries = files.libraries.clone();
-            let known = files.texts.iter_mut().filter(|(name, _)| !libraries.contains(name));
-            for (name, known) in known {
-                let file = beside("", name);
-                let rest = path.strip_suffix(&file);
-                if rest.is_some_and(|rest| rest.is_empty() || rest.ends_with('/')) {
-                    *known = Some(String::from(text));
-                }
-            }
+            files.texts.insert(String::from(path), Some(String::from(text)));
         });
     }
 
@@ -188,7 +177,7 @@ impl Lab {
 
     /// The names of the libraries.
     pub fn libraries(self) -> Vec<String> {
-        self.files.with_value(|files| files.libraries.clone())
+        self.files.with_value(|files| files.libraries.keys().cloned().collect())
     }
 
     pub(super) fn update_document(self, change: impl FnOnce(&mut Opened)) {
@@ -363,47 +352,28 @@ async fn stands(path: &str) -> Result<Stored, String> {
     Ok(server::document(path).await?.unwrap_or_else(begun))
 }
 
-/// The path of a file that a document names in `use`: `parts.bolts` is `parts/bolts.thing` beside it.
-fn beside(folder: &str, name: &str) -> String {
-    let file = format!("{}.thing", name.replace('.', "/"));
-    if folder.is_empty() { file } else { format!("{folder}/{file}") }
-}
-
-/// What `use` calls a file: `parts/bolts.thing` is `parts.bolts`.
-fn used_as(file: &str) -> String {
-    file.strip_suffix(".thing").unwrap_or(file).replace('/', ".")
-}
-
-/// What `use` calls a file in the text of another in the same folder; nothing for that other one itself, and where the
-/// file's name is no name.
-fn usable<'p>(path: &'p str, user: &str) -> Option<&'p str> {
-    let folder = user.rfind('/').map_or("", |end| &user[..=end]);
-    let name = path.strip_prefix(folder)?.strip_suffix(".thing")?;
+/// What `use` calls a document in the text of another in the same folder; nothing for that other one itself, and where
+/// its file's name is no name.
+fn usable(path: &str, user: &str) -> Option<String> {
+    let name = used_as(path, user).filter(|_| path.ends_with(".thing") && path != user)?;
     let is_name = name.chars().all(|c| c.is_alphanumeric() || c == '_')
         && name.chars().next().is_some_and(|c| !c.is_numeric());
-    (is_name && path != user).then_some(name)
+    is_name.then_some(name)
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{beside, usable, used_as};
+    use super::usable;
 
     #[test]
     fn what_lies_in_the_same_folder_can_be_used() {
-        assert_eq!(usable("flange.thing", "plate.thing"), Some("flange"));
-        assert_eq!(usable("shop/flange.thing", "shop/plate.thing"), Some("flange"));
+        assert_eq!(usable("flange.thing", "plate.thing").as_deref(), Some("flange"));
+        assert_eq!(usable("shop/flange.thing", "shop/plate.thing").as_deref(), Some("flange"));
         for other in
             ["plate.thing", "shop/flange.thing", "old-flange.thing", "2.thing", "notes.txt"]
         {
             assert_eq!(usable(other, "plate.thing"), None, "{other}");
         }
         assert_eq!(usable("flange.thing", "shop/plate.thing"), None);
-    }
-
-    #[test]
-    fn a_used_file_lies_beside_its_user() {
-        assert_eq!(beside("", "bolts"), "bolts.thing");
-        assert_eq!(beside("gallery", "parts.bolts"), "gallery/parts/bolts.thing");
-        assert_eq!(used_as("parts/bolts.thing"), "parts.bolts");
     }
 }
