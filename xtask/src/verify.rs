@@ -180,8 +180,8 @@ fn executable(line: &str) -> Option<PathBuf> {
     Some(PathBuf::from(path.split_once('"')?.0.replace(r"\\", r"\")))
 }
 
-/// Builds the page, and tests it once the programs for that are there. These tests wait more than they compute: what
-/// else is compiled and tested goes on meanwhile.
+/// Builds the page, and tests it once the programs for that are there; what else is compiled and tested goes on
+/// meanwhile.
 fn in_the_browser(length: Length, programs: &Receiver<Programs>) -> Count {
     let effort = match length {
         Length::Usual => Effort::Tests,

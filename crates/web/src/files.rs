@@ -1,7 +1,7 @@
 //! The host of the session in the page: texts that were fetched before they are asked for.
 //!
 //! A session asks at once and a browser fetches later: what is asked for and not there is noted, and
-//! whoever opened the document fetches it and opens it again.
+//! whoever shows the document fetches it and has it read again.
 
 use leptos::prelude::*;
 use session::Host;

@@ -38,15 +38,16 @@ pub fn Inspector(
     let class = move || {
         let class =
             row.with(|row| row.as_ref().filter(|r| r.kind.is_thing()).map(|r| r.detail.clone()));
-        if !lab.also.with(Vec::is_empty) {
-            // what is shown below is of the first of them
-            let first = row.with(|row| row.as_ref().map(|row| row.path.clone()));
-            return words::first_of_several(&first.unwrap_or_default(), &class.unwrap_or_default());
-        }
-        class.unwrap_or_else(|| {
+        let class = class.unwrap_or_else(|| {
             let is_thing = row.with(Option::is_none);
             String::from(if is_thing { words::PARAMETERS } else { words::IS_RULE })
-        })
+        });
+        if lab.also.with(Vec::is_empty) {
+            return class;
+        }
+        // what is shown below is of the first of them
+        let first = row.with(|row| row.as_ref().map(|row| row.path.clone())).unwrap_or_default();
+        words::first_of_several(&first, &class)
     };
     let law = Memo::new(move |_| {
         row.with(|row| row.as_ref().map(|row| row.doc.clone()).unwrap_or_default())

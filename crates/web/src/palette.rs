@@ -55,7 +55,10 @@ fn Open(lab: Lab) -> impl IntoView {
         match choice {
             Choice::Do(action) => actions::run(action, lab),
             Choice::Draw(row) => lab.begin_construction(&row.id),
-            Choice::Insert(class) => lab.take_tool(&class),
+            Choice::Insert(class) => {
+                lab.take_tool(&class);
+                crate::keyboard::focus("#picture");
+            }
             Choice::Open(listed) => route::go(&route::to(&listed.path)),
         }
     };
@@ -150,7 +153,8 @@ fn Entry(
 /// them somewhere; then what has all their letters in order, the shortest first: an action in its label, a
 /// document, whose title may be long, in its path.
 ///
-/// Constructions and classes are found by whole words alone, and come after the actions that have these.
+/// Constructions and classes are found by pieces of words, not by scattered letters, and come after what has them in
+/// its label or name.
 fn matching(wanted: &str, listed: &[Listed], (constructions, classes): &Drawn) -> Vec<Choice> {
     let wanted = wanted.trim().to_lowercase();
     let rank = |label: &str, name: &str, short: &str| {
@@ -175,9 +179,7 @@ fn matching(wanted: &str, listed: &[Listed], (constructions, classes): &Drawn) -
         let text = [&row.label, row.also].join(" ");
         (has(&text).then_some((2, 1)), Choice::Draw(row.clone()))
     };
-    let class = |class: &String| {
-        (has(&words::place_one(class)).then_some((2, 1)), Choice::Insert(class.clone()))
-    };
+    let class = |class: &String| (has(class).then_some((2, 1)), Choice::Insert(class.clone()));
     let all = ACTIONS.iter().map(action).chain(constructions.iter().map(construction));
     let all = all.chain(classes.iter().map(class)).chain(listed.iter().map(document));
     let mut found: Vec<_> = all.filter_map(|(rank, choice)| Some((rank?, choice))).collect();

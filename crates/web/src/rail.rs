@@ -132,7 +132,8 @@ impl Lab {
         }
     }
 
-    /// Shows no more of the tool than what is set of it, until the pointer comes again.
+    /// Takes away the preview of a tool that has begun nothing, or that shows what the pointer has caught, until the
+    /// pointer comes again.
     pub fn put_aside(self) {
         let is_over = self.tool_view.with_untracked(|view| view.caught.is_some() || !view.begun);
         if is_over && self.tool.with_untracked(Option::is_some) {

@@ -177,6 +177,7 @@ impl Visit {
     /// Where it cannot be taken or written.
     pub async fn reference_picture(&self, name: &str) {
         let Some(folder) = env::var_os("THINGLAB_BOOK") else { return };
+        tokio::time::sleep(Duration::from_millis(300)).await;
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").join(folder);
         let image = self.client.screenshot().await.expect("the browser takes a picture");
         fs::write(folder.join(format!("page-{name}.png")), image).expect("it is written");

@@ -1,5 +1,5 @@
-//! The lab in a real browser: one program for all tests, which wait more than they compute. Their names begin with
-//! `in_the_browser`, by which `cargo verify` leaves them out where the others run.
+//! The lab in a real browser: one program for all tests, linked once. Their names begin with `in_the_browser`, by which
+//! `cargo verify` leaves them out where the others run.
 
 #[path = "."]
 mod in_the_browser {

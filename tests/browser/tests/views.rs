@@ -98,7 +98,6 @@ async fn no_page_is_wider_than_its_window() {
             let over = "const r = document.getElementById('picture').getBoundingClientRect(); \
                         return r.right <= window.innerWidth + 1 && r.width > 200 && r.height > 100";
             assert_eq!(visit.script(over).await, true, "{document} at {width} pixels");
-            tokio::time::sleep(std::time::Duration::from_millis(300)).await;
             let name = document.trim_end_matches(".thing");
             visit.reference_picture(&format!("{name}-{size}")).await;
         }

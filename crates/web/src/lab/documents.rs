@@ -121,17 +121,23 @@ impl Lab {
     pub fn use_document(self, name: String) {
         let Some(id) = self.id() else { return };
         leptos::task::spawn_local(async move {
-            // what it wants of the document is known once it was looked for
+            // what was not there before may be there now
+            self.files.update_value(|files| files.texts.retain(|_, text| text.is_some()));
+            // its path is wanted once it was looked for
             self.ask(|session| session.using(id, &name));
             self.fetch_used().await;
-            self.use_library(&name);
+            if self.id() == Some(id) {
+                self.use_library(&name);
+            }
         });
     }
 
     /// What lies in the folder of the shown document, named as `use` names it.
     pub fn beside(self) -> Vec<String> {
         let Some(shown) = self.current.get() else { return Vec::new() };
-        let named = |one: &Listed| usable(&one.path, &shown);
+        let libraries = self.libraries();
+        let named =
+            |one: &Listed| usable(&one.path, &shown).filter(|name| !libraries.contains(name));
         self.listed.with(|all| all.iter().filter_map(named).collect())
     }
 

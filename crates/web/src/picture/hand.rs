@@ -56,7 +56,6 @@ struct State {
     /// The latest position that no frame has taken up yet.
     latest: Option<(f64, f64)>,
     space: Space,
-    touch: bool,
     /// Whether guides and joints are wanted: Shift suppresses those of a tool, Alt those of a drag.
     shift: bool,
     alt: bool,
@@ -88,7 +87,6 @@ impl Hand {
             pointers: Vec::new(),
             latest: None,
             space: Space::Up,
-            touch: js::coarse(),
             shift: false,
             alt: false,
         };
@@ -120,8 +118,13 @@ impl Hand {
         self.pick_in(at, self.lab.selected.get_untracked().as_deref())
     }
 
+    /// How far from a thing it is still meant, in pixels.
+    fn reach(self) -> f64 {
+        if self.lab.touch.get_untracked() { REACH.1 } else { REACH.0 }
+    }
+
     fn pick_in(self, at: (f64, f64), chosen: Option<&str>) -> Option<String> {
-        let reach = if self.state.with_value(|s| s.touch) { REACH.1 } else { REACH.0 };
+        let reach = self.reach();
         let view = self.lab.view.get_untracked();
         self.lab.picture.with_untracked(|picture| pick(picture, &view, at, (reach, chosen)))
     }
@@ -134,15 +137,13 @@ impl Hand {
         if e.button() == 1 {
             e.prevent_default();
         }
-        // a pen has no keys either
-        let touch = e.pointer_type() != "mouse";
         self.state.update_value(|state| {
-            state.touch = touch;
             (state.shift, state.alt) = (e.shift_key(), e.alt_key());
             state.pointers.retain(|(id, _)| *id != e.pointer_id());
             state.pointers.push((e.pointer_id(), at));
         });
-        self.lab.touched(touch);
+        // a pen has no keys either
+        self.lab.touched(e.pointer_type() != "mouse");
         let space = self.state.with_value(|state| state.space);
         if let Some(pinch) = self.pinch() {
             if let Mode::Drag { .. } = self.mode() {
@@ -215,10 +216,9 @@ impl Hand {
 
     /// The pointer as a tool takes it.
     fn pointer(self, at: (f64, f64)) -> Pointer {
-        let (reach, alone) =
-            self.state.with_value(|s| (if s.touch { REACH.1 } else { REACH.0 }, s.shift));
+        let alone = self.state.with_value(|state| state.shift);
         self.lab.cursor.set(Some(at));
-        self.lab.pointer_at(at, reach, alone)
+        self.lab.pointer_at(at, self.reach(), alone)
     }
 
     /// Opens the menu of what lies under the pointer, and selects it; of a tool's hand it is laid down.
@@ -356,9 +356,8 @@ impl Hand {
 
     /// The places near one that is dragged, nearest first; none while Alt is held, or where a whole is dragged.
     fn near(self, (x, y): (f64, f64)) -> Vec<Caught> {
-        let (touch, alt) = self.state.with_value(|s| (s.touch, s.alt));
-        let reach = if touch { REACH.1 } else { REACH.0 };
-        let reach = reach / self.lab.view.with_untracked(|view| view.scale);
+        let alt = self.state.with_value(|state| state.alt);
+        let reach = self.reach() / self.lab.view.with_untracked(|view| view.scale);
         let dragged = self.lab.selected.get_untracked().unwrap_or_default();
         let is_single = self.lab.also.with_untracked(Vec::is_empty);
         self.lab.picture.with_untracked(|picture| {
