@@ -91,24 +91,24 @@ impl First {
     }
 }
 
-/// Reads whether a pattern makes the first, and where that is written.
-pub(crate) fn first_of_pattern(formula: &Expr) -> Option<(First, Span)> {
-    let Expr::Field(map) = formula else { return None };
-    let Expr::Paren(range) = map.receiver()? else { return None };
-    let Expr::Range(range) = range.inner()? else { return None };
-    let from = range.start()?;
-    let said = from.syntax().text().to_string();
-    let of =
-        [First::Made, First::There].into_iter().find(|first| first.written() == said.trim())?;
-    Some((of, span_without_doc(from.syntax())))
+/// A pattern, as a formula says it.
+pub(crate) struct Written {
+    /// How the figures lie.
+    pub(crate) pattern: Pattern,
+    /// Whether it makes the first.
+    pub(crate) first: First,
+    /// Where that is written.
+    pub(crate) from: Span,
+    /// The set, how each is led on to the next, how many; what is written twice, twice.
+    pub(crate) parts: Vec<(&'static str, Expr)>,
 }
 
-/// Reads what a pattern is made of, where a formula is one: the set, how each is led on to the next, how many; the last
-/// twice, where it is written twice.
-pub(crate) fn pattern_of(formula: &Expr) -> Option<(Pattern, Vec<(&'static str, Expr)>)> {
+/// Reads what a pattern is made of, where a formula is one.
+pub(crate) fn pattern_of(formula: &Expr) -> Option<Written> {
     let Expr::Field(map) = formula else { return None };
     let Expr::Paren(range) = map.receiver()? else { return None };
     let Expr::Range(range) = range.inner()? else { return None };
+    let from = span_without_doc(range.start()?.syntax());
     let Expr::Binary(last) = range.end()? else { return None };
     let Expr::Lambda(each) = map.args()?.args().next()?.value()? else { return None };
     let Expr::Field(one) = each.body()? else { return None };
@@ -138,16 +138,19 @@ pub(crate) fn pattern_of(formula: &Expr) -> Option<(Pattern, Vec<(&'static str, 
         }
         _ => return None,
     };
-    let says = |slot: &str| {
+    let raw = |slot: &str| {
         let said = parts.iter().find(|(name, _)| *name == slot);
-        said.map(|(_, e)| unbracketed(&e.syntax().text().to_string()))
+        said.map(|(_, e)| e.syntax().text().to_string())
     };
-    let by = says("about").or_else(|| says("by"))?;
+    let says = |slot: &str| raw(slot).map(|said| unbracketed(&said));
+    // what nothing goes on from is written as it is given
+    let by = raw("about").or_else(|| says("by"))?;
     let operands = [says("what")?, by, says("count")?];
     let plain = |text: &str| text.split_whitespace().collect::<String>();
     let said = plain(&formula.syntax().text().to_string());
     let is_it = |&first: &First| plain(&pattern.written(first, &operands)) == said;
-    [First::Made, First::There].iter().any(is_it).then_some((pattern, parts))
+    let first = [First::Made, First::There].into_iter().find(is_it)?;
+    Some(Written { pattern, first, from, parts })
 }
 
 /// An expression without the brackets around all of it.
@@ -159,7 +162,7 @@ fn unbracketed(text: &str) -> String {
 
 /// An expression as others can go on from it.
 pub(crate) fn bracketed(text: &str) -> String {
-    let is_path = |t: &str| t.chars().all(|c| c.is_alphanumeric() || "_.[]".contains(c));
+    let is_path = |t: &str| t.chars().all(text::is_of_path);
     // `Point(10, 0)`
     let is_call = text.split_once('(').is_some_and(|(head, rest)| {
         is_path(head) && rest.strip_suffix(')').is_some_and(|inner| !inner.contains(['(', ')']))

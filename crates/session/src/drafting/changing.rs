@@ -116,9 +116,8 @@ fn in_words(state: &State, home: &Home, says: &str) -> Option<String> {
 /// Where a step's figure lies in the example, in the first turn of the loops around it.
 fn curve_of(state: &State, example: &Name, address: &str) -> Option<Curve> {
     let evaluator = state.evaluator(&state.values);
-    let is_name = |s: &&str| !s.starts_with('#') && !matches!(*s, "then" | "else");
     let mut path = Path::of(&[example]);
-    for name in address.split('.').filter(is_name) {
+    for name in address.split('.').filter(|s| text::is_name(s)) {
         if matches!(evaluator.at(&path), Ok(Answer::List(_))) {
             path = path.then(Step::Index(0));
         }

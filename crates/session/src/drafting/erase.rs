@@ -102,8 +102,7 @@ fn address(source: &text::Source, program: &str, within: &[Step]) -> Option<Stri
     });
     let names: Vec<&str> = named.collect();
     // blocks without names are not seen from outside
-    let is_seen =
-        |segment: &&str| !segment.starts_with('#') && !matches!(*segment, "then" | "else");
+    let is_seen = |segment: &&str| text::is_name(segment);
     let fits = |address: &String| {
         let seen: Vec<&str> = address.split('.').filter(is_seen).collect();
         let last = address.rsplit('.').next().is_some_and(|last| is_seen(&last));

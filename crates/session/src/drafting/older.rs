@@ -232,12 +232,11 @@ impl Taken<'_> {
         let names: BTreeSet<String> =
             names.filter(|name| !text::places_of(formula, name).is_empty()).collect();
         let mut formula = formula.to_string();
-        let is_part = |c: char| c.is_alphanumeric() || "_.[]".contains(c);
         for name in names {
             // from the end, so that places stay where they are
             for at in text::places_of(&formula, &name).into_iter().rev() {
                 let rest = &formula[at..];
-                let chain = &rest[..rest.find(|c| !is_part(c)).unwrap_or(rest.len())];
+                let chain = &rest[..rest.find(|c| !text::is_of_path(c)).unwrap_or(rest.len())];
                 // a message with arguments is no part of the path
                 let is_sent = rest[chain.len()..].starts_with('(');
                 let chain = match chain.rfind('.') {

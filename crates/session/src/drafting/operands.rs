@@ -133,8 +133,8 @@ fn tails(value: &Value) -> Vec<(String, Expr)> {
 }
 
 fn operands_of(value: &Expr) -> Vec<(String, Expr)> {
-    if let Some((_, parts)) = catalogue::pattern_of(value) {
-        return parts.into_iter().map(|(slot, value)| (slot.to_string(), value)).collect();
+    if let Some(pattern) = catalogue::pattern_of(value) {
+        return pattern.parts.into_iter().map(|(slot, value)| (slot.to_string(), value)).collect();
     }
     let is_capital = |text: &str| text.trim().starts_with(char::is_uppercase);
     let (receiver, list) = match value {

@@ -265,7 +265,7 @@ fn ways(tool: &Tool, operands: &[Operand]) -> Vec<(String, u32)> {
 
 /// Writes a curve turned round.
 pub(crate) fn turned_round(text: &str) -> String {
-    let is_path = |t: &str| t.chars().all(|c| c.is_alphanumeric() || "_.[]".contains(c));
+    let is_path = |t: &str| t.chars().all(text::is_of_path);
     match text.strip_prefix('-') {
         Some(rest) if is_path(rest) => rest.into(),
         _ if is_path(text) => format!("-{text}"),

@@ -34,8 +34,7 @@ fn is_drawn(all: &BTreeMap<String, bool>, of: &Expr) -> Option<bool> {
         }
         _ => {
             let path: String = of.syntax().text().to_string().split_whitespace().collect();
-            let is_part = |c: char| c.is_alphanumeric() || "_.[]".contains(c);
-            if !path.chars().all(is_part) {
+            if !path.chars().all(text::is_of_path) {
                 return Some(false);
             }
             let head = path.split(['.', '[']).next().unwrap_or_default();
@@ -60,10 +59,9 @@ fn pattern_at(source: &text::Source, program: &str, address: &str) -> Option<Ste
     let Some(Value::Expr(formula)) = text::step_at(source, program, address)?.value else {
         return None;
     };
-    let (_, parts) = catalogue::pattern_of(&formula)?;
-    let (first, span) = catalogue::first_of_pattern(&formula)?;
+    let catalogue::Written { first, from, parts, .. } = catalogue::pattern_of(&formula)?;
     let (_, what) = parts.into_iter().find(|(slot, _)| *slot == "what")?;
-    Some(Step { what, first, span })
+    Some(Step { what, first, span: from })
 }
 
 /// Lists those of some steps that are patterns of what an address leads to.

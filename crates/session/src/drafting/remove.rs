@@ -159,8 +159,7 @@ pub(super) fn why_nothing(open: &Open, step: &str, pointer: &Pointer) -> String 
     let own = |text: &str| {
         // `column[0].ring` is what the step `column.ring` drew
         let parts = text.split('.').map(|part| part.split('[').next().unwrap_or_default());
-        let named =
-            step.split('.').filter(|s| !s.starts_with('#') && !matches!(*s, "then" | "else"));
+        let named = step.split('.').filter(|s| text::is_name(s));
         parts.take(named.clone().count()).eq(named)
     };
     match scene::nearest(all.iter(), pointer) {

@@ -347,8 +347,7 @@ fn second_turn(
         return Err(ended.reason.clone());
     }
     let turn = second_path(opened);
-    let made = { it.asked[i].step.split('.') }
-        .filter(|s| !s.starts_with('#') && !matches!(*s, "then" | "else"));
+    let made = { it.asked[i].step.split('.') }.filter(|s| text::is_name(s));
     let path = made.fold(turn, |path, name| path.then(kernel::Step::Part(name.into())));
     // what the second turn does not come to has no place
     let curve = evaluator.at(&path).ok().and_then(|a| scene::Curve::of(&evaluator, &a));
@@ -380,8 +379,7 @@ pub(crate) fn asked_drawing(open: &mut Open, host: &dyn Host) -> drawing::Drawin
 
 /// The paths that an expression speaks of.
 fn names_in(text: &str) -> Vec<String> {
-    let is_part = |c: char| c.is_alphanumeric() || "_.[]".contains(c);
-    text.split(|c| !is_part(c))
+    text.split(|c| !text::is_of_path(c))
         .filter(|w| w.starts_with(char::is_alphabetic))
         .map(String::from)
         .collect()

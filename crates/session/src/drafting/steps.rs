@@ -155,7 +155,7 @@ impl<'a> Rows<'_, 'a> {
 /// Says a pattern as a draughtsman does: `polar pattern: hole, about rim.center, count 6`.
 fn pattern_in_words(step: &StepNode) -> Option<String> {
     let Some(Value::Expr(formula)) = &step.value else { return None };
-    let (pattern, parts) = catalogue::pattern_of(formula)?;
+    let catalogue::Written { pattern, parts, .. } = catalogue::pattern_of(formula)?;
     let of = |slot: &str| {
         let part = parts.iter().find(|(name, _)| *name == slot);
         part.map(|(_, said)| said.syntax().text().to_string().trim().to_string())
@@ -243,8 +243,7 @@ pub(crate) fn drawing(
 ) -> drawing::Drawing {
     let evaluator = state.evaluator(values);
     let mut elements = Vec::new();
-    let is_name = |s: &&str| !s.starts_with('#') && !matches!(*s, "then" | "else");
-    let names: Vec<&str> = step.split('.').filter(is_name).collect();
+    let names: Vec<&str> = step.split('.').filter(|s| text::is_name(s)).collect();
     let start = crate::session::parse_path(example).unwrap_or_default();
     collect(&evaluator, &start, &names, &mut elements);
     drawing::Drawing { elements, ..drawing::Drawing::default() }
@@ -316,7 +315,7 @@ pub(crate) fn users(source: &text::Source, program: &str, address: &str) -> Vec<
     let mut reached: Vec<Vec<String>> = names.iter().map(|name| vec![name.clone()]).collect();
     let around: Vec<&str> = address.split('.').collect();
     let named = around[..around.len() - 1].iter().rev();
-    let named = named.filter(|s| !s.starts_with('#') && !matches!(**s, "then" | "else"));
+    let named = named.filter(|s| text::is_name(s));
     for outer in named {
         let longer: Vec<Vec<String>> = reached
             .iter()
@@ -395,9 +394,8 @@ impl Search<'_> {
         self.reached.iter().any(|way| {
             let Some((first, rest)) = way.split_first() else { return false };
             text::places_of(says, first).iter().any(|&at| {
-                let is_part = |c: char| c.is_alphanumeric() || "_.[]".contains(c);
                 let chain = &says[at..];
-                let chain = &chain[..chain.find(|c| !is_part(c)).unwrap_or(chain.len())];
+                let chain = &chain[..chain.find(|c| !text::is_of_path(c)).unwrap_or(chain.len())];
                 let mut parts = chain.split(['.', '[', ']']).skip(1);
                 rest.iter().all(|wanted| parts.any(|part| part == wanted))
             })

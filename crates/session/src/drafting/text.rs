@@ -375,6 +375,16 @@ fn with_lines_before(text: &str, at: usize, depth: usize, lines: &str) -> String
     format!("{}{}{}", &text[..start], lines.concat(), &text[start..])
 }
 
+/// Whether a character can be part of a path: `column[0].ring`.
+pub(crate) fn is_of_path(c: char) -> bool {
+    c.is_alphanumeric() || "_.[]".contains(c)
+}
+
+/// Whether a segment of an address is a name: not a block without one, not a branch.
+pub(crate) fn is_name(segment: &str) -> bool {
+    !segment.starts_with('#') && !matches!(segment, "then" | "else")
+}
+
 /// Where a text speaks of a name: not of a part of something else, and not by a label.
 pub(crate) fn places_of(text: &str, name: &str) -> Vec<usize> {
     let is_word = |c: char| c.is_alphanumeric() || c == '_';

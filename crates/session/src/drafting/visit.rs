@@ -210,8 +210,7 @@ pub(crate) fn place_of(
     // the longest beginning of the path that is a step
     let all = steps::addresses(source, program);
     let is_named = |address: &String, names: &[String]| {
-        let own =
-            address.split('.').filter(|s| !s.starts_with('#') && !matches!(*s, "then" | "else"));
+        let own = address.split('.').filter(|s| text::is_name(s));
         own.eq(names.iter().map(String::as_str))
     };
     let fits = |n: usize| all.iter().find(|a| is_named(a, &names[..n])).cloned();
