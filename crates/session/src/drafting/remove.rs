@@ -1,7 +1,9 @@
 //! A step deleted: for each step that speaks of it another object is asked for, or it goes too; one by one.
 
 use super::view::{Prompt, Wants};
-use super::{Home, blocks, hands, outcome, patterns, recording, scene, steps, text, visit};
+use super::{
+    Home, blocks, catalogue, hands, outcome, patterns, recording, scene, steps, text, visit,
+};
 use crate::document::Open;
 use crate::host::Host;
 use crate::view::{Change, Pointer, Refusal};
@@ -244,8 +246,7 @@ fn substituted(
     let (_, span) = text::step(source, program, step).ok_or_else(none)?;
     let (start, end) = (span.start as usize, span.end as usize);
     let says = &source[start..end];
-    let is_plain = found.chars().all(|c| c.is_alphanumeric() || "_.[]".contains(c));
-    let written = if is_plain { found.to_string() } else { format!("({found})") };
+    let written = catalogue::bracketed(found);
     Ok(format!("{}{}{}", &source[..start], text::renamed(says, of, &written), &source[end..]))
 }
 
@@ -255,6 +256,8 @@ fn finish(open: &mut Open, host: &dyn Host) -> Result<Option<Change>, Refusal> {
     if removing.open_question().is_some() {
         return Ok(None);
     }
+    // what is refused from here on has no question left that could be answered otherwise
+    keep(open, None);
     let mut edited = open.state.text.clone();
     let mut resettled: Vec<String> = Vec::new();
     for asked in &removing.asked {
@@ -270,7 +273,5 @@ fn finish(open: &mut Open, host: &dyn Host) -> Result<Option<Change>, Refusal> {
     let edited = patterns::settled(open, host, &program, (edited, &resettled))?;
     let edited = steps::without(&text::Source::of(edited), &program, &removing.gone)?;
     let label = format!("delete {}", removing.gone.join(", "));
-    let change = recording::retext(open, host, edited, label);
-    keep(open, None);
-    change.map(Some)
+    recording::retext(open, host, edited, label).map(Some)
 }

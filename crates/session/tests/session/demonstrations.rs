@@ -103,6 +103,44 @@ fn a_nut_is_a_flat_in_a_polar_pattern() {
 }
 
 #[test]
+fn a_pattern_draws_all_flats_where_the_first_one_is_deleted() {
+    let mut desk = record("Nut", &[]);
+    guide(&mut desk, "Point", &[Typed("0"), Typed("0")]);
+    guide(&mut desk, "Point", &[Typed("0"), Typed("9")]);
+    guide(&mut desk, "Point", &[Typed("-8"), Typed("4.5")]);
+    draw(&mut desk, "Line", &[Typed("point2"), Typed("point3")]);
+    draw(&mut desk, ":pattern(about,count)", &[Typed("line"), Typed("point"), Typed("6")]);
+    assert_eq!(value(&desk, "nut.pattern"), "5 figures");
+    // brackets around the place make it no other pattern
+    desk.session.set_operand(desk.id, ("nut", "pattern", "about"), "(point)").expect("a place");
+    desk.session.begin_delete(desk.id, "line").expect("it is a step");
+    desk.session.enter(desk.id, "Line(point2, point)").expect("it is a line");
+    assert!(desk.text().contains("(0..6 - 1).map(nth => Line(point2, point)."), "{}", desk.text());
+    assert_eq!(value(&desk, "nut.pattern"), "6 figures");
+    assert_eq!(desk.wrong(), [], "{}", desk.text());
+}
+
+#[test]
+fn a_deletion_that_is_refused_waits_for_nothing() {
+    let mut desk = Desk::of(
+        "use geometry
+unit mm
+program P() {
+    circle = Circle(center: Point(0, 0), radius: 3)
+}
+p: P
+double: Length => 2 * p.circle.radius
+",
+    );
+    assert_eq!(desk.wrong(), []);
+    desk.session.record(desk.id, "P").expect("it is there");
+    let before = desk.text();
+    desk.session.begin_delete(desk.id, "circle").expect_err("the document speaks of it");
+    assert_eq!(desk.text(), before);
+    draw(&mut desk, "Circle", &[Typed("9, 0"), Typed("2")]);
+}
+
+#[test]
 fn a_pattern_of_what_is_only_typed_draws_all_of_it() {
     let typed = "Circle(center: Point(45, 0), radius: 5)";
     let mut desk = Desk::of("use geometry\nunit mm\n");
