@@ -11,6 +11,7 @@ use crate::words;
 use base::Span;
 use std::collections::BTreeSet;
 use syntax::ast::{self, AstNode, Else, Expr, Member, Value, span_without_doc};
+use syntax::{SyntaxElement, SyntaxKind};
 
 /// Where a walk along an address has got to.
 enum Inside {
@@ -421,10 +422,20 @@ pub(crate) fn with_lines(text: &str, body: &ast::Body, depth: usize, lines: &str
 /// Returns the words that a program uses as names, labels apart.
 pub(crate) fn words_in(text: &Source, program_name: &str) -> BTreeSet<String> {
     let Some(program) = program(text, program_name) else { return BTreeSet::new() };
-    // what is asked in words is no name
-    let all = program.syntax().text().to_string();
-    let all: Vec<&str> = all.split('"').step_by(2).collect();
-    let all = all.join("\"\"");
+    // what is asked or noted in words is no name
+    let tokens = program.syntax().descendants_with_tokens().filter_map(SyntaxElement::into_token);
+    let all: String = tokens
+        .map(|token| match token.kind() {
+            SyntaxKind::LineComment
+            | SyntaxKind::DocComment
+            | SyntaxKind::BlockComment
+            | SyntaxKind::Text
+            | SyntaxKind::TextOpen
+            | SyntaxKind::TextMiddle
+            | SyntaxKind::TextClose => " ".to_string(),
+            _ => token.text().to_string(),
+        })
+        .collect();
     let is_word = |c: char| c.is_alphanumeric() || c == '_';
     let mut found = BTreeSet::new();
     let mut at = 0;

@@ -65,6 +65,27 @@ fn a_plain_number_becomes_a_count_where_it_counts() {
 }
 
 #[test]
+fn an_inch_mark_in_a_question_or_comment_hides_no_names() {
+    for is_asked in [true, false] {
+        let mut desk = flange();
+        if is_asked {
+            let asks = anew("d", ("Length", "", "11"), "5\" or not");
+            desk.session.define_parameter(desk.id, &asks).expect("it is there");
+        } else {
+            let noted = desk.text().replace("    circle =", "    // 6\" wide\n    circle =");
+            desk.apply(&session::Command::Text(noted)).expect("a comment");
+        }
+        // what a turn draws is no part of the whole: the text alone tells its names
+        desk.session.begin_loop(desk.id, "").expect("it is recorded");
+        desk.session.begin(desk.id, "Circle").expect("there are circles");
+        for typed in ["0, 0", "d", "0, 0", "2 * d"] {
+            enter(&mut desk, typed);
+        }
+        assert!(desk.text().contains("    circle3 = "), "{}", desk.text());
+    }
+}
+
+#[test]
 fn a_plain_number_becomes_an_angle_where_it_turns() {
     let mut desk = flange();
     desk.session.begin(desk.id, "Point:turned").expect("figures are turned");
