@@ -500,10 +500,9 @@ pub(crate) fn retried(
     let mut why = None;
     for other in others.iter().filter(|other| other.stays.is_none()) {
         let now = format!("{} is {}", other.name, class_in_words(other.class));
-        let mut stood = false;
+        let mut stood = None;
         let done = open.tried(|open| {
-            recording::retext(open, host, other.text.clone(), now.clone())?;
-            stood = true;
+            stood = Some(recording::retext(open, host, other.text.clone(), now.clone())?);
             again(open)
         });
         match done {
@@ -515,11 +514,13 @@ pub(crate) fn retried(
             // further operands are wanted: what it is now stands
             Ok(Turn::Wants(prompt)) => {
                 let words = format!("{now} now. {}", prompt.words);
-                return Ok(Turn::Wants(Prompt { words, ..prompt }));
+                let change = Box::new(stood.unwrap_or_default());
+                let next = Some(Prompt { words, ..prompt });
+                return Ok(Turn::Made { change, name: now, text: String::new(), next });
             }
             Err(refusal) => {
                 open.dialogue.clone_from(&dialogue);
-                if stood {
+                if stood.is_some() {
                     why.get_or_insert(refusal);
                 }
             }

@@ -157,13 +157,14 @@ pub struct Hover {
 pub enum Turn {
     /// The next one is wanted.
     Wants(Prompt),
-    /// It was the last one: the figure is made, the block is closed.
+    /// It was the last one: the figure is made, the block is closed. Or a parameter became what is wanted of it, and
+    /// further ones are.
     Made {
         /// What that did to the document.
         change: Box<Change>,
-        /// What it is called.
+        /// What it is called; of a parameter what it is now.
         name: String,
-        /// How it is written.
+        /// How it is written; empty where nothing was.
         text: String,
         /// What is waited for then: the same construction, begun anew, or the next answer.
         next: Option<Prompt>,

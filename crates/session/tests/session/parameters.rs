@@ -65,6 +65,29 @@ fn a_plain_number_becomes_a_count_where_it_counts() {
 }
 
 #[test]
+fn a_plain_number_becomes_a_count_before_further_operands_are_given() {
+    let text = "program Washer(n: Real = 3, d: Length = 5) {
+    circle = Circle(center: Point(0, 0), radius: n * d)
+}
+program G(holes: Length = 6) {
+    point = Point(10, 0)
+}
+";
+    let mut desk = recorded("G", text);
+    desk.session.begin(desk.id, "Washer").expect("it is a tool");
+    let Turn::Made { change, name, text, next } = enter(&mut desk, "exp(holes)") else {
+        panic!("the text is another: {}", desk.text())
+    };
+    assert_eq!((&*name, &*text), ("holes is a count", ""));
+    assert!(change.structure || !change.edits.is_empty(), "{change:?}");
+    let words = next.expect("a diameter is wanted").words;
+    assert!(words.starts_with("holes is a count now. "), "{words}");
+    assert_eq!(class_of(&desk, "holes"), "Integer");
+    said(enter(&mut desk, "7"));
+    assert_eq!(desk.wrong(), [], "{}", desk.text());
+}
+
+#[test]
 fn an_inch_mark_in_a_question_or_comment_hides_no_names() {
     for is_asked in [true, false] {
         let mut desk = flange();
