@@ -478,9 +478,12 @@ impl Lab {
         self.show_waiting();
     }
 
-    fn make_guide(self, (program, step): (&str, &str), is_guide: bool) {
-        self.settle(self.tell(|session, id| session.make_guide(id, (program, step), is_guide)));
+    /// Returns whether it was done.
+    fn make_guide(self, (program, step): (&str, &str), is_guide: bool) -> bool {
+        let done = self.tell(|session, id| session.make_guide(id, (program, step), is_guide));
+        let is_done = self.settle(done);
         self.drafting.turned.update(|n| *n += 1);
+        is_done
     }
 
     fn turn_step(self, program: &str, step: &str) {

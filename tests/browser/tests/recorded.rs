@@ -242,6 +242,37 @@ async fn a_plate_is_rows_of_rows_of_holes() {
 }
 
 #[tokio::test]
+async fn a_box_that_is_refused_is_not_checked() {
+    let visit = hands::begin().await;
+    record(&visit, "Mark", &[("d", "6", "")]).await;
+    branch(&visit, "d", &["≤", "9"]).await;
+    construct(&visit, "Circle").await;
+    for typed in ["10, 0", "d / 3"] {
+        enter(&visit, typed).await;
+    }
+    construct(&visit, ":pattern(about,count)").await;
+    for typed in ["circle", "0, 0", "3"] {
+        enter(&visit, typed).await;
+    }
+    has(&visit, "(1..3 - 1)").await;
+    press(&visit, "[data-draft='end-if']").await;
+    // nothing tells whether a circle is drawn that these values do not come to
+    set(&visit, "d", "12").await;
+    let row = "[data-step='#0.then.circle']";
+    press(&visit, &format!("{row} .step")).await;
+    press(&visit, &format!("{row} input[name='step-guide']")).await;
+    visit.until("document.querySelector('.notice').innerText.includes('is not drawn by')").await;
+    visit
+        .until(&format!("!document.querySelector(\"{row} input[name='step-guide']\").checked"))
+        .await;
+    // nor is it forgotten that it can be checked
+    set(&visit, "d", "6").await;
+    press(&visit, &format!("{row} .step")).await;
+    press(&visit, &format!("{row} input[name='step-guide']")).await;
+    has(&visit, "guide circle = ").await;
+}
+
+#[tokio::test]
 async fn a_flange_counts_its_holes_by_a_plain_number_and_is_applied_by_its_questions() {
     let visit = hands::begin().await;
     record(&visit, "Flange", &[("outer", "120", ""), ("round", "90", ""), ("holes", "6", "")])

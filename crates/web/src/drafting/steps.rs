@@ -231,7 +231,13 @@ fn Operands(lab: Lab, steps: StepsView, row: StepRow) -> impl IntoView {
     let program = steps.program.clone();
     let guide = (!row.is_block && !row.name.is_empty()).then(|| {
         let step = row.path.clone();
-        let make = move |e: leptos::ev::Event| lab.make_guide((&program, &step), event_target_checked(&e));
+        let make = move |e: leptos::ev::Event| {
+            let is_guide = event_target_checked(&e);
+            if !lab.make_guide((&program, &step), is_guide) {
+                // what was refused is seen as it is
+                event_target::<web_sys::HtmlInputElement>(&e).set_checked(!is_guide);
+            }
+        };
         view! {
             <label title=words::GUIDE_HELP>
                 <input type="checkbox" name="step-guide" prop:checked=row.is_guide on:change=make />{words::GUIDE}
