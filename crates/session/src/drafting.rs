@@ -7,9 +7,9 @@
 //! Nothing is known of any construction: `catalogue` finds them in the classes in scope, `outcome` tries
 //! them in a copy of the text. So a construction that a library gains is a tool at once.
 //!
-//! Reading order: `catalogue`, `scene`, `typed`, `outcome`, `dialogue`, `older`, `hands`, `recording`, `parameters`, `blocks`,
-//! `operands`, `patterns`, `repeat`, `choice`, `demonstrating`, `measure`, `steps`, `visit`, `remove`, `changing`, `visiting`,
-//! `text`.
+//! Reading order: `catalogue`, `synonyms`, `scene`, `typed`, `outcome`, `dialogue`, `older`, `hands`, `recording`,
+//! `parameters`, `blocks`, `operands`, `patterns`, `repeat`, `choice`, `demonstrating`, `measure`, `steps`,
+//! `visit`, `remove`, `erase`, `changing`, `visiting`, `text`.
 mod blocks;
 mod catalogue;
 mod changing;
