@@ -396,10 +396,10 @@ fn name(p: &mut Parser<'_>, kind: SyntaxKind) {
 /// `(a)`, `(a, b)`
 fn parenthesized(p: &mut Parser<'_>) -> u32 {
     let start = p.checkpoint();
-    let mut count: u32 = 0;
+    let (mut count, mut is_labelled) = (0, false);
     let height = bracketed(p, RParen, "`)`", |p| {
         count += 1;
-        mistakes::labels_without_class(p, count);
+        is_labelled |= mistakes::labels_without_class(p, is_labelled);
         operators(p, Power::Or)
     });
     p.start_at(start, if count == 1 { ParenExpr } else { TupleExpr });

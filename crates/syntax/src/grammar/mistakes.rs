@@ -491,9 +491,10 @@ pub(super) fn bare_call(p: &mut Parser<'_>) -> bool {
 }
 
 /// `(x: 1, y: 2)`: labels in brackets that no class stands before. The first of them is reported, all are passed over.
-pub(super) fn labels_without_class(p: &mut Parser<'_>, count: u32) {
+/// Returns true where one was passed over.
+pub(super) fn labels_without_class(p: &mut Parser<'_>, is_said: bool) -> bool {
     if !(p.at(Ident) && p.nth(1) == Colon) {
-        return;
+        return false;
     }
     let (at, label) = (p.pos(), p.word(0).to_string());
     let said = (
@@ -501,11 +502,12 @@ pub(super) fn labels_without_class(p: &mut Parser<'_>, count: u32) {
         format!("found the label `{label}:` in brackets without a class"),
         format!("name the class: `Name({label}: …)`, or leave the labels out"),
     );
-    if count == 1 {
+    if !is_said {
         p.report_mistake((at, at + 1), said, None);
     }
     p.bump();
     p.bump();
+    true
 }
 
 /// Returns the hint for a value that stands where a class is wanted, `x: 3`.
