@@ -415,8 +415,9 @@ impl Lowerer<'_> {
                 (false, ..) => Kind::Unknown,
             };
             if element == Kind::Unknown && kind != Kind::Unknown {
-                let known = items.first().map_or(&Kind::Unknown, |(_, kind)| kind);
-                self.wrong_kind(scope, item.span(), &kind, &known.clone());
+                let mut before = items.iter().map(|(_, known)| known);
+                let misfit = before.find(|known| !kind.fits(known, &self.document)).cloned();
+                self.wrong_kind(scope, item.span(), &kind, &misfit.unwrap_or(Kind::Unknown));
                 return None;
             }
             items.push((term, kind));

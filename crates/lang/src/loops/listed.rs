@@ -69,10 +69,13 @@ impl Lowerer<'_> {
 
     /// Finds what a loop binds its name to where it is written: a constant, or a part.
     fn written(&mut self, scope: &Scope, e: &Expr) -> Option<Written> {
+        if let Expr::Paren(inner) = e {
+            return self.written(scope, &inner.inner()?);
+        }
         if let Some(constant) = self.written_constant(scope, e) {
             return Some(Written::Constant(constant));
         }
-        if !matches!(e, Expr::Name(_) | Expr::Field(_) | Expr::Index(_) | Expr::Paren(_)) {
+        if !matches!(e, Expr::Name(_) | Expr::Field(_) | Expr::Index(_)) {
             // what is wrong in it, aloud
             self.expr(scope, e)?;
             let place = Place { file: scope.file, span: e.span() };
