@@ -33,9 +33,10 @@ impl Page {
                 let name = address.strip_prefix('/')?;
                 let is_plain =
                     !name.is_empty() && !name.starts_with('.') && !name.contains(['/', '\\', ':']);
-                let is_current = |name| !is_stale(&folder.join(name));
-                let found = is_plain && is_current(name);
-                found.then(|| fs::read(folder.join(name)).ok()).flatten().map(Cow::Owned)
+                if !is_plain || is_stale(&folder.join(name)) {
+                    return None;
+                }
+                fs::read(folder.join(name)).ok().map(Cow::Owned)
             }
         }
     }

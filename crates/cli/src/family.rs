@@ -89,8 +89,8 @@ pub(crate) fn run(arguments: &Arguments, form: Form) -> Result<Report, OpenError
     let opened = open(&arguments.file)?;
     let refused = |refusal: session::view::Refusal| OpenError::Refused(refusal.message);
     let families = opened.session.families(opened.id);
-    let named: Vec<&str> = families.iter().map(|f| f.name.as_str()).collect();
-    let program = which(arguments.program.as_deref(), &named)?;
+    let programs: Vec<&str> = families.iter().map(|f| f.name.as_str()).collect();
+    let program = which(arguments.program.as_deref(), &programs)?;
     let family = families.iter().find(|f| f.name == program);
     let beside = arguments.file.parent().unwrap_or(Path::new("."));
     let named = family.and_then(|f| f.table.as_ref()).map(|table| beside.join(table));

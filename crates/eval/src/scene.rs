@@ -62,6 +62,7 @@ impl Scene {
         let all = self.sources.iter();
         all.filter_map(|source| Some((source.computed.as_ref()?, source.at.as_slice())))
     }
+
     /// Returns what was drawn from these slots: what moves where they change, unless a picture turns to others.
     pub fn drawn_from(&self, slots: &[SlotId]) -> Moved {
         let read = slots.iter().flat_map(|&slot| &self.readers[slot]);

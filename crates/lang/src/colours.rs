@@ -90,12 +90,11 @@ fn whole(colour: &Term, at: usize) -> Term {
 
 /// Returns the argument that is one component: by its label, by its position where it has none.
 fn argument(arguments: &[Argument], at: usize) -> Option<&Term> {
-    let is = |(place, a): (usize, &Argument)| match &a.label {
+    let is = |(place, a): &(usize, &Argument)| match &a.label {
         Some(label) => **label == *COMPONENTS[at],
-        None => place == at,
+        None => *place == at,
     };
-    let place = arguments.iter().enumerate().position(is)?;
-    Some(&arguments[place].value)
+    arguments.iter().enumerate().find(is).map(|(_, a)| &a.value)
 }
 
 /// Returns of how many terms that which stands in each component of a colour is made.

@@ -482,13 +482,12 @@ pub(crate) fn class_at(document: &Document, class: ClassId, path: &Path) -> Opti
 fn per_unit(word: &ast::Word) -> Option<String> {
     expr::units::unit(word.text())?;
     let name = word.token.parent()?;
-    let mut divisor = ast::BinaryExpr::cast(name.parent()?)?;
+    let mut quotient = ast::BinaryExpr::cast(name.parent()?)?;
     let mut unit = word.text().to_string();
-    if let (Some(BinaryOp::Power), Expr::Number(power)) = (divisor.op(), divisor.right()?) {
+    if let (Some(BinaryOp::Power), Expr::Number(power)) = (quotient.op(), quotient.right()?) {
         unit = format!("{unit}^{}", power.digits()?.text());
-        divisor = ast::BinaryExpr::cast(divisor.syntax().parent()?)?;
+        quotient = ast::BinaryExpr::cast(quotient.syntax().parent()?)?;
     }
-    let quotient = divisor;
     let (Some(BinaryOp::Divide), Expr::Number(number)) = (quotient.op(), quotient.left()?) else {
         return None;
     };

@@ -60,8 +60,11 @@ fn is_sum(p: &Parser<'_>) -> bool {
     };
     let is_operator = |n: usize| matches!(p.nth(n), Plus | Minus | Star | Slash);
     let goes_on = |n: usize| is_operator(n) && is_operand(n + 1) && !p.begins_line(n + 1);
+    if !is_operand(0) {
+        return false;
+    }
     let mut end = 1;
-    while is_operand(0) && goes_on(end) {
+    while goes_on(end) {
         end += 2;
     }
     end > 1 && p.nth(end) == Ident && !p.begins_line(end)
