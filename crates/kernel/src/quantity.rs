@@ -42,23 +42,6 @@ pub struct Quantity<'a> {
 }
 
 impl Quantity<'_> {
-    /// Returns true for a class that tells more of a number than what it measures.
-    pub fn is_told_by(class: &str) -> bool {
-        matches!(
-            class,
-            "Angle"
-                | "Torque"
-                | "Moment"
-                | "RotationalStiffness"
-                | "AngularVelocity"
-                | "AngularAcceleration"
-                | "MassFlow"
-                | "Stress"
-                | "ElasticModulus"
-                | "SpecificWeight"
-        )
-    }
-
     /// Returns the sort of quantity that a class tells beyond what it measures; empty for what its dimension says.
     ///
     /// What is of one sort is written in the same units: torques and moments, no energies.
@@ -70,8 +53,14 @@ impl Quantity<'_> {
     /// ```
     pub fn sort(class: &str) -> &str {
         match class {
-            "Moment" | "RotationalStiffness" => "Torque",
-            told if Self::is_told_by(told) => told,
+            "Moment" | "Torque" | "RotationalStiffness" => "Torque",
+            "Angle"
+            | "AngularVelocity"
+            | "AngularAcceleration"
+            | "MassFlow"
+            | "Stress"
+            | "ElasticModulus"
+            | "SpecificWeight" => class,
             _ => "",
         }
     }
@@ -172,9 +161,7 @@ fn usual(
         return None;
     }
     let (units, least) = usual_of(class, dimension, document)?;
-    let suits = |unit: &&Name| class.is_empty() || suits(unit, Quantity::sort(class), dimension);
-    let mut sized: Vec<(f64, &Name)> =
-        units.into_iter().filter(suits).map(|unit| (size(unit), unit)).collect();
+    let mut sized: Vec<(f64, &Name)> = units.into_iter().map(|unit| (size(unit), unit)).collect();
     sized.sort_by(|a, b| a.0.total_cmp(&b.0));
     let is_readable = |x: f64| x == 0.0 && least < 1.0 || (least..MOST_READABLE).contains(&x);
     let best = sized.iter().find(|(x, _)| *x >= 1.0).or(sized.last());
@@ -184,35 +171,47 @@ fn usual(
 /// The units in which the text writes the sort of a class, and the least number for which they are used; nothing where
 /// it writes some of SI.
 ///
-/// What is written without a class counts where the units themselves tell the sort. A quantity without a class is shown
-/// in the units of the one sort that is written.
+/// What is written without a class counts where the units themselves tell the sort; what a class is written in is its
+/// own. A quantity without a class is shown in the units of the one sort that is written.
 fn usual_of<'d>(
     class: &str,
     dimension: Dimension,
     document: &'d Document,
 ) -> Option<(Vec<&'d Name>, f64)> {
-    let written = document.usual.range((dimension, None)..);
-    let written = || written.clone().take_while(|((d, _), _)| *d == dimension);
-    let sort = match class {
-        "" => {
-            let mut sorts = written().filter_map(|((_, sort), _)| sort.as_deref());
-            let one = sorts.next().unwrap_or_default();
-            if sorts.next().is_some() {
-                return None;
-            }
-            one
-        }
-        _ => Quantity::sort(class),
-    };
+    let sort = sort_in(document, class, dimension)?;
     let is_told_by_unit = !matches!(sort, "Stress" | "ElasticModulus" | "SpecificWeight");
     let counts = |of: Option<&str>| of.map_or(is_told_by_unit, |of| of == sort);
-    let usual: Vec<&Usual> =
-        written().filter(|((_, of), _)| counts(of.as_deref())).map(|(_, usual)| usual).collect();
-    if usual.is_empty() || usual.iter().any(|usual| usual.units.is_empty()) {
+    let usual: Vec<(Option<&str>, &Usual)> =
+        written(document, dimension).filter(|(of, _)| counts(*of)).collect();
+    if usual.is_empty() || usual.iter().any(|(_, usual)| usual.units.is_empty()) {
         return None;
     }
-    let least = usual.iter().map(|usual| usual.least).fold(f64::INFINITY, f64::min);
-    Some((usual.into_iter().flat_map(|usual| &usual.units).collect(), least))
+    let least = usual.iter().map(|(_, usual)| usual.least).fold(f64::INFINITY, f64::min);
+    let units = usual.into_iter().flat_map(|(of, usual)| {
+        let is_own = class.is_empty() || of.is_some();
+        usual.units.iter().filter(move |unit| is_own || suits(unit, sort, dimension))
+    });
+    Some((units.collect(), least))
+}
+
+/// The units in which the text writes quantities of a dimension, by the sort of their class where they have one.
+fn written(
+    document: &Document,
+    dimension: Dimension,
+) -> impl Iterator<Item = (Option<&str>, &Usual)> {
+    let written = document.usual.range((dimension, None)..);
+    let written = written.take_while(move |((d, _), _)| *d == dimension);
+    written.map(|((_, sort), usual)| (sort.as_deref(), usual))
+}
+
+/// The sort of a class; without one the sort of its dimension that the text writes, and nothing where there are several.
+fn sort_in<'a>(document: &'a Document, class: &'a str, dimension: Dimension) -> Option<&'a str> {
+    if !class.is_empty() {
+        return Some(Quantity::sort(class));
+    }
+    let mut sorts = written(document, dimension).filter_map(|(sort, _)| sort);
+    let one = sorts.next().unwrap_or_default();
+    sorts.next().is_none().then_some(one)
 }
 
 /// Returns true for a unit in which people write a sort of quantity, of those that share its dimension: newton metres are
