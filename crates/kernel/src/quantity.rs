@@ -124,7 +124,7 @@ pub fn spelling_for(x: f64, quantity: Quantity<'_>, document: &Document) -> Stri
     if is_of_the_sheet(dimension) {
         return of_the_sheet(dimension, document, size);
     }
-    match of_si(class, dimension) {
+    match of_si(sort_in(document, class, dimension).unwrap_or_default(), dimension) {
         Some(spelling) => prefixed(spelling, size),
         None => dimension.to_string(),
     }
@@ -228,6 +228,25 @@ fn suits(unit: &str, sort: &str, dimension: Dimension) -> bool {
     }
 }
 
+/// Returns the class that is shown in another unit of SI than what else has its dimension; none for most.
+///
+/// ```
+/// use expr::Dimension;
+/// use kernel::quantity::sharing;
+/// assert_eq!(sharing(Dimension::ENERGY), Some("Torque"));
+/// assert_eq!(sharing(Dimension::FORCE), None);
+/// ```
+pub fn sharing(dimension: Dimension) -> Option<&'static str> {
+    match dimension {
+        Dimension::FREQUENCY => Some("AngularVelocity"),
+        Dimension::ANGULAR_ACCELERATION => Some("AngularAcceleration"),
+        Dimension::ENERGY => Some("Torque"),
+        Dimension::DAMPING => Some("MassFlow"),
+        Dimension::PRESSURE_GRADIENT => Some("SpecificWeight"),
+        _ => None,
+    }
+}
+
 /// Returns true for turns, radians or degrees in a time.
 fn is_of_turning(unit: &str) -> bool {
     let angle = unit.split('/').next().unwrap_or_default();
@@ -240,6 +259,7 @@ fn is_of_turning(unit: &str) -> bool {
 /// ```
 /// use kernel::quantity::is_of_si;
 /// assert!(is_of_si("kN") && is_of_si("mm") && is_of_si("m/s"));
+/// assert!(is_of_si("kN*m") && is_of_si("kg/s") && is_of_si("rad/s^2") && is_of_si("kN/m^3"));
 /// assert!(!is_of_si("ft") && !is_of_si("day") && !is_of_si("N/mm") && !is_of_si("L"));
 /// ```
 pub fn is_of_si(spelling: &str) -> bool {
@@ -249,12 +269,8 @@ pub fn is_of_si(spelling: &str) -> bool {
         Dimension::MASS => "g",
         other => units::preferred(other).unwrap_or_default(),
     };
-    let turning = match unit.dimension {
-        Dimension::FREQUENCY => "rad/s",
-        Dimension::ENERGY => "N*m",
-        _ => stem,
-    };
-    let is_stem = |rest: &str| rest == stem || rest == turning;
+    let told = sharing(unit.dimension).and_then(|class| of_si(class, unit.dimension));
+    let is_stem = |rest: &str| rest == stem || told == Some(rest);
     PREFIXES.iter().any(|(prefix, ..)| spelling.strip_prefix(prefix).is_some_and(is_stem))
 }
 

@@ -6,7 +6,7 @@
 use base::Name;
 use expr::dimension::Dimension;
 use kernel::builtin::{FUNCTIONS, NUMBER_MESSAGES, find};
-use kernel::quantity::{is_of_si, is_of_the_sheet};
+use kernel::quantity::{is_of_si, is_of_the_sheet, sharing};
 use kernel::{Quantity, Scale, Usual};
 use std::collections::BTreeMap;
 use syntax::ast::{Arg, Assign, AstNode, Expr, NumberExpr, Param, Part, Type, Word};
@@ -62,8 +62,11 @@ pub(crate) fn of(parse: &Parse, before: Option<Scale>) -> Counting {
 /// prefix of a thousand.
 fn usual(parse: &Parse, stated: &[NumberExpr]) -> BTreeMap<(Dimension, Option<Name>), Usual> {
     let mut usual: BTreeMap<(Dimension, Option<Name>), Usual> = BTreeMap::new();
-    let unit = |number: &NumberExpr| number.unit().filter(|u| !is_of_si(u.text()));
-    if !stated.iter().any(|number| unit(number).is_some()) {
+    let is_shared = |unit: &str| {
+        expr::units::unit(unit).is_some_and(|known| sharing(known.dimension).is_some())
+    };
+    let tells = |unit: &str| !is_of_si(unit) || is_shared(unit);
+    if !stated.iter().filter_map(NumberExpr::unit).any(|unit| tells(unit.text())) {
         return usual;
     }
     let classes = classes(parse);
