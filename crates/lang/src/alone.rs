@@ -5,6 +5,7 @@
 
 use crate::kinds::Kind;
 use crate::lower::{ByName, Lowered, Lowerer, OWN};
+use crate::programs::Programs;
 use crate::scope::Scope;
 use crate::visible::Visible;
 use base::{Diagnostic, FileId, Name, Severity};
@@ -25,6 +26,8 @@ pub(crate) struct Names {
     pub(crate) choices: Vec<ClassId>,
     pub(crate) made: BTreeMap<(&'static str, ClassId), ClassId>,
     pub(crate) counted: BTreeMap<(ClassId, u32), ClassId>,
+    /// The programs, and the turns of their blocks.
+    pub(crate) drawing: BTreeMap<ClassId, usize>,
 }
 
 /// Expressions that were read alone.
@@ -56,6 +59,7 @@ pub fn read_alone(lowered: &Lowered, class: ClassId, texts: &[String]) -> Alone 
     l.choices = names.choices;
     l.made = names.made;
     l.counted = names.counted;
+    l.programs = Programs::known(names.drawing);
     let terms = texts.iter().map(|text| l.read_alone(class, text)).collect();
     Alone { document: l.document, terms }
 }
@@ -97,8 +101,14 @@ spots: List of 3 Spot
 
     #[test]
     fn an_expression_alone_is_what_a_message_of_it_says() {
-        let of_row =
-            ["first.sum", "turns.last.spot", "more * count", "turns.count", "Spot(x: 3, y: more)"];
+        let of_row = [
+            "first.sum",
+            "turns.last.spot",
+            "turns[1].moved(by: from)",
+            "more * count",
+            "turns.count",
+            "Spot(x: 3, y: more)",
+        ];
         let of_document = [
             "row.first",
             "side",

@@ -215,6 +215,7 @@ pub(crate) fn lower_text(
             choices: l.choices,
             made: l.made,
             counted: l.counted,
+            drawing: l.programs.classes(),
         }),
     }
 }

@@ -40,6 +40,16 @@ impl Programs {
         self.of_class.insert(class, self.declared.len());
         self.declared.push((class, file, program));
     }
+    /// Programs that are lowered, of which only their classes are known.
+    pub(crate) fn known(of_class: BTreeMap<ClassId, usize>) -> Self {
+        Self { of_class, ..Self::default() }
+    }
+
+    /// Returns the classes that draw: programs, and the turns of their blocks.
+    pub(crate) fn classes(self) -> BTreeMap<ClassId, usize> {
+        self.of_class
+    }
+
     pub(crate) fn declared(&self) -> Vec<(ClassId, FileId, ast::Program)> {
         self.declared.clone()
     }

@@ -235,7 +235,8 @@ impl Session {
         let source = text::Source::now(&open.state);
         let text = steps::with_guide(&source, (program, step), is_guide)?;
         let users = steps::users(&source, program, step);
-        let patterns = patterns::among(&source, program, (&users, step));
+        let mut patterns = patterns::among(&source, program, (&users, step));
+        patterns.extend(patterns::within(&source, program, &users));
         let text = patterns::settled(open, &beside, &program.into(), (text, &patterns))?;
         let label = format!("{step} {}", if is_guide { "as a guide" } else { "drawn" });
         let change = recording::retext(open, &beside, text, label)?;

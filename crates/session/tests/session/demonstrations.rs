@@ -1,7 +1,7 @@
 //! Standard parts, drawn once by hand: what comes of them is that of the programs that the gallery has of them.
 
 use crate::desk::Desk;
-use session::drafting::view::{Ends, NewParameter, Turn, Wants};
+use session::drafting::view::{Ends, Go, NewParameter, Turn, Wants};
 use session::view::Pointer;
 
 fn record(name: &str, parameters: &[(&str, &str)]) -> Desk {
@@ -413,4 +413,65 @@ fn a_step_cannot_speak_of_itself() {
     let pointer = Pointer { at: (3.0, 0.0), reach: 0.4, ..Pointer::default() };
     let refused = desk.session.point(desk.id, &pointer).expect_err("it is the circle's own");
     assert_eq!(refused.message, "a step cannot speak of itself, as circle would");
+}
+
+#[test]
+fn a_pattern_of_what_is_drawn_by_another_name_does_not_draw_its_first_again() {
+    let mut desk = Desk::of(
+        "use geometry
+unit mm
+program Flange() {
+    circle = Circle(center: Point(45, 0), radius: 5)
+    circle2 = Circle(center: Point(60, 0), radius: 2)
+    guide circle3 = Circle(center: Point(20, 0), radius: 2)
+    turns = repeat 3 times with at = Point(80, 0) {
+        c = Circle(center: at, radius: 1)
+        next at = Point(at.x + 10, 0)
+    }
+    each = for hole in [circle, circle2] {
+        ring = Circle(center: hole.center, radius: hole.radius / 2)
+    }
+    guides = for hole in [circle3] {
+        ring2 = Circle(center: hole.center, radius: hole.radius / 2)
+    }
+}
+flange: Flange
+",
+    );
+    assert_eq!(desk.wrong(), []);
+    desk.session.record(desk.id, "Flange").expect("it is there");
+    let whats = [
+        ("circle.reversed", "5 figures"),
+        ("-circle.reversed", "5 figures"),
+        ("circle3.reversed", "6 figures"),
+        ("turns.last.c", "5 figures"),
+        ("turns.first.c.reversed", "5 figures"),
+        ("turns[2]", "5 turns"),
+        ("turns", "5 figures"),
+        ("circle.center", "6 figures"),
+    ];
+    for (what, figures) in whats {
+        let name =
+            draw(&mut desk, ":pattern(about,count)", &[Typed(what), Typed("0, 0"), Typed("6")]);
+        assert_eq!(value(&desk, &format!("flange.{name}")), figures, "{what}");
+    }
+    for (address, figures) in [("each.ring", "5 figures"), ("guides.ring2", "6 figures")] {
+        desk.session.visit(desk.id, &Go::To(address.into())).expect("there is one");
+        draw(&mut desk, ":pattern(about,count)", &[Typed("hole"), Typed("0, 0"), Typed("6")]);
+        let block = address.split('.').next().unwrap_or_default();
+        let last = desk.text();
+        let name = last.lines().filter_map(|line| line.trim().split_once(" = (")).map(|l| l.0);
+        let names: Vec<&str> = name.collect();
+        let made = names.iter().filter_map(|name| {
+            desk.session.comes_to(desk.id, &format!("flange.{block}[0].{name}"))
+        });
+        assert_eq!(made.collect::<Vec<_>>(), [figures], "{address}: {}", desk.text());
+    }
+    // what a loop runs over becomes a guide: its patterns draw all
+    desk.session.make_guide(desk.id, ("Flange", "circle"), true).expect("it has a name");
+    assert_eq!(desk.wrong(), [], "{}", desk.text());
+    assert_eq!(value(&desk, "flange.pattern"), "6 figures", "{}", desk.text());
+    let text = desk.text();
+    let (_, each) = text.split_once("each = for").expect("it is there");
+    assert!(each.split("guides").next().is_some_and(|each| each.contains("(0..6 - 1)")), "{text}");
 }
