@@ -14,7 +14,7 @@ use std::fmt;
 pub struct Dimension(pub [i8; 7]);
 
 /// Names of quantities; of several names for one dimension the first is shown.
-const NAMES: [(&str, Dimension); 88] = [
+const NAMES: [(&str, Dimension); 92] = [
     ("Real", Dimension::NONE),
     ("Angle", Dimension::ANGLE),
     ("Length", Dimension::LENGTH),
@@ -103,6 +103,10 @@ const NAMES: [(&str, Dimension); 88] = [
     ("WaveNumber", Dimension::CURVATURE),
     ("CurrentDensity", Dimension::CURRENT_DENSITY),
     ("MagneticField", Dimension::MAGNETIC_FIELD),
+    ("GravitationalConstant", Dimension::GRAVITATION),
+    ("RadiationConstant", Dimension::RADIATION),
+    ("MolarCharge", Dimension::MOLAR_CHARGE),
+    ("ReciprocalAmount", Dimension::RECIPROCAL_AMOUNT),
 ];
 
 /// The base units in the order in which they are written, each with its place in a dimension.
@@ -244,6 +248,14 @@ impl Dimension {
     pub const CURRENT_DENSITY: Self = Self([-2, 0, 0, 1, 0, 0, 0]);
     /// Magnetic field, A/m.
     pub const MAGNETIC_FIELD: Self = Self([-1, 0, 0, 1, 0, 0, 0]);
+    /// Force of gravitation between two kilograms a metre apart, N·m²/kg².
+    pub const GRAVITATION: Self = Self([3, -1, -2, 0, 0, 0, 0]);
+    /// What a surface radiates by the fourth power of its temperature, W/(m²·K⁴).
+    pub const RADIATION: Self = Self([0, 1, -3, 0, -4, 0, 0]);
+    /// Charge of a mole, C/mol.
+    pub const MOLAR_CHARGE: Self = Self([0, 0, 1, 1, 0, -1, 0]);
+    /// Number in a mole, 1/mol.
+    pub const RECIPROCAL_AMOUNT: Self = Self([0, 0, 0, 0, 0, -1, 0]);
 
     /// Returns true for a plain number.
     pub fn is_none(self) -> bool {

@@ -85,6 +85,8 @@ pub const NAMED_UNITS: &[NamedUnit] = &[
     lone("h", "hour", scaled(Dimension::TIME, 3600.0, 0)),
     lone("day", "day", scaled(Dimension::TIME, 86_400.0, 0)),
     lone("week", "week", scaled(Dimension::TIME, 604_800.0, 0)),
+    // the Julian year; not `year`, which is a part of many a date
+    lone("yr", "year", scaled(Dimension::TIME, 31_557_600.0, 0)),
     si("Hz", "hertz", decimal(Dimension::FREQUENCY, 0)),
     lone("rpm", "revolution a minute", scaled(Dimension::FREQUENCY, PI / 30.0, 0)),
     lone("mph", "mile an hour", scaled(Dimension::VELOCITY, 44_704.0, -5)),
@@ -228,6 +230,7 @@ pub fn spellings() -> impl Iterator<Item = &'static str> {
 /// assert_eq!(meant("khz"), ["kHz"]);
 /// assert_eq!(meant("mhz"), ["MHz", "mHz"]);
 /// assert_eq!(meant("kohn"), ["kohm"]);
+/// assert_eq!(meant("years"), ["yr"]);
 /// assert!(meant("furlong").is_empty());
 /// ```
 pub fn meant(word: &str) -> Vec<String> {
@@ -272,7 +275,8 @@ pub fn meant(word: &str) -> Vec<String> {
     }
     let slips = prefixed(&|prefix, _, named| {
         let Some(rest) = word.strip_prefix(prefix) else { return false };
-        let is_long = rest.chars().count() >= 3 && named.spelling.chars().count() >= 3;
+        let is_usual = prefix.is_empty() || "TGMkcmunp".contains(prefix);
+        let is_long = is_usual && rest.chars().count() >= 3 && named.spelling.chars().count() >= 3;
         is_long && nearest(rest, [named.spelling]).is_some()
     });
     slips.into_iter().next().into_iter().collect()
@@ -360,7 +364,7 @@ fn shifted(number: &str, exponent: i32) -> Option<f64> {
 ///
 /// It is always the unit of SI, so that the number shown is the number kept.
 pub fn preferred(dimension: Dimension) -> Option<&'static str> {
-    const PREFERRED: [(Dimension, &str); 61] = [
+    const PREFERRED: [(Dimension, &str); 65] = [
         (Dimension::AREA, "m^2"),
         (Dimension::VOLUME, "m^3"),
         (Dimension::MASS, "kg"),
@@ -422,6 +426,10 @@ pub fn preferred(dimension: Dimension) -> Option<&'static str> {
         (Dimension::JERK, "m/s^3"),
         (Dimension::CURRENT_DENSITY, "A/m^2"),
         (Dimension::MAGNETIC_FIELD, "A/m"),
+        (Dimension::GRAVITATION, "N*m^2/kg^2"),
+        (Dimension::RADIATION, "W/m^2/K^4"),
+        (Dimension::MOLAR_CHARGE, "C/mol"),
+        (Dimension::RECIPROCAL_AMOUNT, "1/mol"),
     ];
     PREFERRED.iter().find(|(d, _)| *d == dimension).map(|(_, unit)| *unit)
 }

@@ -310,6 +310,11 @@ fn raised(power: i8, rest: &str, size: impl Fn(&str) -> f64) -> String {
         return spelling("m");
     }
     let reads = |spelling: &String| size(spelling) >= 0.1;
+    // what fills bottles and tanks is counted in litres
+    let litres = format!("L{rest}");
+    if power == 3 && !reads(&spelling("m")) && size(&litres) >= 1.0 {
+        return litres;
+    }
     let mut spellings = ["km", "m", "cm", "mm"].map(spelling).into_iter();
     spellings.find(reads).unwrap_or_else(|| spelling("mm"))
 }

@@ -4,9 +4,13 @@
 //! as an `Angle`, their sums and differences, and what is so many times as large.
 
 use crate::kinds::Kind;
-use crate::lower::Lowerer;
+use crate::lower::{Lowerer, OWN};
 use crate::scope::Scope;
-use syntax::ast::{BinaryOp, Expr, UnaryOp};
+use base::{Diagnostic, Place};
+use syntax::ast::{AstNode, BinaryOp, CallExpr, Expr, UnaryOp};
+
+/// A whole turn, in radians.
+const TURN: f64 = std::f64::consts::TAU;
 
 /// The units of angles by which a number is told from other plain numbers.
 const UNITS: [&str; 8] = ["deg", "°", "rad", "turn", "rev", "grad", "arcmin", "arcsec"];
@@ -17,7 +21,37 @@ const KEEPING: [&str; 4] = ["abs", "min", "max", "clamp"];
 /// Expressions are looked into so deep.
 const DEEPEST: usize = 64;
 
+/// The class of angles.
+pub(crate) const ANGLE: &str = "Angle";
+
 impl Lowerer<'_> {
+    /// Warns of `sin(30)`: more than a whole turn without a unit, where degrees were perhaps meant.
+    pub(crate) fn warn_of_degrees(&mut self, scope: &Scope, call: &CallExpr) {
+        let Some(word) = call.name().filter(|w| matches!(w.text(), "sin" | "cos" | "tan")) else {
+            return;
+        };
+        let angle = call.args().and_then(|args| args.args().next()?.value());
+        let Some(Expr::Number(angle)) = angle else { return };
+        let is_meant = angle.unit().is_some() || angle.value().is_none_or(|x| x <= TURN);
+        if is_meant || scope.file != OWN || self.silent > 0 {
+            return;
+        }
+        let place = Place { file: scope.file, span: angle.span() };
+        let number = angle.syntax().text().to_string();
+        let message = format!("{number} is an angle in radians here");
+        let degrees = format!("{number} deg");
+        let d = Diagnostic::warning("bare-angle", place, message);
+        let hint = format!(
+            "degrees have their unit: `{}({degrees})`; so may radians, `{number} rad`",
+            word.text()
+        );
+        self.report(d.hint(hint).fix(format!("write {degrees}"), [(place, degrees)]));
+    }
+    /// Returns true for an expression whose value is an angle.
+    pub(crate) fn is_angle(&mut self, scope: &Scope, e: &Expr) -> bool {
+        self.is_angle_within(scope, e, DEEPEST)
+    }
+
     /// Says of a message without a class whose answer is an angle that it answers one.
     pub(crate) fn tell_angle(&mut self, scope: &Scope, index: usize, answer: &Expr) {
         let class = scope.class();
@@ -29,7 +63,7 @@ impl Lowerer<'_> {
         {
             return;
         }
-        let angle = self.visible.of_language("Angle");
+        let angle = self.visible.of_language(ANGLE);
         self.document.classes[class].messages[index].class = angle;
     }
 
@@ -86,6 +120,6 @@ impl Lowerer<'_> {
         self.silent -= 1;
         self.references = references;
         let class = found.and_then(|(term, _)| self.declared_class(scope, &term));
-        class.is_some() && class == self.visible.of_language("Angle")
+        class.is_some() && class == self.visible.of_language(ANGLE)
     }
 }

@@ -486,6 +486,7 @@ impl Lowerer<'_> {
         if let Some(class) = self.class_meant(scope.file, &word)? {
             return self.constructor(scope, &word, class, args);
         }
+        self.warn_of_degrees(scope, call);
         for (class, me) in owners(scope) {
             // `picture => picture(a, b)`: what takes no arguments leaves the name to the function, as does
             // `picture => picture()`, where that takes none as well

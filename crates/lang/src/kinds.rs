@@ -76,7 +76,7 @@ impl Kind {
                 with_article(named)
             }
             Self::List(element) if **element == Self::Unknown => "a list".into(),
-            Self::List(element) => format!("a list, each element {}", element.words(document)),
+            Self::List(element) => format!("a list of {}", element.several(document)),
             Self::Tuple(items) => {
                 let items: Vec<String> = items.iter().map(|i| i.words(document)).collect();
                 format!("({})", items.join(", "))
@@ -84,6 +84,23 @@ impl Kind {
             Self::Picture => "a picture".into(),
             Self::Function => "a function".into(),
             Self::Unknown => "something".into(),
+        }
+    }
+
+    /// Returns in words what a list of this kind holds.
+    fn several(&self, document: &Document) -> String {
+        let one = self.words(document);
+        let (article, rest) = one.split_once(' ').unwrap_or(("", &one));
+        match self {
+            Self::Thing(_) | Self::Option(_) => rest.into(),
+            Self::Number(_) | Self::List(_) if article == "a" => match rest.split_once(" of ") {
+                Some((list, of)) => format!("{list}s of {of}"),
+                None => format!("{rest}s"),
+            },
+            Self::Number(_) | Self::List(_) | Self::Tuple(_) | Self::Unknown => one,
+            Self::Bool | Self::Text | Self::Color | Self::Picture | Self::Function => {
+                format!("{rest}s")
+            }
         }
     }
 

@@ -50,7 +50,9 @@ pub(crate) fn of(parse: &Parse, before: Option<Scale>) -> Counting {
     let has_unit = parse.outline().any(|(kind, _)| kind == SyntaxKind::UnitLine);
     let any = |is: fn(Dimension) -> bool| quantities.iter().any(|(_, d)| is(*d));
     let writes_lengths = !has_unit
-        && (any(is_of_the_sheet) || any(names_a_length) && !has_bare_places(parse, &stated));
+        && (any(is_of_the_sheet)
+            || (any(names_a_length) || stated.iter().any(spells_a_length))
+                && !has_bare_places(parse, &stated));
     let usual = usual(parse, &stated);
     let best = best(quantities, has_unit);
     let is_near = |scale: &Scale| scale.0.iter().zip(best.0).all(|(a, b)| a.abs_diff(b) <= NEAR);
@@ -159,6 +161,15 @@ fn names_a_length(dimension: Dimension) -> bool {
     let [length, mass, time, others @ ..] = dimension.0;
     let is_plain = others.iter().all(|&exponent| exponent == 0) && (mass == 0 || time == 0);
     is_plain && length != 0 || dimension == Dimension::PRESSURE
+}
+
+/// Returns true for a unit that is joined of others, one of which is of length: `N/m`, `W/m/K`.
+fn spells_a_length(number: &NumberExpr) -> bool {
+    number.unit().is_some_and(|unit| {
+        let factors = unit.text().split(['*', '/']).map(|f| f.split('^').next().unwrap_or(f));
+        let mut units = factors.filter_map(expr::units::unit);
+        units.any(|u| u.dimension == Dimension::LENGTH)
+    })
 }
 
 /// Returns true for a text that writes places or lengths without units. Where it does not say itself of which class a

@@ -1,6 +1,7 @@
 //! Terms: expressions resolved and checked. In: the tree of an expression and its scope. Out: the
 //! kernel's term and what it is worth; nothing where it is wrong, which is reported at its place.
 
+use crate::angles::ANGLE;
 use crate::kinds::{Kind, measured};
 use crate::lower::Lowerer;
 use crate::scope::Scope;
@@ -150,6 +151,9 @@ impl Lowerer<'_> {
                 let class = class.map(|c| self.document.named_class(c));
                 let class = class.map(|c| self.document.classes[c].name.to_string());
                 let unit = unit_of_literal(value);
+                let is_plain = matches!(kind, Kind::Number(None)) || *kind == Kind::PLAIN;
+                let is_angle = class.is_none() && is_plain && self.is_angle(scope, value);
+                let class = class.or_else(|| is_angle.then(|| ANGLE.to_string()));
                 let class = class.or_else(|| unit.as_ref().map(|_| String::new()));
                 let known = class.into_iter().chain(unit).map(Term::Text);
                 Some(Term::Send {
@@ -417,7 +421,7 @@ impl Lowerer<'_> {
             if element == Kind::Unknown && kind != Kind::Unknown {
                 let mut before = items.iter().map(|(_, known)| known);
                 let misfit = before.find(|known| !kind.fits(known, &self.document)).cloned();
-                self.wrong_kind(scope, item.span(), &kind, &misfit.unwrap_or(Kind::Unknown));
+                self.unlike(scope, item.span(), &kind, misfit.unwrap_or(Kind::Unknown));
                 return None;
             }
             items.push((term, kind));
@@ -427,6 +431,17 @@ impl Lowerer<'_> {
         let items = items.into_iter().map(measure).collect();
         let each = if is_mixed { Kind::Unknown } else { element };
         Some((Term::List(items), Kind::List(Box::new(each))))
+    }
+
+    /// Reports an element of another kind than one before it.
+    fn unlike(&mut self, scope: &Scope, span: Span, found: &Kind, other: Kind) {
+        let code = code_for(found, &other);
+        let list = Kind::List(Box::new(other)).words(&self.document);
+        let message = format!("found {} in {list}", found.words(&self.document));
+        let d = Diagnostic::error(code, Place { file: scope.file, span }, message);
+        self.report(
+            d.hint("the elements of a list are of one kind: keep what is of another beside it"),
+        );
     }
 
     fn unary(&mut self, scope: &Scope, unary: &ast::UnaryExpr) -> Lowered {
@@ -636,15 +651,14 @@ impl Lowerer<'_> {
     }
 }
 
-/// Returns the unit of a number that is written with one and measures something.
+/// Returns the unit of a number that is written with one.
 fn unit_of_literal(value: &Expr) -> Option<String> {
     match value {
         Expr::Paren(inner) => unit_of_literal(&inner.inner()?),
         Expr::Unary(unary) => unit_of_literal(&unary.operand()?),
         Expr::Number(number) => {
             let unit = number.unit()?;
-            let measures = expr::units::unit(unit.text()).is_some_and(|u| !u.dimension.is_none());
-            measures.then(|| unit.text().to_string())
+            expr::units::unit(unit.text()).map(|_| unit.text().to_string())
         }
         _ => None,
     }
