@@ -209,6 +209,11 @@ impl Lowerer<'_> {
                     .fix(format!("write {plain}"), [(place, plain)]),
                 _ => d,
             },
+            (Kind::Number(Some(found)), Kind::Number(Some(wanted)), _)
+                if wanted.is_none() && !found.is_none() =>
+            {
+                d.hint(counted(*found, value, &written))
+            }
             (Kind::List(_), Kind::Thing(_), Expr::List(list)) => {
                 let items: Vec<String> =
                     list.elements().map(|e| e.syntax().text().to_string()).collect();
@@ -369,6 +374,23 @@ fn fraction_of_unit(quotient: &ast::BinaryExpr, wanted: Dimension) -> Option<Str
     let unit = expr::units::unit(word.text()).filter(|unit| unit.dimension == wanted);
     unit.filter(|_| x.is_finite())?;
     Some(format!("{} {}", base::number::shortest(x), word.text()))
+}
+
+/// Says how a quantity becomes a plain number, and what else it may be declared as.
+fn counted(found: Dimension, value: &Expr, written: &str) -> String {
+    let unit = expr::units::preferred(found).map_or_else(|| found.to_string(), str::to_string);
+    let written = match value {
+        Expr::Binary(_) | Expr::If(_) | Expr::Let(_) => format!("({written})"),
+        _ => written.to_string(),
+    };
+    match found.named() {
+        Some(quantity) => {
+            format!(
+                "with its unit it is a `{quantity}`, the plain number of {unit} is `{written} / 1 {unit}`"
+            )
+        }
+        None => format!("no class is named for its unit: `name => {written}` keeps it"),
+    }
 }
 
 /// Returns the unit in `5 h = 6`, which somebody may have meant for the name of the next part.

@@ -190,6 +190,10 @@ impl Lowerer<'_> {
                 Some(option) => format!("it is a choice: `{name}.{option}` is one of its options"),
                 None => format!("it is a class: `{name}(…)` makes a thing of it"),
             });
+        } else if let Some(power) = raised(word.text()) {
+            d = d
+                .hint(format!("a power is `{power}`"))
+                .fix(format!("write {power}"), [(place, power)]);
         } else if let Some(hint) = per_unit(word) {
             d = d.hint(hint);
         } else if let Some(hint) = crate::hints::called_otherwise(word.text()) {
@@ -214,7 +218,9 @@ impl Lowerer<'_> {
                 self.class_of_part(top, &name)
                     .or_else(|| Some(self.find_message(top, &name, None)?.0))
             };
-            if of_document().is_some() {
+            if let Some(things) = self.library_with(scope, &word.name()) {
+                d = d.hint(format!("`{things}` has it: write `{things}.{}`", word.text()));
+            } else if of_document().is_some() {
                 d = d.hint(format!(
                     "a class sees its own parts and constants alone: `owner.{}` asks what its things are part of",
                     word.text()
@@ -224,6 +230,20 @@ impl Lowerer<'_> {
             }
         }
         self.report(d);
+    }
+
+    /// Returns where the things of a text are that is used and has a part or message of this name.
+    fn library_with(&self, scope: &Scope, name: &Name) -> Option<Path> {
+        let others = self.file_things.iter().filter(|(file, _)| **file != scope.file);
+        let mut others = others.map(|(_, things)| things);
+        let has = |things: &&Path| {
+            let class = self.class_at(self.document.root, things);
+            class.is_some_and(|class| {
+                self.class_of_part(class, name).is_some()
+                    || self.document.classes[class].messages.iter().any(|m| m.name == *name)
+            })
+        };
+        others.find(has).cloned()
     }
 
     /// Returns true while errors are reported and few.
@@ -243,12 +263,19 @@ impl Lowerer<'_> {
         base::diagnostic::nearest(found, names.into_iter().filter(|n| n.len() <= LONGEST_WORD))
     }
 
+    /// Returns the name of a text that is used, where a receiver is its things.
+    fn library_in_words(&self, receiver: &Kind) -> Option<String> {
+        let Kind::Thing(of) = receiver else { return None };
+        let is_it = |things: &&Path| self.class_at(self.document.root, things) == Some(*of);
+        self.file_things.values().find(is_it).map(ToString::to_string)
+    }
+
     /// Says that a receiver has no part or message of this name, and which it has.
     pub(crate) fn unknown_part(&mut self, scope: &Scope, receiver: &Kind, word: &ast::Word) {
         if matches!(receiver, Kind::Thing(class) if self.is_broken(*class, &word.name())) {
             return;
         }
-        let what = receiver.words(&self.document);
+        let what = self.library_in_words(receiver).unwrap_or(receiver.words(&self.document));
         let message = format!("{what} has no part or message {}", word.text());
         let place = Place { file: scope.file, span: word.span() };
         let mut d = Diagnostic::error("unknown-part", place, message);
@@ -268,11 +295,13 @@ impl Lowerer<'_> {
             Kind::List(element) => self.is_part_of_each(element, word),
             _ => false,
         };
+        let is_list = matches!(receiver, Kind::List(_));
         let made = match receiver {
             Kind::Thing(_) => self.made_elsewhere(scope, word),
             _ => None,
         };
         d = match self.nearest(word.text(), names.iter().map(String::as_str)) {
+            _ if is_list && matches!(word.text(), "length" | "size" | "len") => d.meant("count"),
             _ if of_each => d.meant(&format!("map(each => each.{})", word.text())),
             Some(near) => d.meant(near),
             None if let Some(made) = made => d.hint(made),
@@ -476,6 +505,15 @@ pub(crate) fn class_at(document: &Document, class: ClassId, path: &Path) -> Opti
         },
         Step::Owner => None,
     })
+}
+
+/// Returns a word that ends in raised digits as a power is written: `x^2` for `x²`.
+fn raised(word: &str) -> Option<String> {
+    const DIGITS: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
+    let of = word.trim_end_matches(DIGITS);
+    let digits = word[of.len()..].chars().filter_map(|c| DIGITS.iter().position(|d| *d == c));
+    let exponent: String = digits.map(|digit| digit.to_string()).collect();
+    (!of.is_empty() && !exponent.is_empty()).then(|| format!("{of}^{exponent}"))
 }
 
 /// Says how `5/s` is written where a number is divided by what is a unit and no name.

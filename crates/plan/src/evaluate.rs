@@ -63,9 +63,13 @@ impl<'a> Opening<'a> {
             return Trouble::wrong(format!("there is no element {index} in a list of {count}"));
         };
         let path = self.structure.path(self.document, *list);
-        let elements = if count == 1 { "element" } else { "elements" };
+        let elements = match count {
+            0 => "no elements".to_string(),
+            1 => "1 element, [0] alone".to_string(),
+            n => format!("{n} elements, [0] to [{}]", n - 1),
+        };
         Trouble::wrong(format!(
-            "{path} has {count} {elements}: there is no {path}[{index}]; \
+            "{path} has {elements}: there is no {path}[{index}]; \
              a `for` through the list speaks of those that are there"
         ))
     }

@@ -557,6 +557,9 @@ fn token_fault(file: FileId, text: &str, span: Span, fault: Fault) -> Diagnostic
                 }
                 Some('²') => "write `^2`",
                 Some('³') => "write `^3`",
+                Some('€' | '£' | '¥') => MONEY,
+                Some('∞') => "a number is finite: leave out the bound that is none",
+                Some('$') if dollars(text, span) => MONEY,
                 Some('$' | '@' | '\\' | '~' | '?' | '`') => {
                     "names are made of letters, digits and `_`"
                 }
@@ -565,6 +568,15 @@ fn token_fault(file: FileId, text: &str, span: Span, fault: Fault) -> Diagnostic
             d.hint(hint)
         }
     }
+}
+
+/// What is said of signs of currencies.
+const MONEY: &str = "money is a plain number without its sign: `price: Real = 3.50`";
+
+/// Returns true for a dollar sign before a number.
+fn dollars(text: &str, span: Span) -> bool {
+    let rest = text.get(span.range().start + 1..);
+    rest.is_some_and(|rest| rest.trim_start().starts_with(|c: char| c.is_ascii_digit()))
 }
 
 /// Returns true if the text goes on with these words where a span begins.

@@ -164,6 +164,7 @@ pub(super) fn into(p: &mut Parser<'_>, word: &'static str, rest: impl FnOnce(&mu
 fn named(p: &mut Parser<'_>) -> bool {
     match p.nth(1) {
         Colon | Comma => part(p),
+        LParen if mistakes::called_member(p) => p.skip_line(),
         FatArrow | LParen => {
             p.start_documented(Message);
             if !message(p) {
@@ -269,6 +270,9 @@ fn assigned(p: &mut Parser<'_>) {
     }
     if mistakes::arrow(p, first) {
         return p.skip_line();
+    }
+    if mistakes::body_of_path(p, first) {
+        return;
     }
     if p.expect(Eq, "expected-value", "`=` and a value") {
         value(p);

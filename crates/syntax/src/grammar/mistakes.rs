@@ -3,7 +3,8 @@
 use super::members::is_keyword;
 use crate::kind::SyntaxKind::{
     Arrow, Colon, Comma, Dot, Eof, Eq, EqEq, FatArrow, Greater, GreaterEq, Ident, LBrace, LBracket,
-    LParen, Less, LessEq, LetKw, Minus, NotEq, Number, RBrace, RBracket, RParen, Text, Unit,
+    LParen, Less, LessEq, LetKw, Minus, NotEq, Number, Plus, RBrace, RBracket, RParen, Slash, Star,
+    Text, Unit,
 };
 use crate::parser::Parser;
 use crate::units::unit_length;
@@ -21,10 +22,13 @@ pub(super) fn unclosed(p: &mut Parser<'_>, opener: usize) {
 
 /// Reports what begins no member as the mistake that it is; returns false where it is none that is known.
 pub(super) fn of_member(p: &mut Parser<'_>) -> bool {
-    decimal_comma(p)
+    grouped_digits(p)
+        || decimal_comma(p)
         || comment(p)
         || declared_elsewhere(p)
         || enumeration(p)
+        || increment(p)
+        || body_of_name(p)
         || bare_equation(p)
         || held(p)
         || name_and_class(p)
@@ -32,6 +36,125 @@ pub(super) fn of_member(p: &mut Parser<'_>) -> bool {
         || values_in_braces(p)
         || relation_in_words(p)
         || anchored_value(p)
+        || several_values(p)
+        || time_of_day(p)
+}
+
+/// `1,000,000`, `1 000 000`
+fn grouped_digits(p: &mut Parser<'_>) -> bool {
+    let is_group =
+        |p: &Parser<'_>, n| p.nth(n) == Number && p.word(n).len() == 3 && !p.begins_line(n);
+    let step = match p.current() {
+        Comma if p.is_adjacent(0) && p.is_adjacent(1) => 2,
+        Number => 1,
+        _ => return false,
+    };
+    let first = step - 1;
+    if p.behind(1) != Number || !is_group(p, first) || step == 2 && !is_group(p, first + 2) {
+        return false;
+    }
+    let mut n = first;
+    while is_group(p, n + step) && (step == 1 || p.nth(n + 1) == Comma) {
+        n += step;
+    }
+    let at = p.pos();
+    let written = p.text_between(at - 1, at + n);
+    let number: String = written.chars().filter(|c| !matches!(c, ',' | ' ')).collect();
+    let said = (
+        "grouped-digits",
+        format!("found `{written}`, wanted one number"),
+        format!("the digits of a number stand together: write `{number}`"),
+    );
+    let span = p.span_at(at - 1).join(p.span_at(at + n));
+    p.report_mistake((at - 1, at + n), said, Some((span, number)));
+    true
+}
+
+/// `= 3, 4`, where what is given is a place or a list
+fn several_values(p: &mut Parser<'_>) -> bool {
+    let is_one = p.at(Comma)
+        && !p.begins_line(0)
+        && matches!(p.behind(1), Number | Unit | Text)
+        && matches!(p.nth(1), Number | Minus | Text);
+    if is_one {
+        let at = p.pos();
+        let said = (
+            "several-values",
+            "found `,` after a value, wanted the end of the value".to_string(),
+            "several values stand in brackets: `(3, 4)` is a place, `[3, 4]` a list".to_string(),
+        );
+        p.report_mistake((at, at), said, None);
+    }
+    is_one
+}
+
+/// `8:30`
+fn time_of_day(p: &mut Parser<'_>) -> bool {
+    let is_one = p.at(Colon) && p.behind(1) == Number && p.nth(1) == Number && p.is_adjacent(1);
+    if is_one {
+        let at = p.pos();
+        let (hours, minutes) = (p.text_between(at - 1, at - 1), p.word(1));
+        let minutes = minutes.strip_prefix('0').unwrap_or(minutes);
+        let said = (
+            "expected-member",
+            format!("found `{}`, wanted a number with its unit", p.text_between(at - 1, at + 1)),
+            format!("a time is `{hours} h + {minutes} min`"),
+        );
+        p.report_mistake((at - 1, at + 1), said, None);
+    }
+    is_one
+}
+
+/// `n += 1`
+fn increment(p: &mut Parser<'_>) -> bool {
+    let first = p.pos();
+    let last = p.line_end();
+    let is_changed = |n: &usize| {
+        matches!(p.nth(*n), Plus | Minus | Star | Slash)
+            && p.nth(n + 1) == Eq
+            && p.is_adjacent(n + 1)
+    };
+    let found = (1..last - first).find(is_changed).filter(|_| p.at(Ident) && p.begins_line(0));
+    if let Some(n) = found {
+        let (of, sign) = (p.text_between(first, first + n - 1), p.word(n));
+        let said = (
+            "expected-member",
+            format!("found `{sign}=`, wanted a part, constraint, message or value"),
+            format!(
+                "nothing is done step by step: a value is what it is, `{of} = …`, and what is made of it is another"
+            ),
+        );
+        p.report_mistake((first, last), said, None);
+    }
+    found.is_some()
+}
+
+/// `f(x) = x^2`, `print(x)`: returns true where the call or definition was reported.
+pub(super) fn called_member(p: &mut Parser<'_>) -> bool {
+    let is_one = p.nth(1) == LParen && p.nth(2) == Ident && p.nth(3) == RParen && !p.begins_line(1);
+    let is_defined = matches!(p.nth(4), Eq | FatArrow) && !p.begins_line(4);
+    let ends = p.begins_line(4) || p.nth(4) == Eof;
+    if !is_one || !is_defined && !ends {
+        return false;
+    }
+    let (first, last) = (p.pos(), p.line_end());
+    let (name, of) = (p.word(0), p.word(2));
+    let said = match is_defined {
+        true => (
+            "expected-class",
+            format!("found `{name}({of})`, wanted the parameter's class"),
+            format!("write `{name}({of}: Real) => {}`", p.text_between(first + 5, last)),
+        ),
+        false => (
+            "expected-member",
+            format!("found `{name}({of})`, wanted a part, constraint, message or value"),
+            format!(
+                "nothing is called for what it does: `thinglab run` shows what `{of}` is; a rule is `constraint …`"
+            ),
+        ),
+    };
+    p.report_mistake((first, last), said, None);
+    true
 }
 
 /// `3,5`
@@ -184,7 +307,8 @@ fn bare_equation(p: &mut Parser<'_>) -> bool {
     let begins = matches!(p.current(), Ident | Number | LParen | Minus | Text);
     let compares = |n| matches!(p.nth(n), Eq | EqEq | Less | LessEq | Greater | GreaterEq | NotEq);
     let joins = p.at(Ident) && p.nth(1) == Ident;
-    let is_one = begins && !joins && p.begins_line(0) && (1..=last - first).any(compares);
+    let before_brace = (1..=last - first).take_while(|&n| p.nth(n) != LBrace);
+    let is_one = begins && !joins && p.begins_line(0) && { before_brace }.any(compares);
     if is_one {
         equation_since(p, first, last);
     }
@@ -549,6 +673,41 @@ pub(super) fn arrow(p: &mut Parser<'_>, first: usize) -> bool {
             format!("write `merge {left} = {right}` to make the two one"),
         );
         p.report_mistake((first, last), said, None);
+    }
+    is_one
+}
+
+/// `box { width = 3 }`
+fn body_of_name(p: &mut Parser<'_>) -> bool {
+    let is_one = p.at(Ident) && p.nth(1) == LBrace && !p.begins_line(1);
+    if is_one {
+        let (at, of) = (p.pos(), p.word(0));
+        let said = (
+            "expected-member",
+            format!("found a body after `{of}`, wanted its class before it"),
+            format!(
+                "declare it with its class, `{of}: Class {{ … }}`; what is declared gets its values one by one, `{of}.x = …`"
+            ),
+        );
+        p.report_mistake((at, at), said, None);
+    }
+    is_one
+}
+
+/// `rows[0] { name = "pen" }`: a body for what is there already.
+pub(super) fn body_of_path(p: &mut Parser<'_>, first: usize) -> bool {
+    let is_one = p.at(LBrace) && !p.begins_line(0);
+    if is_one {
+        let at = p.pos();
+        let of = p.text_between(first, at - 1);
+        let hint = match p.nth(1) == Ident && p.nth(2) == Eq {
+            true => {
+                format!("give what is declared its values one by one: `{of}.{} = …`", p.word(1))
+            }
+            false => format!("a body stands where a part is declared: `{of}: Class {{ … }}`"),
+        };
+        let said = ("expected-value", "found `{`, wanted `=` and a value".to_string(), hint);
+        p.report_mistake((at, at), said, None);
     }
     is_one
 }

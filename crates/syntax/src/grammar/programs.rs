@@ -101,7 +101,12 @@ fn for_rest(p: &mut Parser<'_>, scope: Scope) {
             break;
         }
     }
-    super::members::into(p, "in", expression);
+    if p.at(Eq) {
+        let hint = "a loop goes through numbers or a list: `for i in 1..3 { … }`".to_string();
+        p.expected_hint("expected-word", "`in`", Some(hint));
+    } else {
+        super::members::into(p, "in", expression);
+    }
     super::mistakes::range_in_words(p);
     with(p);
     if super::mistakes::loop_without_braces(p, first) {
