@@ -188,7 +188,8 @@ impl<'a> Evaluator<'a> {
                     _ => "",
                 };
                 let quantity = Quantity { dimension, class: text(0), written: text(1) };
-                Ok(Answer::text(&kernel::show_quantity(x, quantity, self.document).with_unit()))
+                let shown = kernel::show_quantity(x, quantity, self.document);
+                Ok(Answer::text(&shown.in_picture()))
             }
             NumberMessage::Sqrt => made(Unary::Sqrt, measure::power(dimension, 0.5)),
             NumberMessage::Abs => made(Unary::Abs, dimension),

@@ -71,6 +71,22 @@ impl Shown {
     pub fn with_unit(&self) -> String {
         format!("{} {}", self.text, self.unit).trim_end().into()
     }
+    /// Returns the same as it stands in a picture: with the signs `Ω` and `µ`.
+    ///
+    /// ```
+    /// let shown = |unit: &str| kernel::Shown { text: "4.7".into(), unit: unit.into(), exact: String::new() };
+    /// assert_eq!(shown("kohm").in_picture(), "4.7 kΩ");
+    /// assert_eq!(shown("uA").in_picture(), "4.7 µA");
+    /// assert_eq!(shown("turn/s").in_picture(), "4.7 turn/s");
+    /// ```
+    pub fn in_picture(&self) -> String {
+        let unit = self.unit.replace("ohm", "Ω");
+        let unit = match unit.strip_prefix('u') {
+            Some(rest) if units::unit(&self.unit).is_some() => format!("µ{rest}"),
+            _ => unit,
+        };
+        format!("{} {unit}", self.text).trim_end().into()
+    }
 }
 
 /// A number as people read it.

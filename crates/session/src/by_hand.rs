@@ -76,6 +76,37 @@ impl Session {
         }
     }
 
+    /// Returns true where a dimension measures what is to be deleted: then it goes as well.
+    pub fn is_measured(&self, id: DocumentId, path: &Path) -> bool {
+        let home = self.home(id);
+        let beside = Beside::of(&*self.host, &self.documents, home);
+        match self.at_home(id, &Command::Delete(path.clone())) {
+            Ok(Command::Delete(path)) => {
+                tools::copies::is_measured(self.document(home), &beside, &path)
+            }
+            Ok(_) | Err(_) => false,
+        }
+    }
+
+    /// Returns true if a path leads to something: a thing, a figure that is computed, a constraint.
+    pub fn is_there(&self, id: DocumentId, path: &Path) -> bool {
+        let state = &self.document(id).state;
+        let is_constraint = || {
+            let Some((Step::Part(name), whole)) = path.0.split_last() else { return false };
+            let owner = match whole {
+                [] => Some(kernel::DOCUMENT),
+                _ => thing_at(state, &Path(whole.to_vec())),
+            };
+            let found = owner.and_then(|owner| {
+                state.structure.constraint_named(&state.lowered.document, owner, name)
+            });
+            found.is_some()
+        };
+        thing_at(state, path).is_some()
+            || is_constraint()
+            || state.evaluator(&state.values).at(path).is_ok()
+    }
+
     /// Returns what can be said of some things, and is not said yet: the constraints that fit them, and merging them;
     /// what can be made of an outline.
     pub fn offers(&self, id: DocumentId, paths: &[Path]) -> Vec<Offer> {

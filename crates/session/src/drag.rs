@@ -1,6 +1,7 @@
 //! A drag: from press to release nothing is written, and nothing but numbers is computed.
 
 use crate::apply::{self, Aim};
+use crate::by_hand::class_at;
 use crate::document::Open;
 use crate::general;
 use crate::host::Host;
@@ -11,9 +12,22 @@ use crate::view::{Change, DragState, Refusal};
 use crate::words;
 use eval::Answer;
 use expr::Dimension;
-use kernel::{DOCUMENT, Path, SlotId, Step, Structure, Term, ThingId, Values};
+use kernel::{Argument, BinaryOperator, DOCUMENT, Path, SlotId, Step, Structure};
+use kernel::{Term, ThingId, Values};
 use plan::{NotDecided, Planner, Press, RefusalReason, Target};
 use std::collections::BTreeSet;
+use std::f64::consts::TAU;
+
+/// How an angle is followed that is computed: `atan2` leaps by a whole turn where it comes past half of one.
+#[derive(Clone, Copy, PartialEq, Debug)]
+enum Turning {
+    /// It is none, or a stored one, which goes on by itself.
+    No,
+    /// As it is.
+    Plain,
+    /// As what it has turned since it was this angle.
+    From(f64),
+}
 
 /// A drag between press and release.
 pub(crate) struct Drag {
@@ -25,6 +39,8 @@ pub(crate) struct Drag {
     moved: Option<(ThingId, (f64, f64))>,
     /// The expression, where what is dragged is computed.
     computed: Option<Term>,
+    /// Of an angle that is computed, how it goes on past half a turn.
+    turning: Turning,
     /// What holds its numbers; of what is computed, the numbers that it is computed from.
     slots: Vec<SlotId>,
     /// Where each of its numbers was at the press.
@@ -156,6 +172,7 @@ pub(crate) fn press(
         others: Vec::new(),
         moved,
         computed: None,
+        turning: Turning::No,
         slots: dragged,
         wanted: start.clone(),
         start,
@@ -193,7 +210,9 @@ pub(crate) fn press_computed(
     )?;
     let wish = [start[0], start.get(1).copied().unwrap_or(0.0)];
     let (slots, values) = (read.into_iter().collect(), state.values.clone());
+    let turning = if is_angle(state, &path) { Turning::Plain } else { Turning::No };
     Ok(Drag {
+        turning,
         path,
         others: Vec::new(),
         moved: None,
@@ -205,6 +224,35 @@ pub(crate) fn press_computed(
         values,
         wish,
     })
+}
+
+/// Returns true for a path to an angle that a class computes.
+fn is_angle(state: &State, path: &Path) -> bool {
+    let document = &state.lowered.document;
+    let Some((Step::Part(name), whole)) = path.0.split_last() else { return false };
+    let whole = match whole {
+        [] => Some(state.structure.things[DOCUMENT].class),
+        _ => class_at(state, &Path(whole.to_vec())),
+    };
+    let message = whole.and_then(|class| document.find_message(class, name, None));
+    let class = message.and_then(|(_, message)| message.class);
+    class.is_some_and(|class| *document.classes[class].name == *"Angle")
+}
+
+/// Returns an angle without its whole turns.
+fn within_half_a_turn(angle: f64) -> f64 {
+    angle - TAU * (angle / TAU).round()
+}
+
+/// Returns the expression for how far an angle has turned since it was another, less than half a turn either way.
+fn turned_since(angle: &Term, from: f64) -> Term {
+    let call = |name: &str, of: Vec<Term>| Term::Call {
+        name: name.into(),
+        arguments: of.into_iter().map(|value| Argument { label: None, value }).collect(),
+    };
+    let from = Term::Number { value: from, dimension: Dimension::NONE, bare: false };
+    let way = Term::Binary(BinaryOperator::Subtract, Box::new(angle.clone()), Box::new(from));
+    call("atan2", vec![call("sin", vec![way.clone()]), call("cos", vec![way])])
 }
 
 /// Returns the way to a place that is computed in a thing that has none of its own, neither in its parts: the
@@ -356,8 +404,9 @@ impl Drag {
                 })
                 .collect(),
         };
+        let wished = self.turned(state, planner, &to);
         let report =
-            planner.drag(state.model(), &mut self.press, &mut self.values, &to, &mut texts);
+            planner.drag(state.model(), &mut self.press, &mut self.values, &wished, &mut texts);
         self.wish = [to[0], to.get(1).copied().unwrap_or(0.0)];
         self.wanted = to;
         let changes = self.press.mode_changes(planner, state.model(), &self.values, &mut texts);
@@ -381,6 +430,32 @@ impl Drag {
             message += &format!("; beyond it {}", words::course(state, change));
         }
         DragState { reached: false, message: Some(message), limit: Some(limit), modes }
+    }
+    /// Returns the numbers that are wished of the planner. An angle that is computed goes on past half a turn: near there
+    /// it is pressed anew, as what it turns from now on.
+    fn turned(&mut self, state: &State, planner: &mut Planner, to: &[f64]) -> Vec<f64> {
+        /// An angle beyond this, in radians, is near where it leaps.
+        const NEAR: f64 = 3.0;
+        /// What has turned further than this, in radians, is pressed anew.
+        const FAR: f64 = 2.0;
+        let ([angle], Some(term)) = (to, &self.computed) else { return to.to_vec() };
+        let is_far = match self.turning {
+            Turning::No => return to.to_vec(),
+            Turning::Plain => angle.abs() > NEAR,
+            Turning::From(from) => within_half_a_turn(angle - from).abs() > FAR,
+        };
+        let now = self.computed_now(state).and_then(|now| now.first().map(|(x, _)| *x));
+        if let Some(now) = now.filter(|_| is_far) {
+            let target = Target::Term { me: DOCUMENT, term: &turned_since(term, now) };
+            if let Ok(press) = planner.press(state.model(), &self.values, &[target]) {
+                self.press = press;
+                self.turning = Turning::From(now);
+            }
+        }
+        match self.turning {
+            Turning::From(from) => vec![within_half_a_turn(angle - from)],
+            Turning::No | Turning::Plain => to.to_vec(),
+        }
     }
     /// Lets go: soft constraints act again, and the change is written.
     ///

@@ -55,6 +55,7 @@ pub(crate) fn offers(state: &State, paths: &[Path]) -> Vec<Offer> {
     // points are merged more often than anything else is said of them, lines hardly ever
     let of_places = things.iter().all(|one| offerer.is_place(one.class));
     offers.extend(offerer.joint(paths).filter(|_| of_places));
+    offers.extend(offerer.coincident());
     offers.extend(offerer.levels());
     offers.extend(offerer.alone(&offers));
     offers.extend(offerer.pairs());
@@ -98,6 +99,14 @@ impl Offerer<'_> {
         let names: Vec<String> = joined.iter().map(ToString::to_string).collect();
         let members = format!("merge {}", names.join(" = "));
         Some(Offer { label: "merge".into(), members, ..Offer::default() })
+    }
+
+    /// Two places that are to be one, where one of them is computed and cannot be merged.
+    fn coincident(&self) -> Option<Offer> {
+        let [a, b] = self.things else { return None };
+        let are_places = self.is_place(a.class) && self.is_place(b.class);
+        let rule = format!("{} = {}", a.path, b.path);
+        (are_places && self.is_computed()).then(|| Self::rule("coincident", &[rule]))
     }
 
     /// The two places that are level or upright: two that are selected, or the ends of each line.

@@ -28,7 +28,8 @@ pub(crate) fn offers(open: &Open, paths: &[Path]) -> Vec<Offer> {
     if open.pane.is_some() {
         return Vec::new();
     }
-    let radius = corner(&open.state, paths).and_then(|corner| corner.radius());
+    let boxed = || boxed_corner(&open.state, paths).and_then(|boxed| boxed.radius());
+    let radius = corner(&open.state, paths).and_then(|corner| corner.radius()).or_else(boxed);
     let round = radius.map(|radius| Offer {
         label: "round".into(),
         members: "round corner of radius {}".into(),
@@ -55,13 +56,72 @@ pub(crate) fn rounded_by(
     of: &[Path],
     typed: &str,
 ) -> Option<Command> {
-    let corner = corner(&open.state, of)?;
     let terms = plotting::read(&open.state, host, &[typed]).ok()?;
     let evaluator = open.state.evaluator(&open.state.values);
     let Ok(Answer::Number(radius, _)) = evaluator.evaluate(terms.first()?, DOCUMENT) else {
         return None;
     };
-    rounded(open, host, &corner, (radius, typed)).map(Command::Text)
+    let radius = (radius, typed);
+    if let Some(corner) = corner(&open.state, of) {
+        return rounded(open, host, &corner, radius).map(Command::Text);
+    }
+    // a rectangle has its four lines first
+    let boxed = boxed_corner(&open.state, of)?;
+    let (text, sides) = lines_of(open, host, &boxed.whole)?;
+    let lines = Open::of(&open.name, text, host);
+    let met = [sides[boxed.at].clone(), sides[(boxed.at + 3) % 4].clone()];
+    let met = met.map(|name| Path(vec![Step::Part(Name::new(&name))]));
+    let corner = corner(&lines.state, &met)?;
+    rounded(&lines, host, &corner, radius).map(Command::Text)
+}
+
+/// A corner of a rectangle.
+struct BoxedCorner {
+    /// The rectangle.
+    whole: Path,
+    /// Which of its corners, from that with the smallest coordinates to the left around it.
+    at: usize,
+    /// The shorter of its sides.
+    shorter: f64,
+}
+
+/// Finds the corner of a rectangle that is selected, by its point or by both its sides.
+fn boxed_corner(state: &State, paths: &[Path]) -> Option<BoxedCorner> {
+    const CORNERS: [&str; 4] = ["corner", "across", "far", "beyond"];
+    const SIDES: [&str; 4] = ["bottom", "right", "top", "left"];
+    let named = |path: &Path, names: &[&str; 4]| {
+        let [whole @ Step::Part(_), Step::Part(name)] = path.0.as_slice() else { return None };
+        let at = names.iter().position(|known| **known == **name)?;
+        Some((Path(vec![whole.clone()]), at))
+    };
+    let (whole, at) = match paths {
+        [point] => named(point, &CORNERS)?,
+        [one, other] => {
+            let ((whole, one), (of, other)) = (named(one, &SIDES)?, named(other, &SIDES)?);
+            // a side begins at the corner of its number
+            let at = match (one + 4 - other) % 4 {
+                1 => one,
+                3 => other,
+                _ => return None,
+            };
+            (Some(whole).filter(|whole| *whole == of)?, at)
+        }
+        _ => return None,
+    };
+    rectangle(state, &whole)?;
+    let size = |name: &str| {
+        let slot = state.structure.slot_of(thing_at(state, &end_of(&whole, name))?)?;
+        Some(state.values.numbers[slot])
+    };
+    let shorter = size("width")?.min(size("height")?);
+    Some(BoxedCorner { whole, at, shorter })
+}
+
+impl BoxedCorner {
+    /// A radius that fits.
+    fn radius(&self) -> Option<f64> {
+        significant(REACH * self.shorter, 1).parse().ok().filter(|radius| *radius > 0.0)
+    }
 }
 
 /// What a rectangle is given that its four lines show.
@@ -235,6 +295,11 @@ fn says_numbers_alone(text: &str, name: &Name) -> bool {
 /// Returns the command that makes a rectangle its four lines, joined at the corners; nothing where they would be another
 /// figure.
 pub(crate) fn in_lines(open: &Open, host: &dyn Host, path: &Path) -> Option<Command> {
+    lines_of(open, host, path).map(|(text, _)| Command::Text(text))
+}
+
+/// Returns the text in which a rectangle is its four lines, and what these are called, the lower one first.
+fn lines_of(open: &Open, host: &dyn Host, path: &Path) -> Option<(String, [String; 4])> {
     let state = &open.state;
     let line = state.lowered.document.class_named(&Name::new("Line"))?;
     rectangle(state, path)?;
@@ -264,7 +329,7 @@ pub(crate) fn in_lines(open: &Open, host: &dyn Host, path: &Path) -> Option<Comm
     let said = Command::Edit { target: Path::default(), members };
     apply::apply(&mut trial, host, &said).ok()?;
     let holds = trial.status.satisfied && !trial.state.has_errors();
-    holds.then(|| Command::Text(trial.state.text.clone()))
+    holds.then(|| (trial.state.text.clone(), [bottom, right, top, left]))
 }
 
 /// Four names for new things of a class.

@@ -536,7 +536,7 @@ impl Session {
             ..drawing::dxf::DxfOptions::default()
         };
         let picture = self.picture(id);
-        let part = |tag: drawing::Tag| picture.drawn_by.get(tag.0 as usize).cloned().flatten();
+        let part = views::picture::blocks(&self.document(id).state, &picture);
         drawing::dxf::write_in_blocks(&picture.drawing, &options, &part)
     }
     /// Says why some things have no picture, which is drawn without them; nothing is praise.

@@ -207,10 +207,10 @@ pub enum Freedom {
 pub struct PictureView {
     /// What to paint.
     pub drawing: drawing::Drawing,
-    /// For every tag, the path of the thing that it pictures; of what a program drew, that of the entity; of what the
-    /// document computes, its name.
+    /// For every tag, the path of the thing that it pictures; of what a program drew, that of the entity; of a figure
+    /// that a class declares, that of it; of what the document computes, its name.
     pub paths: Vec<String>,
-    /// For every tag, the path of the thing whose program drew it, where one did.
+    /// For every tag, the path of the thing whose program drew it, or whose class declares it, where one did.
     pub drawn_by: Vec<Option<String>>,
     /// For every tag, its thing's freedom.
     pub freedom: Vec<Option<Freedom>>,
@@ -271,7 +271,7 @@ pub struct Grip {
     pub y: f64,
     /// Whether an anchor holds it.
     pub anchored: bool,
-    /// Whether a program draws it: then it shows only under the pointer.
+    /// Whether a program draws it, or a class computes it: then it shows only under the pointer.
     pub drawn: bool,
     /// Its thing's freedom.
     pub freedom: Option<Freedom>,

@@ -45,7 +45,9 @@ export function createPainter(canvas, onSize) {
     if (box.width === 0 || box.height === 0) return
     width = box.width
     height = box.height
-    const exact = entry.devicePixelContentBoxSize?.[0]
+    // an emulated screen tells the pixels of the real one
+    const told = entry.devicePixelContentBoxSize?.[0]
+    const exact = told && Math.abs(told.inlineSize - width * devicePixelRatio) < 2 ? told : undefined
     canvas.width = exact ? exact.inlineSize : Math.round(width * devicePixelRatio)
     canvas.height = exact ? exact.blockSize : Math.round(height * devicePixelRatio)
     ratio = canvas.width / width

@@ -1,5 +1,6 @@
 //! The bin: a tile for each class that things can be made of.
 
+use crate::dock::Sheet;
 use crate::js::Painter;
 use crate::lab::Lab;
 use crate::paint::{Part, display_list};
@@ -216,6 +217,7 @@ fn Tile(lab: Lab, entry: BinEntry, number: usize) -> impl IntoView {
     let (class, name) = (StoredValue::new(entry.class.clone()), entry.class.clone());
     let held = Memo::new(move |_| lab.tool.get() == Some(class.get_value()));
     let is_own = entry.library.is_empty();
+    let by_finger = StoredValue::new(false);
     view! {
         <li>
             {is_own.then(|| {
@@ -228,13 +230,21 @@ fn Tile(lab: Lab, entry: BinEntry, number: usize) -> impl IntoView {
             <button class="tile" title=entry.doc data-tile=number.to_string() data-class=entry.class.clone()
                 aria-pressed=move || held.get().to_string()
                 on:pointerdown=move |e| {
-                    if e.button() == 0 {
+                    by_finger.set_value(e.pointer_type() == "touch");
+                    if e.button() == 0 && !by_finger.get_value() {
                         e.prevent_default();
                         lab.take_tool(&class.get_value());
                         lab.carried.set_value(true);
                     }
                 }
                 on:pointerup=move |_| lab.carried.set_value(false)
+                on:click=move |_| {
+                    // a finger that comes down may scroll the bin; what it takes is placed where the sheet was
+                    if by_finger.get_value() {
+                        lab.take_tool(&class.get_value());
+                        lab.sheet.set(Sheet::Shut);
+                    }
+                }
                 on:keydown=move |e| {
                     if e.key() == "Enter" || e.key() == " " {
                         e.prevent_default();

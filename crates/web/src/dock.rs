@@ -2,7 +2,7 @@
 
 use crate::calculator::Calculator;
 use crate::family::Families;
-use crate::lab::Lab;
+use crate::lab::{Drawer, Lab};
 use crate::plot::PlotPane;
 use crate::splitter::{Splitter, Way};
 use crate::text::Text;
@@ -145,6 +145,12 @@ pub fn Handles(
 }
 
 impl Lab {
+    /// Opens the drawer with a tab; a narrow page pulls it up.
+    pub fn open_drawer(self, tab: Drawer) {
+        self.drawer.set(tab);
+        self.sheet.set(Sheet::Drawer);
+    }
+
     /// Opens the dock with a tab, and remembers it.
     pub fn open_dock(self, tab: Tab) {
         self.dock.set(Some(tab));

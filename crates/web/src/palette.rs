@@ -153,8 +153,8 @@ fn Entry(
 /// them somewhere; then what has all their letters in order, the shortest first: an action in its label, a
 /// document, whose title may be long, in its path.
 ///
-/// Constructions and classes are found by pieces of words, not by scattered letters, and come after what has them in
-/// its label or name.
+/// Constructions and classes are found by pieces of words, not by scattered letters. Those whose name begins so come
+/// before documents, others after what has the words in its label or name.
 fn matching(wanted: &str, listed: &[Listed], (constructions, classes): &Drawn) -> Vec<Choice> {
     let wanted = wanted.trim().to_lowercase();
     let rank = |label: &str, name: &str, short: &str| {
@@ -169,17 +169,24 @@ fn matching(wanted: &str, listed: &[Listed], (constructions, classes): &Drawn) -
     };
     let action =
         |action: &'static Action| (rank(action.label, action.id, action.label), Choice::Do(action));
-    let document =
-        |one: &Listed| (rank(&one.title, &one.path, &one.path), Choice::Open(one.clone()));
+    // a title is a sentence, and may have any word in it: what is called so comes first
+    let document = |one: &Listed| {
+        let rank = rank(&one.title, &one.path, &one.path);
+        (rank.map(|rank| rank.max((0, 2))), Choice::Open(one.clone()))
+    };
     let has = |text: &str| {
         let text = text.to_lowercase();
         !wanted.is_empty() && wanted.split_whitespace().all(|word| text.contains(word))
     };
+    let called = |text: &str| match text.to_lowercase().starts_with(&wanted) {
+        true => (0, 1),
+        false => (2, 1),
+    };
     let construction = |row: &ConstructionRow| {
         let text = [&row.label, row.also].join(" ");
-        (has(&text).then_some((2, 1)), Choice::Draw(row.clone()))
+        (has(&text).then(|| called(&row.label)), Choice::Draw(row.clone()))
     };
-    let class = |class: &String| (has(class).then_some((2, 1)), Choice::Insert(class.clone()));
+    let class = |class: &String| (has(class).then(|| called(class)), Choice::Insert(class.clone()));
     let all = ACTIONS.iter().map(action).chain(constructions.iter().map(construction));
     let all = all.chain(classes.iter().map(class)).chain(listed.iter().map(document));
     let mut found: Vec<_> = all.filter_map(|(rank, choice)| Some((rank?, choice))).collect();

@@ -38,6 +38,8 @@ struct Course {
     grows: bool,
     /// Whether the range is a whole turn, whose ends may be one place.
     is_turn: bool,
+    /// Whether it is computed, so that the ends of a whole turn are one.
+    is_computed: bool,
     /// The numbers that were there at each end, once it was there.
     seen: [Option<Vec<f64>>; 2],
     /// How often it has turned since it last got on.
@@ -60,8 +62,12 @@ impl Course {
         self.at = (self.at + if self.grows { way } else { -way }).clamp(least, most);
     }
 
-    /// Whether it goes on through its ends: only where all was the same at both, so that nothing jumps.
+    /// Whether it goes on through its ends: only where all was the same at both, so that nothing jumps. What is computed
+    /// is followed past half a turn, and comes on from the other end by itself.
     fn goes_round(&self) -> bool {
+        if self.is_turn && self.is_computed {
+            return true;
+        }
         let [Some(first), Some(last)] = &self.seen else { return false };
         let near = |(a, b): (&f64, &f64)| (a - b).abs() <= 1e-6 * (1.0 + a.abs().max(b.abs()));
         self.is_turn && first.len() == last.len() && first.iter().zip(last).all(near)
@@ -104,8 +110,7 @@ impl Lab {
     pub fn play(self, row: usize, ends: (f64, f64)) {
         let found = self.values.with_untracked(|rows| rows.get(row).cloned());
         let Some((of, at)) = found.and_then(|row| row.number.map(|at| (row, at))) else { return };
-        // an angle that is computed has no value beyond its ends
-        let is_turn = !of.is_virtual && whole_turn(&of) == Some(ends);
+        let (is_turn, is_computed) = (whole_turn(&of) == Some(ends), of.is_virtual);
         let path = of.path;
         let was = self.player.now.get_untracked();
         self.stop_playing();
@@ -116,7 +121,8 @@ impl Lab {
         let covered = self.fits.get_value().then(|| self.covered());
         let grows = at < ends.1;
         let seen = [None, None];
-        let mut course = Course { ends, at, grows, is_turn, seen, turns: 0, covered };
+        let mut course =
+            Course { ends, at, grows, is_turn, is_computed, seen, turns: 0, covered };
         course.see(|| self.numbers_beside(row));
         let playing = Playing { path, number: self.player.count.get_value() + 1 };
         self.player.count.set_value(playing.number);
@@ -270,6 +276,7 @@ mod tests {
             at: 8.0,
             grows: true,
             is_turn: false,
+            is_computed: false,
             seen: [None, None],
             turns: 0,
             covered: None,
@@ -290,6 +297,10 @@ mod tests {
         geared.see(|| vec![1.0, 180.0]);
         geared.step(0.25);
         assert_eq!((geared.at, geared.grows), (7.5, false));
+        // what is computed comes on from the other end, whatever follows it
+        let mut computed = Course { is_computed: true, ..turn() };
+        computed.step(0.25);
+        assert_eq!((computed.at, computed.grows), (2.5, true));
         let mut unknown = turn();
         unknown.see(|| vec![1.0]);
         unknown.step(0.25);

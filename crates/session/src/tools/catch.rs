@@ -61,10 +61,20 @@ impl Sight<'_> {
             return *known;
         }
         let path = self.path(element).and_then(|path| parse_path(path));
-        let near = path.filter(|p| p.0.len() == 1 || thing_at(self.state, p).is_some());
+        let near = path.filter(|p| {
+            p.0.len() == 1 || thing_at(self.state, p).is_some() || self.is_declared(element)
+        });
         let class = near.and_then(|path| class_at(self.state, &path));
         self.classes.borrow_mut().insert(tag, class);
         class
+    }
+
+    /// Whether an element pictures a figure that the class of a thing declares, as a side of a rectangle.
+    fn is_declared(&self, element: &Element) -> bool {
+        let (structure, document) = (&self.state.structure, &self.state.lowered.document);
+        let whole = self.picture.drawn_by.get(element.tag.0 as usize).cloned().flatten();
+        let whole = whole.and_then(|whole| thing_at(self.state, &parse_path(&whole)?));
+        whole.is_some_and(|thing| document.program(structure.things[thing].class).is_none())
     }
 
     /// The path of what an element pictures.
@@ -114,9 +124,32 @@ fn at_point(sight: &Sight<'_>, pointer: &Pointer) -> Option<Catch> {
             let rules = vec![format!("{}.passes(through: {path})", sight.whole)];
             return Some(Catch { rules, word: Some(format!("through {path}")), ..at });
         }
+        if grip.drawn {
+            // what is computed is not joined, but followed
+            let is_place = sight.class.is_some_and(|c| sight.state.lowered.document.is_place(c));
+            let rules = vec![format!("{} = {path}", sight.own)];
+            return is_place.then(|| Catch { rules, word: Some(format!("at {path}")), ..at });
+        }
         let joined = joining::partner_of(sight.state, sight.class?, &path)?;
-        Some(Catch { word: Some(format!("joins {joined}")), joins: Some(joined), ..at })
+        let (rules, aside) = exactly_level(sight, at.at).unzip();
+        let word = format!("joins {joined}{}", aside.unwrap_or_default());
+        Some(Catch { word: Some(word), joins: Some(joined), rules: rules.into_iter().collect(), ..at })
     })
+}
+
+/// The rule that what is drawn from the last place to one that it joins is level, or upright, where it is so exactly: the
+/// last side of a box; and the word for it.
+fn exactly_level(sight: &Sight<'_>, at: (f64, f64)) -> Option<(String, &'static str)> {
+    let (last, before) = sight.last.as_ref()?;
+    let (dx, dy) = ((at.0 - last.0).abs(), (at.1 - last.1).abs());
+    let (name, word) = match () {
+        () if dx.max(dy) == 0.0 => return None,
+        () if dy <= 1e-9 * dx => ("y", ", horizontal"),
+        () if dx <= 1e-9 * dy => ("x", ", vertical"),
+        () => return None,
+    };
+    let coordinate = |path: &Path| path.then(Step::Part(Name::new(name)));
+    Some((format!("{} = {}", coordinate(before), coordinate(&sight.own)), word))
 }
 
 /// The middle of a line, or a line or circle that the place lies on.

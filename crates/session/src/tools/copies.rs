@@ -15,7 +15,7 @@ use crate::state::State;
 use crate::view::Refusal;
 use crate::words;
 use base::{Name, Span};
-use kernel::{Command, Literal, Path, Step};
+use kernel::{Command, DOCUMENT, Literal, Path, Step, ThingId};
 use lang::{Meant, Mention};
 use std::collections::{BTreeMap, BTreeSet};
 use syntax::ast::{AstNode, Member};
@@ -61,7 +61,7 @@ impl Clip {
 pub(crate) fn read(text: &str, host: &dyn Host) -> Option<Clip> {
     let open = Open::of("", text.into(), host);
     let state = &open.state;
-    let parts = state.structure.parts(kernel::DOCUMENT);
+    let parts = state.structure.parts(DOCUMENT);
     let name = |part| state.structure.field_name(&state.lowered.document, part).cloned();
     let paths: Vec<Path> =
         parts.filter_map(name).map(|name| Path(vec![Step::Part(name)])).collect();
@@ -84,7 +84,7 @@ struct Copied {
 /// A path is no thing of the document itself, or it is declared with others that are not copied.
 pub(crate) fn copied(state: &State, paths: &[Path], relations: Relations) -> Result<Clip, Refusal> {
     let document = &state.lowered.document;
-    let figures = state.evaluator(&state.values).computed_figures(kernel::DOCUMENT);
+    let figures = state.evaluator(&state.values).computed_figures(DOCUMENT);
     let mut things: Vec<(Name, Name)> = Vec::new();
     for path in paths {
         let class = class_at(state, path).map(|class| document.named_class(class));
@@ -358,7 +358,40 @@ pub(crate) fn deletion(
         along.extend(apply::along(&trial.state, path));
         apply::apply(&mut trial, host, &Command::Delete((*path).clone()))?;
     }
+    for name in loosened(&open.state, &trial.state) {
+        let path = Path(vec![Step::Part(name.clone())]);
+        along.push(member_of(&open.state.text, &name).trim().into());
+        apply::apply(&mut trial, host, &Command::Delete(path))?;
+    }
     along.retain(|said| !own.iter().any(|own| own.trim() == said.trim()));
     along.dedup();
     Ok((Command::Text(trial.state.text.clone()), along))
+}
+
+/// Returns the dimensions of a document that measured more before than they do after something is gone.
+fn loosened(before: &State, after: &State) -> Vec<Name> {
+    let document = &before.lowered.document;
+    let Some(class) = document.class_named(&Name::new("Dimension")) else { return Vec::new() };
+    let measured = |state: &State, name: &Name| {
+        let thing = thing_at(state, &Path(vec![Step::Part(name.clone())]))?;
+        let parts = state.structure.parts(thing);
+        let is_shared = |part: &ThingId| state.structure.merged_with(*part).len() > 1;
+        let said = member_of(&state.text, name).matches('=').count();
+        Some((parts.filter(is_shared).count(), said))
+    };
+    let parts = before.structure.parts(DOCUMENT);
+    let dimensions = parts.filter(|&t| document.is_a(before.structure.things[t].class, class));
+    let names = dimensions.filter_map(|t| before.structure.field_name(document, t).cloned());
+    let has_less = |name: &Name| {
+        let (was, is) = (measured(before, name), measured(after, name));
+        was.zip(is).is_some_and(|(was, is)| is.0 < was.0 || is.1 < was.1)
+    };
+    names.filter(has_less).collect()
+}
+
+/// Returns true where a dimension measures what is deleted, and goes with it.
+pub(crate) fn is_measured(open: &Open, host: &dyn Host, path: &Path) -> bool {
+    let mut trial = Open::of(&open.name, open.state.text.clone(), host);
+    let gone = apply::apply(&mut trial, host, &Command::Delete(path.clone()));
+    gone.is_ok() && !loosened(&open.state, &trial.state).is_empty()
 }

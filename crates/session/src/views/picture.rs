@@ -1,11 +1,13 @@
 //! The picture: elements with the things that they picture, and what can be gripped.
 
+use crate::session::{parse_path, thing_at};
 use crate::state::State;
 use crate::view::{Grip, MovedView, PictureView};
 use crate::views::drawn;
 use crate::words;
 use base::IdVec;
 use kernel::{ClassKind, DOCUMENT, SlotId, ThingId, Values};
+use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 
 /// The picture of a state, kept while values change: by a drag, by an edit of values, by undoing that.
@@ -155,6 +157,7 @@ impl Shown {
             times: self.times,
         };
         self.tag_entities(&mut view);
+        self.tag_figures(&mut view);
         self.tag_computed(&mut view);
         view
     }
@@ -203,6 +206,38 @@ impl Shown {
         }
     }
 
+    /// Gives the figures that a thing's class declares, and its picture shows, tags of their own: each side of a rectangle.
+    fn tag_figures(&self, view: &mut PictureView) {
+        let evaluator = self.state.evaluator(&self.values);
+        let declaring: BTreeSet<ThingId> = drawn::declaring(&self.state).into_iter().collect();
+        let things = self.scene.picture.things.iter().enumerate();
+        let things = things.filter(|(_, thing)| declaring.contains(thing));
+        let tags: BTreeMap<u32, ThingId> = things.map(|(tag, &thing)| (tag as u32, thing)).collect();
+        let mut own: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
+        for (at, element) in view.drawing.elements.iter().enumerate() {
+            if tags.contains_key(&element.tag.0) {
+                own.entry(element.tag.0).or_default().push(at);
+            }
+        }
+        for (tag, mut own) in own {
+            for (path, figure) in drawn::figures(&self.state, &evaluator, tags[&tag]) {
+                let entity = drawing::Tag(view.paths.len() as u32);
+                let shown = evaluator.elements(&figure);
+                let elements = &mut view.drawing.elements;
+                let is_shown = |at: &usize| shown.iter().any(|e| e.shape == elements[*at].shape);
+                let (seen, rest): (Vec<usize>, Vec<usize>) = own.iter().partition(|at| is_shown(at));
+                if seen.is_empty() {
+                    continue;
+                }
+                seen.iter().for_each(|&at| elements[at].tag = entity);
+                own = rest;
+                view.paths.push(path);
+                view.drawn_by.push(Some(view.paths[tag as usize].clone()));
+                view.freedom.push(view.freedom[tag as usize]);
+            }
+        }
+    }
+
     /// Brings a view up to date that was made of the same document; returns what moves.
     pub(crate) fn follow(&self, view: &mut PictureView, status: &plan::Status) -> MovedView {
         if view.made != self.made || view.grips.len() != self.grips.len() + self.drawn.len() {
@@ -234,6 +269,19 @@ impl Shown {
             grips: grips.chain(drawn).map(|at| at as u32).collect(),
         }
     }
+}
+
+/// Returns the block of each tag for an exchange format: the thing whose program drew it. Sides of a rectangle are none.
+pub(crate) fn blocks<'p>(
+    state: &'p State,
+    picture: &'p PictureView,
+) -> impl Fn(drawing::Tag) -> Option<String> + 'p {
+    let is_program = |whole: &String| {
+        let thing = parse_path(whole).and_then(|path| thing_at(state, &path));
+        let class = thing.map(|thing| state.structure.things[thing].class);
+        class.is_some_and(|class| state.lowered.document.program(class).is_some())
+    };
+    move |tag| picture.drawn_by.get(tag.0 as usize).cloned().flatten().filter(is_program)
 }
 
 /// Returns the picture for some values of a state.

@@ -348,7 +348,7 @@ pub const ACTIONS: &[Action] = &[
         keys: &["Alt+H"],
         enabled: |lab| document(lab).map(drop),
         run: |lab| {
-            lab.drawer.set(Drawer::History);
+            lab.open_drawer(Drawer::History);
             request_animation_frame(|| focus(".history [aria-current]"));
         },
     },
@@ -496,7 +496,7 @@ pub const ACTIONS: &[Action] = &[
         keys: &["I"],
         enabled: |lab| document(lab).map(drop),
         run: |lab| {
-            lab.drawer.set(Drawer::Bin);
+            lab.open_drawer(Drawer::Bin);
             request_animation_frame(|| focus(".bin input"));
         },
     },
@@ -584,7 +584,7 @@ pub const ACTIONS: &[Action] = &[
         keys: &["Alt+2"],
         enabled: |lab| document(lab).map(drop),
         run: |lab| {
-            lab.drawer.set(Drawer::Structure);
+            lab.open_drawer(Drawer::Structure);
             request_animation_frame(|| focus("[role=treeitem][tabindex='0']"));
         },
     },
@@ -596,7 +596,7 @@ pub const ACTIONS: &[Action] = &[
         keys: &["Alt+7"],
         enabled: |lab| document(lab).map(drop),
         run: |lab| {
-            lab.drawer.set(Drawer::Draw);
+            lab.open_drawer(Drawer::Draw);
             request_animation_frame(drafting::focus_drawer);
         },
     },

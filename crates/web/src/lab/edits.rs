@@ -153,6 +153,9 @@ impl Lab {
         }
         let command = Command::Delete(parsed.clone());
         let asked = self.ask(|session| session.preview(id, &command).ok().flatten());
+        if asked.is_none() && self.ask(|session| session.is_measured(id, &parsed)) {
+            return self.delete_several();
+        }
         let along = self.ask(|session| session.along_with(id, &parsed));
         if asked.is_some() || along.is_empty() {
             self.apply(&command);
@@ -367,8 +370,11 @@ impl Lab {
                 self.refresh();
                 self.renew_tool();
                 self.fetch_missing();
-                if change.structure && self.fits.get_value() {
-                    self.zoom.set(Some(Zoom::Fit));
+                if change.structure {
+                    self.forget_gone();
+                    if self.fits.get_value() {
+                        self.zoom.set(Some(Zoom::Fit));
+                    }
                 }
                 self.notice.set(words::done(&change).map(Notice::Said));
                 true
@@ -379,6 +385,23 @@ impl Lab {
                 false
             }
             None => false,
+        }
+    }
+
+    /// Lets go of what was selected and is there no more; what it would have become is not shown any longer.
+    fn forget_gone(self) {
+        if !self.ghosts.with_untracked(Vec::is_empty) {
+            self.ghosts.set(Vec::new());
+        }
+        let selection = self.selection_untracked();
+        let is_there = |path: &&String| {
+            let parsed = session::parse_path(path);
+            let asked = parsed.and_then(|path| self.ask_of_shown(|s, id| s.is_there(id, &path)));
+            asked.unwrap_or_default()
+        };
+        let rest: Vec<String> = selection.iter().filter(is_there).cloned().collect();
+        if selection.len() > 1 && rest.len() < selection.len() {
+            self.select_all(&rest);
         }
     }
 }
