@@ -438,3 +438,43 @@ pub async fn middle(visit: &Visit, selector: &str) -> (f64, f64) {
     let at = visit.script(&script).await;
     (at[0].as_f64().expect("a number"), at[1].as_f64().expect("a number"))
 }
+
+/// Touches a place in the window twice, as one opens what is there.
+///
+/// # Panics
+/// Where the browser refuses.
+pub async fn touch_twice(visit: &Visit, (x, y): (f64, f64)) {
+    let to = PointerAction::MoveTo { duration: None, x: x.round(), y: y.round() };
+    let mut actions = TouchActions::new("finger".into()).then(to);
+    for _ in 0..2 {
+        actions = actions
+            .then(PointerAction::Down { button: MOUSE_BUTTON_LEFT })
+            .then(PointerAction::Pause { duration: Duration::from_millis(30) })
+            .then(PointerAction::Up { button: MOUSE_BUTTON_LEFT })
+            .then(PointerAction::Pause { duration: Duration::from_millis(40) });
+    }
+    visit.client.perform_actions(actions).await.expect("the finger touches twice");
+}
+
+/// Drags what lies at a place in the window to another, with a finger.
+///
+/// # Panics
+/// Where the browser refuses.
+pub async fn drag_by_finger(visit: &Visit, from: (f64, f64), to: (f64, f64)) {
+    let at = |k: f64| PointerAction::MoveTo {
+        duration: Some(Duration::from_millis(30)),
+        x: (from.0 + k * (to.0 - from.0)).round(),
+        y: (from.1 + k * (to.1 - from.1)).round(),
+    };
+    let mut actions = TouchActions::new("finger".into())
+        .then(at(0.0))
+        .then(PointerAction::Down { button: MOUSE_BUTTON_LEFT });
+    for k in 1..=5 {
+        actions = actions.then(at(f64::from(k) / 5.0));
+    }
+    let actions = actions
+        .then(PointerAction::Pause { duration: Duration::from_millis(80) })
+        .then(PointerAction::Up { button: MOUSE_BUTTON_LEFT });
+    visit.client.perform_actions(actions).await.expect("the finger drags");
+    tokio::time::sleep(Duration::from_millis(100)).await;
+}

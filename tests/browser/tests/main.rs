@@ -12,5 +12,6 @@ mod in_the_browser {
     mod recorded;
     mod server;
     mod six;
+    mod touch;
     mod views;
 }

@@ -140,6 +140,8 @@ pub(crate) fn declared(document: &Document, class: ClassId) -> Vec<&Name> {
         document.classes[of].kind == ClassKind::Composite
     };
     let classes = document.primary_line(class).into_iter();
+    // what every thing answers is no part of it
+    let classes = classes.filter(|&class| !document.classes[class].supers.is_empty());
     let own = classes.flat_map(|class| &document.classes[class].messages);
     own.filter(|m| m.parameters.is_empty() && !m.is_of_class() && m.class.is_some_and(is_figure))
         .map(|message| &message.name)

@@ -243,3 +243,30 @@ fn a_queen_that_is_drawn_at_a_computed_place_is_held_by_it() {
     assert_eq!(rank(&desk), before + to / 40.0);
     assert!(desk.session.status(desk.id).satisfied);
 }
+
+#[test]
+fn an_angle_that_is_computed_is_dragged_on_past_half_a_turn() {
+    let text =
+        "use geometry\nl: Line { p1 = (0, 0)  p2 = (-100, 10) }\nanchor l.p1\nconstraint l.length = 100\n";
+    let mut desk = Desk::of(text);
+    // twice around, a few degrees at a time, as it is played: from the other end of its range after each turn
+    let begin = desk.number("l.direction");
+    desk.session.press(desk.id, &at("l.direction")).expect("a direction can be dragged");
+    let end = |desk: &Desk| (desk.number("l.p2.x"), desk.number("l.p2.y"));
+    let mut was = end(&desk);
+    for step in 1..=240 {
+        let turned = begin + f64::from(step) * 0.06;
+        let wanted = turned - std::f64::consts::TAU * (turned / std::f64::consts::TAU).round();
+        let came = desk.session.drag(desk.id, (wanted, 0.0));
+        assert!(came.reached, "{step}: {:?}", came.message);
+        let now = end(&desk);
+        let way = (now.0 - was.0).hypot(now.1 - was.1);
+        assert!(way < 7.0, "{step}: it leaps by {way}");
+        let left = desk.number("l.direction") - wanted;
+        assert!(left.sin().abs() < 1e-6, "{step}: {left}");
+        was = now;
+    }
+    desk.session.release(desk.id).expect("it can be kept");
+    desk.undo();
+    assert_eq!(desk.text(), text);
+}

@@ -428,3 +428,16 @@ fn an_equation_begins_with_what_is_picked_and_says_what_it_would_move() {
     desk.apply(&said("b.length = a.length / 2 + 10")).expect("it can be said");
     holds(&desk);
 }
+
+#[test]
+fn the_last_side_of_a_box_is_as_upright_as_the_others() {
+    let mut desk = Desk::of("use geometry\n");
+    desk.session.take_tool(desk.id, "Line").expect("a tool");
+    for (x, y) in [(0.0, 0.0), (90.0, 0.0), (90.0, 60.0), (0.0, 60.0), (0.0, 0.0)] {
+        click(&mut desk, &pointer(x, y));
+    }
+    holds(&desk);
+    let text = desk.text();
+    assert!(text.contains("line4.p1.x = line4.p2.x"), "{text}");
+    assert_eq!(desk.session.status(desk.id).freedom, 4, "{text}");
+}

@@ -249,3 +249,48 @@ fn a_dimension_only_reads_what_it_can_measure() {
     assert!(reads("a", "length") && reads("c", "radius"));
     assert!(!reads("arc", "length") && !reads("arc", "radius"));
 }
+
+#[test]
+fn sides_of_a_rectangle_are_picked_constrained_and_rounded() {
+    let text = "use geometry\nr: Rectangle { corner = (0, 0)  width = 300; height = 200 }\nl: Line { p1 = (0, 300)  p2 = (100, 350) }\n";
+    let mut desk = Desk::of(text);
+    let picture = desk.session.picture(desk.id);
+    let tag = picture.paths.iter().position(|path| path == "r.top").expect("it is seen");
+    assert_eq!(picture.drawn_by[tag].as_deref(), Some("r"));
+    let is_top = |e: &&drawing::Element| e.tag.0 == tag as u32;
+    assert_eq!(picture.drawing.elements.iter().filter(is_top).count(), 1);
+    // a corner that is computed is gripped as well, each once
+    let grips: Vec<&str> = picture.grips.iter().map(|grip| grip.path.as_str()).collect();
+    assert_eq!(grips, ["r.corner", "l.p1", "l.p2", "r.across", "r.far", "r.beyond"]);
+    desk.drag("r.far", &[(310.0, 220.0)]);
+    assert_eq!((desk.number("r.width"), desk.number("r.height")), (310.0, 220.0));
+    desk.undo();
+    take(&mut desk, &["r.top", "l"], "equal length", None);
+    take(&mut desk, &["r.left"], "length", Some("150"));
+    assert!((desk.number("r.height") - 150.0).abs() < 1e-9, "{}", desk.text());
+    take(&mut desk, &["r.far", "l.p1"], "coincident", None);
+    assert!((desk.number("l.p1.y") - 150.0).abs() < 1e-9, "{}", desk.text());
+
+    let mut round = Desk::of(text);
+    take(&mut round, &["r.far"], "round", Some("25"));
+    assert!((round.number("arc.center.x") - 275.0).abs() < 1e-6, "{}", round.text());
+    assert!((round.number("arc.center.y") - 175.0).abs() < 1e-6, "{}", round.text());
+    let sides = Desk::of(text);
+    assert!(labels(&sides, &["r.left", "r.bottom"]).iter().any(|label| label == "round"));
+    assert!(labels(&sides, &["r.left", "r.right"]).iter().all(|label| label != "round"));
+}
+
+#[test]
+fn a_dimension_goes_with_what_it_measures() {
+    let text = "use geometry\na: Line { p1 = (0, 0)  p2 = (30, 40) }\nb: Line { p1 = (0, 90)  p2 = (30, 90) }\nlong: ReferenceDistance { from = a.p1  to = a.p2 }\nfar: Distance { value = 50 }\nmerge a.p2 = far.from\nmerge b.p1 = far.to\nother: ReferenceDistance { from = b.p1  to = b.p2 }\n";
+    let desk = Desk::of(text);
+    assert!(desk.session.is_measured(desk.id, &at("a")));
+    let (command, along) = desk.session.deletion(desk.id, &[at("a")]).expect("it can go");
+    assert!(along.iter().any(|said| said.starts_with("long: ReferenceDistance")), "{along:?}");
+    assert!(along.iter().any(|said| said.starts_with("far: Distance")), "{along:?}");
+    let Command::Text(rest) = command else { panic!("{command:?}") };
+    assert!(!rest.contains("long") && !rest.contains("far"), "{rest}");
+    assert!(rest.contains("other: ReferenceDistance { from = b.p1  to = b.p2 }"), "{rest}");
+    let lone = Desk::of("use geometry\na: Line\nb: Line\nmerge a.p1 = b.p1\n");
+    assert!(!lone.session.is_measured(lone.id, &at("a")));
+}

@@ -85,3 +85,17 @@ fn the_calculator_follows_the_document() {
     desk.session.drag(desk.id, (60.0, 80.0));
     assert_eq!(desk.session.calculate(desk.id, &sums)[0].as_deref(), Ok("200"));
 }
+
+#[test]
+fn parts_without_places_do_not_lie_on_one_another() {
+    let text = "use circuits\nb: Battery\nr1: Resistor\nr2: Resistor\nr3: Resistor\nm: Ammeter\nv: Voltmeter\n";
+    let desk = Desk::of(text);
+    let grips = desk.session.picture(desk.id).grips;
+    assert_eq!(grips.len(), 12);
+    for (n, one) in grips.iter().enumerate() {
+        for other in &grips[n + 1..] {
+            let far = (one.x - other.x).hypot(one.y - other.y);
+            assert!(far > 20.0, "{} and {} are {far} apart", one.path, other.path);
+        }
+    }
+}

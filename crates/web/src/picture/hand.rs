@@ -56,6 +56,8 @@ struct State {
     /// The latest position that no frame has taken up yet.
     latest: Option<(f64, f64)>,
     space: Space,
+    /// Where the grips were when a drag was pressed.
+    rest: Vec<(String, (f64, f64))>,
     /// Whether guides and joints are wanted: Shift suppresses those of a tool, Alt those of a drag.
     shift: bool,
     alt: bool,
@@ -87,6 +89,7 @@ impl Hand {
             pointers: Vec::new(),
             latest: None,
             space: Space::Up,
+            rest: Vec::new(),
             shift: false,
             alt: false,
         };
@@ -317,6 +320,10 @@ impl Hand {
             self.set_mode(Mode::Pan { last: start });
             return;
         };
+        let rest = self.lab.picture.with_untracked(|picture| {
+            picture.grips.iter().map(|grip| (grip.path.clone(), (grip.x, grip.y))).collect()
+        });
+        self.state.update_value(|state| state.rest = rest);
         let p = sheet_point(self.lab, start);
         self.set_mode(Mode::Drag { offset: (handle.0 - p.x, handle.1 - p.y) });
     }
@@ -354,10 +361,12 @@ impl Hand {
         }
     }
 
-    /// The places near one that is dragged, nearest first; none while Alt is held, or where a whole is dragged.
+    /// The places near one that is dragged, nearest first; none while Alt is held, or where a whole is dragged. What moves
+    /// along is none.
     fn near(self, (x, y): (f64, f64)) -> Vec<Caught> {
         let alt = self.state.with_value(|state| state.alt);
-        let reach = self.reach() / self.lab.view.with_untracked(|view| view.scale);
+        let pixel = 1.0 / self.lab.view.with_untracked(|view| view.scale);
+        let reach = self.reach() * pixel;
         let dragged = self.lab.selected.get_untracked().unwrap_or_default();
         let is_single = self.lab.also.with_untracked(Vec::is_empty);
         self.lab.picture.with_untracked(|picture| {
@@ -365,6 +374,12 @@ impl Hand {
             let mut near: Vec<(f64, Caught)> = { &picture.grips }
                 .iter()
                 .filter(|grip| grip.path != dragged && is_place && !alt && is_single)
+                .filter(|grip| {
+                    self.state.with_value(|state| {
+                        let was = state.rest.iter().find(|(path, _)| *path == grip.path);
+                        was.is_none_or(|(_, was)| distance(*was, (grip.x, grip.y)) <= pixel)
+                    })
+                })
                 .map(|g| {
                     let caught = Caught { at: (g.x, g.y), word: g.path.clone() };
                     (distance((g.x, g.y), (x, y)), caught)

@@ -1,0 +1,137 @@
+//! Three ordinary jobs by touch alone, on a phone's page. (The quadrilateral is in `hand.rs`.)
+
+use browser::Visit;
+use browser::hands::{begin, drag_by_finger, grip, middle, state, text_of, touch, touch_twice, word};
+use browser::hands::{chord, key, keys};
+use serde_json::Value;
+
+/// A place of the picture as parts of its width and height.
+struct Picture {
+    corner: (f64, f64),
+    size: (f64, f64),
+}
+
+impl Picture {
+    fn at(&self, x: f64, y: f64) -> (f64, f64) {
+        (self.corner.0 + x * self.size.0, self.corner.1 + y * self.size.1)
+    }
+}
+
+/// Begins a document on a phone's page, and says where its picture lies.
+async fn begin_on_a_phone() -> (Visit, Picture) {
+    let visit = begin().await;
+    visit.client.set_window_size(420, 844).await.expect("a phone's window");
+    visit.until("document.getElementById('picture').clientWidth < 430").await;
+    let script = "const r = document.getElementById('picture').getBoundingClientRect(); \
+                  return [r.left, r.top, r.width, r.height]";
+    let at = visit.script(script).await;
+    let number = |n: usize| at[n].as_f64().expect("a number");
+    (visit, Picture { corner: (number(0), number(1)), size: (number(2), number(3)) })
+}
+
+/// Touches an element, once it lies in sight.
+async fn press(visit: &Visit, selector: &str) {
+    let element = format!("document.querySelector('{selector}')");
+    visit.until(&element).await;
+    visit.script(&format!("{element}.scrollIntoView({{ block: 'center' }})")).await;
+    let at = middle(visit, selector).await;
+    touch(visit, &[at]).await;
+}
+
+/// Has the document use a library, from the bin that the rail pulls up.
+async fn use_library(visit: &Visit, library: &str) {
+    press(visit, "[data-action=insert]").await;
+    press(visit, &format!("[data-library={library}]")).await;
+    visit.until(&format!("window.__thinglab.state().text.includes('use {library}')")).await;
+}
+
+/// Takes a class from the bin and touches places with it.
+async fn place(visit: &Visit, class: &str, places: &[(f64, f64)]) {
+    press(visit, "[data-action=insert]").await;
+    press(visit, &format!("[data-class={class}]")).await;
+    // the sheet makes way for the picture
+    visit.until("document.querySelector('main').dataset.sheet === 'shut'").await;
+    visit.until("document.getElementById('picture').clientHeight > 500").await;
+    touch(visit, places).await;
+}
+
+/// Lays the tool down, and types over the number that a thing shows.
+async fn type_over(visit: &Visit, path: &str, value: &str) {
+    press(visit, "[data-action=select]").await;
+    let at = word(&state(visit).await, path);
+    touch_twice(visit, at).await;
+    visit.until("document.querySelector('.inplace input') === document.activeElement").await;
+    chord(visit, &[key::CONTROL], 'a').await;
+    keys(visit, value).await;
+    chord(visit, &[], key::ENTER).await;
+    visit.until("!document.querySelector('.inplace')").await;
+}
+
+fn number(state: &Value, path: &str) -> f64 {
+    let rows = state["values"].as_array().expect("values are a list");
+    let row = rows.iter().find(|row| row["path"] == path);
+    row.and_then(|row| row["number"].as_f64()).unwrap_or_else(|| panic!("no number {path}"))
+}
+
+#[tokio::test]
+async fn a_converter_is_built_by_touch_alone() {
+    let (visit, picture) = begin_on_a_phone().await;
+    use_library(&visit, "calculator").await;
+    let (celsius, factor, product) =
+        (picture.at(0.15, 0.2), picture.at(0.15, 0.5), picture.at(0.5, 0.35));
+    let (offset, fahrenheit) = (picture.at(0.5, 0.7), picture.at(0.85, 0.5));
+    place(&visit, "Times", &[celsius, factor, product]).await;
+    place(&visit, "Plus", &[product, offset, fahrenheit]).await;
+    place(&visit, "Constant", &[factor, offset]).await;
+    place(&visit, "Printer", &[celsius, fahrenheit]).await;
+    for (path, value) in [("constant", "1.8"), ("constant2", "32"), ("printer", "100")] {
+        type_over(&visit, path, value).await;
+    }
+    let hot = state(&visit).await;
+    assert!((number(&hot, "plus.result.number") - 212.0).abs() < 1e-9, "{}", text_of(&hot));
+}
+
+#[tokio::test]
+async fn a_divider_is_wired_by_touch_alone() {
+    let (visit, picture) = begin_on_a_phone().await;
+    use_library(&visit, "circuits").await;
+    let (plus, minus) = (picture.at(0.15, 0.2), picture.at(0.15, 0.8));
+    let (top, tap, bottom) =
+        (picture.at(0.5, 0.2), picture.at(0.5, 0.5), picture.at(0.5, 0.8));
+    place(&visit, "Battery", &[plus, minus]).await;
+    place(&visit, "Ammeter", &[plus, top]).await;
+    place(&visit, "Resistor", &[top, tap, tap, bottom]).await;
+    place(&visit, "Wire", &[bottom, minus]).await;
+    place(&visit, "Ground", &[minus]).await;
+    let (right, below) = (picture.at(0.85, 0.5), picture.at(0.85, 0.8));
+    place(&visit, "Voltmeter", &[tap, right]).await;
+    place(&visit, "Wire", &[right, below, below, bottom]).await;
+    let wired = state(&visit).await;
+    let shows = |state: &Value, text: &str| {
+        state["words"].as_array().is_some_and(|all| all.iter().any(|word| word["text"] == text))
+    };
+    assert!(shows(&wired, "7.5 mA") && shows(&wired, "750 mV"), "{}", text_of(&wired));
+    type_over(&visit, "voltmeter", "0.5 V").await;
+    let typed = state(&visit).await;
+    assert!((number(&typed, "voltmeter.voltage") - 0.5).abs() < 1e-9, "{}", text_of(&typed));
+}
+
+#[tokio::test]
+async fn a_bridge_is_built_and_loaded_by_touch_alone() {
+    let (visit, picture) = begin_on_a_phone().await;
+    use_library(&visit, "bridges").await;
+    let (left, right) = (picture.at(0.1, 0.4), picture.at(0.9, 0.4));
+    let (one, two) = (picture.at(0.37, 0.3), picture.at(0.63, 0.3));
+    place(&visit, "FixedJoint", &[left, right]).await;
+    place(&visit, "FreeJoint", &[one, two]).await;
+    place(&visit, "Beam", &[left, one, one, two, two, right, left, two, one, right]).await;
+    place(&visit, "Load", &[one]).await;
+    press(&visit, "[data-action=select]").await;
+    let tip = grip(&state(&visit).await, "load.tip");
+    drag_by_finger(&visit, tip, (tip.0, tip.1 + 150.0)).await;
+    let loaded = state(&visit).await;
+    assert_eq!(loaded["status"]["satisfied"], true);
+    assert!(number(&loaded, "load.size") > 0.1, "{}", text_of(&loaded));
+    // the joint comes after the finger, and is not joined with what pulls on it
+    assert!(!text_of(&loaded).contains("load.tip"), "{}", text_of(&loaded));
+}
