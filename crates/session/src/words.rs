@@ -691,7 +691,7 @@ pub(crate) fn command_label(command: &Command) -> String {
         Command::Merge(p) => format!("merge {}", paths(p)),
         Command::Unmerge(p) => format!("unmerge {p}"),
         Command::Delete(p) => format!("delete {p}"),
-        Command::Edit { target, .. } if target.is_empty() => "add to the document".into(),
+        Command::Edit { target, members } if target.is_empty() => added(members),
         Command::Edit { target, .. } => format!("edit {target}"),
         Command::Rename { from, to } => format!("rename {from} to {to}"),
         Command::Promote { path, class } => format!("promote {path} as {class}"),
@@ -702,6 +702,26 @@ pub(crate) fn command_label(command: &Command) -> String {
         Command::Text(_) => "edit text".into(),
         Command::Undo => "undo".into(),
         Command::Redo => "redo".into(),
+    }
+}
+
+/// Returns what adding members to a document is called: by the first of them.
+fn added(members: &str) -> String {
+    /// A rule is told by so many letters at most.
+    const MOST: usize = 40;
+    let first = members.trim().lines().next().unwrap_or_default().trim();
+    let short = |text: &str| match text.char_indices().nth(MOST) {
+        Some((end, _)) => format!("{}…", text[..end].trim_end()),
+        None => text.to_string(),
+    };
+    let is_name = |name: &str| name.chars().all(|c| c.is_alphanumeric() || c == '_');
+    match first.split_once([':', ' ']) {
+        Some(("constraint", rule)) => format!("constrain {}", short(rule.trim())),
+        Some((name, _)) if first.starts_with(&format!("{name}:")) && is_name(name) => {
+            format!("add {name}")
+        }
+        _ if first.is_empty() => "add nothing".into(),
+        _ => short(first),
     }
 }
 

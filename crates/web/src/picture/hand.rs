@@ -121,6 +121,19 @@ impl Hand {
         self.pick_in(at, self.lab.selected.get_untracked().as_deref())
     }
 
+    /// Picks what is chosen besides something: beside a figure of one thing that of another, not all of it.
+    fn pick_beside(self, at: (f64, f64)) -> Option<String> {
+        let chosen = self.lab.selected.get_untracked();
+        let is_figure = self.lab.picture.with_untracked(|picture| {
+            let mut drawn = picture.paths.iter().zip(&picture.drawn_by);
+            drawn.any(|(path, whole)| whole.is_some() && chosen.as_ref() == Some(path))
+        });
+        match self.pick(at).filter(|_| is_figure) {
+            Some(whole) => self.pick_in(at, Some(&whole)),
+            None => self.pick_deeper(at),
+        }
+    }
+
     /// How far from a thing it is still meant, in pixels.
     fn reach(self) -> f64 {
         if self.lab.touch.get_untracked() { REACH.1 } else { REACH.0 }
@@ -177,9 +190,9 @@ impl Hand {
             self.pick(at).inspect(|path| self.lab.toggle_attacher(path));
             self.set_mode(Mode::Idle);
         } else if e.button() == 0 {
-            let picked = self.pick_deeper(at);
             let adding = self.lab.adding.get_untracked();
             let besides = e.ctrl_key() || e.meta_key() || e.shift_key() || adding;
+            let picked = if besides { self.pick_beside(at) } else { self.pick_deeper(at) };
             if picked.is_none() {
                 self.lab.adding.set(false);
             }
