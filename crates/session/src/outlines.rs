@@ -13,7 +13,7 @@ use crate::session::thing_at;
 use crate::state::State;
 use crate::view::{Deed, Offer};
 use base::Name;
-use base::number::{atan2, cos, hypot, shortest, significant, sin};
+use base::number::{atan2, cos, hypot, rounded as rounded_to, shortest, significant, sin};
 use eval::Answer;
 use kernel::{Command, DOCUMENT, Literal, Path, Step, ThingId};
 use syntax::ast::{AstNode, Member, NameExpr, Part};
@@ -223,10 +223,14 @@ fn rounded(
     if radius <= 0.0 || reach > MOST * corner.shorter() {
         return None;
     }
-    let along = |side: &Side| (corner.at.0 + reach * side.way.0, corner.at.1 + reach * side.way.1);
+    // without the digits that only the angle's rounding has made
+    let neat = |x: f64| rounded_to(x, 9).parse().unwrap_or(x);
+    let along = |side: &Side| {
+        (neat(corner.at.0 + reach * side.way.0), neat(corner.at.1 + reach * side.way.1))
+    };
     let middle = (a.way.0 + b.way.0, a.way.1 + b.way.1);
     let far = radius / sin(half) / hypot(middle.0, middle.1);
-    let center = (corner.at.0 + far * middle.0, corner.at.1 + far * middle.1);
+    let center = (neat(corner.at.0 + far * middle.0), neat(corner.at.1 + far * middle.1));
     // an arc turns left from its start to its end
     let (start, end) = if corner.turn() < 0.0 { (a, b) } else { (b, a) };
 
