@@ -121,8 +121,7 @@ impl Lab {
         let covered = self.fits.get_value().then(|| self.covered());
         let grows = at < ends.1;
         let seen = [None, None];
-        let mut course =
-            Course { ends, at, grows, is_turn, is_computed, seen, turns: 0, covered };
+        let mut course = Course { ends, at, grows, is_turn, is_computed, seen, turns: 0, covered };
         course.see(|| self.numbers_beside(row));
         let playing = Playing { path, number: self.player.count.get_value() + 1 };
         self.player.count.set_value(playing.number);

@@ -583,13 +583,8 @@ mod tests {
     #[test]
     fn a_row_of_a_side_is_not_laid_out_as_a_panel() {
         let style = include_str!("../assets/style.css");
-        let kinds = [
-            RowKind::Part,
-            RowKind::Virtual,
-            RowKind::Constraint,
-            RowKind::Merge,
-            RowKind::Side,
-        ];
+        let kinds =
+            [RowKind::Part, RowKind::Virtual, RowKind::Constraint, RowKind::Merge, RowKind::Side];
         for kind in kinds.map(super::kind_class) {
             let alone = format!("\n.{kind} ");
             assert!(!style.contains(&alone), "{kind} is a class of the page's layout");

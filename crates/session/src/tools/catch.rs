@@ -133,7 +133,12 @@ fn at_point(sight: &Sight<'_>, pointer: &Pointer) -> Option<Catch> {
         let joined = joining::partner_of(sight.state, sight.class?, &path)?;
         let (rules, aside) = exactly_level(sight, at.at).unzip();
         let word = format!("joins {joined}{}", aside.unwrap_or_default());
-        Some(Catch { word: Some(word), joins: Some(joined), rules: rules.into_iter().collect(), ..at })
+        Some(Catch {
+            word: Some(word),
+            joins: Some(joined),
+            rules: rules.into_iter().collect(),
+            ..at
+        })
     })
 }
 

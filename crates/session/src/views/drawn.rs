@@ -209,7 +209,8 @@ fn corners(state: &State, evaluator: &Evaluator<'_>) -> Vec<Grip> {
         let own = state.structure.parts(thing);
         let own = own.filter_map(|part| crate::drag::coordinates(&state.structure, part));
         let number = |slot| evaluator.values.numbers[slot];
-        let mut known: Vec<(f64, f64)> = own.map(|[(_, x), (_, y)]| (number(x), number(y))).collect();
+        let mut known: Vec<(f64, f64)> =
+            own.map(|[(_, x), (_, y)]| (number(x), number(y))).collect();
         for (path, figure) in &figures {
             match place(document, figure) {
                 Some(at) if ends.contains(&at) && !known.contains(&at) => {

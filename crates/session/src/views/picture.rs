@@ -212,7 +212,8 @@ impl Shown {
         let declaring: BTreeSet<ThingId> = drawn::declaring(&self.state).into_iter().collect();
         let things = self.scene.picture.things.iter().enumerate();
         let things = things.filter(|(_, thing)| declaring.contains(thing));
-        let tags: BTreeMap<u32, ThingId> = things.map(|(tag, &thing)| (tag as u32, thing)).collect();
+        let tags: BTreeMap<u32, ThingId> =
+            things.map(|(tag, &thing)| (tag as u32, thing)).collect();
         let mut own: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
         for (at, element) in view.drawing.elements.iter().enumerate() {
             if tags.contains_key(&element.tag.0) {
@@ -225,7 +226,8 @@ impl Shown {
                 let shown = evaluator.elements(&figure);
                 let elements = &mut view.drawing.elements;
                 let is_shown = |at: &usize| shown.iter().any(|e| e.shape == elements[*at].shape);
-                let (seen, rest): (Vec<usize>, Vec<usize>) = own.iter().partition(|at| is_shown(at));
+                let (seen, rest): (Vec<usize>, Vec<usize>) =
+                    own.iter().partition(|at| is_shown(at));
                 if seen.is_empty() {
                     continue;
                 }

@@ -246,8 +246,7 @@ fn a_queen_that_is_drawn_at_a_computed_place_is_held_by_it() {
 
 #[test]
 fn an_angle_that_is_computed_is_dragged_on_past_half_a_turn() {
-    let text =
-        "use geometry\nl: Line { p1 = (0, 0)  p2 = (-100, 10) }\nanchor l.p1\nconstraint l.length = 100\n";
+    let text = "use geometry\nl: Line { p1 = (0, 0)  p2 = (-100, 10) }\nanchor l.p1\nconstraint l.length = 100\n";
     let mut desk = Desk::of(text);
     // twice around, a few degrees at a time, as it is played: from the other end of its range after each turn
     let begin = desk.number("l.direction");
