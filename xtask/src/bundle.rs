@@ -74,6 +74,9 @@ pub(crate) fn module(
         say!("page: making its module");
         // the tests may be compiled meanwhile, in the other folder
         let mut bindgen = tools::cargo(&["run", "--package", "bindgen", "--target-dir"]);
+        if effort == Effort::Tests {
+            tools::lint(&mut bindgen).env("CLIPPY_ARGS", "--deny__CLIPPY_HACKERY__warnings");
+        }
         bindgen.arg(target()).arg("--");
         if effort != Effort::Full {
             bindgen.arg("--quick");
@@ -98,7 +101,11 @@ pub(crate) fn build_command(effort: Effort, selection: &[&str]) -> Result<PathBu
             command.arg("--release").env("THINGLAB_DIST", top().join("dist"));
             "release"
         }
-        Effort::Tests | Effort::Quick => "debug",
+        Effort::Tests => {
+            tools::lint(&mut command);
+            "debug"
+        }
+        Effort::Quick => "debug",
     };
     run("thinglab did not compile", quiet(&mut command))?;
     let target =

@@ -7,6 +7,8 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 mod bundle;
+mod compiled;
+mod documentation;
 mod figures;
 mod lab;
 #[cfg(test)]

@@ -1,7 +1,8 @@
 //! `cargo verify`: everything that can be checked, counted in one last line.
 //!
 //! Format, lints, documentation and the page's bundle count as one each, every test as one; a step
-//! that breaks off (a test that does not compile) counts as one failure.
+//! that breaks off (a test that does not compile) counts as one failure. The linter compiles what it
+//! reads, and the documentation is read beside what it made: every room is compiled once.
 
 use std::io::{BufRead as _, BufReader};
 use std::path::{Path, PathBuf};
@@ -9,6 +10,8 @@ use std::process::{Command, ExitCode, Stdio};
 use std::sync::mpsc::{self, Receiver, Sender};
 
 use crate::bundle::{self, Effort};
+use crate::compiled;
+use crate::documentation;
 use crate::say;
 use crate::tools::{self, Missing, Tool};
 
@@ -97,10 +100,8 @@ pub(crate) fn run(wish: &Wish) -> ExitCode {
 /// packages, and another choice would compile the rooms once more.
 fn selection(browser: Browser) -> &'static [&'static str] {
     match browser {
-        Browser::Test => &["--workspace", "--exclude", "bindgen", "--exclude", "figures"],
-        Browser::LeaveOut => {
-            &["--workspace", "--exclude", "bindgen", "--exclude", "figures", "--exclude", "browser"]
-        }
+        Browser::Test => &["--workspace", "--exclude", "bindgen"],
+        Browser::LeaveOut => &["--workspace", "--exclude", "bindgen", "--exclude", "browser"],
     }
 }
 
@@ -123,28 +124,22 @@ struct Programs {
 /// All but what is done in the browser, for which two programs are compiled first.
 fn native(wish: &Wish, compiled: Option<Sender<Programs>>) -> Count {
     let mut count = step("format", &mut tools::cargo(&["fmt", "--all", "--check"]));
-    let mut lints = tools::cargo(&["clippy", "--quiet", "--workspace", "--all-targets"]);
-    count.add(step("lints", lints.args(["--", "--deny", "warnings"])));
-    let mut documentation = tools::cargo(&["doc", "--quiet", "--no-deps", "--workspace"]);
-    documentation.env("RUSTDOCFLAGS", "--deny warnings");
-    if let Some(clippy) = tools::clippy_driver() {
-        // the rooms that it reads are those that the linter has read, where cargo sees the same compiler with the
-        // same wishes
-        documentation.env("RUSTC_WORKSPACE_WRAPPER", clippy);
-        documentation.env("CLIPPY_ARGS", "--deny__CLIPPY_HACKERY__warnings__CLIPPY_HACKERY__");
-    }
-    count.add(step("documentation", &mut documentation));
     let thinglab = bundle::build_command(Effort::Tests, selection(wish.browser));
     count.add(Count::one(thinglab.is_ok()));
     if let (Some(compiled), Ok(thinglab)) = (compiled, &thinglab) {
-        match browser_tests() {
+        let made = compiled::make(&["--test", "lab"], selection(wish.browser));
+        match made.executable("test", "lab") {
             // who waits for it has ended only where it broke off, which is counted there
-            Ok(tests) => drop(compiled.send(Programs { thinglab: thinglab.clone(), tests })),
-            Err(why) => say!("{why}"),
+            Some(tests) => drop(compiled.send(Programs { thinglab: thinglab.clone(), tests })),
+            None => say!("the browser tests did not compile"),
         }
     }
-    let mut compile = tools::cargo(&["test", "--quiet", "--no-run"]);
-    count.add(step("compiling the tests", compile.args(selection(wish.browser))));
+    say!("== compiling the tests, and lints");
+    let made = compiled::make(&[], selection(wish.browser));
+    count.add(Count::one(made.is_whole));
+    count.add(Count::one(made.is_clean));
+    say!("== documentation");
+    count.add(Count::one(documentation::write(&made)));
     match thinglab {
         // no part of the project needs it: without it the audit is left out, which is said
         Ok(thinglab) => match tools::require(&[Tool::Ezdxf], wish.missing) {
@@ -154,30 +149,9 @@ fn native(wish: &Wish, compiled: Option<Sender<Programs>>) -> Count {
         Err(why) => say!("{why}; the audit of DXF files cannot run"),
     }
     let mut tests = tools::cargo(&["test", "--quiet", "--no-fail-fast"]);
-    lengthen(tests.args(selection(wish.browser)), wish.length);
+    lengthen(tools::lint(tests.args(selection(wish.browser))), wish.length);
     count.add(tested(tests.args(["--", "--skip", "in_the_browser::"]), "tests", Show::AtOnce));
     count
-}
-
-/// Compiles the program of the browser tests; gives its path.
-///
-/// # Errors
-/// A sentence, where it does not compile.
-fn browser_tests() -> Result<PathBuf, String> {
-    let mut compile = tools::cargo(&["test", "--quiet", "--no-run", "--test", "lab"]);
-    compile.args(selection(Browser::Test)).arg("--message-format=json-render-diagnostics");
-    let output = compile.stdin(Stdio::null()).stderr(Stdio::inherit()).output();
-    let output = output.map_err(|error| format!("cargo: {error}"))?;
-    let told = String::from_utf8_lossy(&output.stdout);
-    let path = told.lines().find_map(executable).filter(|_| output.status.success());
-    path.ok_or_else(|| String::from("the browser tests did not compile"))
-}
-
-/// The path of the browser tests' program, where a line that cargo writes as JSON tells of it.
-fn executable(line: &str) -> Option<PathBuf> {
-    let is_it = line.contains("\"kind\":[\"test\"]") && line.contains("\"name\":\"lab\"");
-    let (_, path) = line.split_once("\"executable\":\"").filter(|_| is_it)?;
-    Some(PathBuf::from(path.split_once('"')?.0.replace(r"\\", r"\")))
 }
 
 /// Builds the page, and tests it once the programs for that are there; what else is compiled and tested goes on
@@ -314,18 +288,6 @@ mod tests {
             last_line(count, Browser::LeaveOut),
             "7 passed, 1 failed, 2 skipped (--no-browser: the page's bundle, the browser tests)"
         );
-    }
-
-    #[test]
-    fn the_program_of_the_browser_tests_is_found_in_what_cargo_tells() {
-        let line = |kind: &str| {
-            format!(
-                r#"{{"target":{{"kind":["{kind}"],"name":"lab"}},"executable":"C:\\target\\lab-1","fresh":true}}"#
-            )
-        };
-        assert_eq!(executable(&line("test")), Some(PathBuf::from(r"C:\target\lab-1")));
-        assert_eq!(executable(&line("lib")), None);
-        assert_eq!(executable(r#"{"kind":["test"],"name":"it","executable":"it-1"}"#), None);
     }
 
     #[test]

@@ -503,6 +503,10 @@ impl<'l> Lowerer<'l> {
 }
 
 impl Lowered {
+    /// Returns how many members at the top of the text are taken over as they are when others are edited.
+    pub fn keepable(&self) -> usize {
+        self.added.iter().flatten().count()
+    }
     /// Returns how many millimetres a unit of the sheet has; one where the text names no unit.
     pub fn millimetres_per_unit(&self) -> f64 {
         let is_said = self.effective_parse.outline().any(|(kind, _)| kind == SyntaxKind::UnitLine);

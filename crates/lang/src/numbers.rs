@@ -289,18 +289,3 @@ pub(crate) fn constant(known: &dyn Fn(&Expr) -> Option<f64>, expr: &Expr) -> Opt
     };
     x.is_finite().then_some(x)
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_limit_is_rounded_towards_where_the_way_began() {
-        assert_eq!(short_of(130.58, 90.0), "130.5");
-        assert_eq!(short_of(130.58, 170.0), "130.6");
-        assert_eq!(short_of(99.999_999_99, 50.0), "100", "known to the tolerance of rules");
-        assert_eq!(short_of(-0.012_345, 0.0), "-0.01234");
-        assert_eq!(short_of(70.0, 70.0), "70");
-        assert_eq!(short_of(0.0, 5.0), "0");
-    }
-}

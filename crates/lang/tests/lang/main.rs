@@ -1,8 +1,11 @@
 //! What texts mean, what is wrong with them, and how values and commands are written into them.
 
+mod alone;
 mod commands;
 mod diagnostics;
+mod kept;
 mod lowering;
+mod scale;
 mod shown;
 mod values;
 

@@ -38,6 +38,18 @@ fn prefixes_go_by_thousands() {
     }
 }
 #[test]
+fn a_limit_is_rounded_towards_where_the_way_began() {
+    let document = document_of("");
+    let number = Quantity { dimension: Dimension::NONE, class: "Real", written: "" };
+    let short = |limit, from| lang::show_limit(limit, from, number, &document).0;
+    assert_eq!(short(130.58, 90.0), "130.5");
+    assert_eq!(short(130.58, 170.0), "130.6");
+    assert_eq!(short(99.999_999_99, 50.0), "100", "known to the tolerance of rules");
+    assert_eq!(short(-0.012_345, 0.0), "-0.01234");
+    assert_eq!(short(70.0, 70.0), "70");
+    assert_eq!(short(0.0, 5.0), "0");
+}
+#[test]
 fn angles_are_read_in_degrees() {
     let d = document_of("unit mm");
     assert_eq!(read_as(std::f64::consts::FRAC_PI_4, "Angle", "", &d), "45 deg");

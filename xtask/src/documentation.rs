@@ -1,0 +1,82 @@
+//! The documentation of the workspace's packages, by rustdoc beside what was compiled for the tests: `cargo doc` would
+//! compile every library once more, for itself alone.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
+use std::process::{Command, Stdio};
+
+use crate::compiled::{Artifact, Made};
+use crate::{say, tools, top};
+
+/// Writes it to `target/doc`; gives whether nobody complained.
+pub(crate) fn write(made: &Made) -> bool {
+    let libraries = libraries(made);
+    let mut is_clean = made.is_whole;
+    for artifact in documented(made) {
+        let passed = rustdoc(artifact, &libraries, made).status().is_ok_and(|s| s.success());
+        if !passed {
+            say!("documentation of {} failed", artifact.name);
+        }
+        is_clean &= passed;
+    }
+    is_clean
+}
+
+/// One of each: the libraries of the workspace, and the programs of packages that have none.
+fn documented(made: &Made) -> Vec<&Artifact> {
+    let own = |a: &&Artifact| a.package.starts_with(top());
+    let has_library =
+        |package: &Path| made.artifacts.iter().any(|a| a.kind == "lib" && a.package == package);
+    let mut found: BTreeMap<&Path, &Artifact> = BTreeMap::new();
+    for artifact in made.artifacts.iter().filter(own) {
+        if artifact.kind == "lib" || (artifact.kind == "bin" && !has_library(&artifact.package)) {
+            found.insert(&artifact.source, artifact);
+        }
+    }
+    found.into_values().collect()
+}
+
+/// The libraries to compile with, by name. Of several it is the newest that programs are linked with: those of
+/// procedural macros are not optimised.
+fn libraries(made: &Made) -> BTreeMap<String, &Path> {
+    let mut found: BTreeMap<String, &Artifact> = BTreeMap::new();
+    let rank = |a: &Artifact| (a.is_optimised, a.version.clone());
+    for artifact in made.artifacts.iter().filter(|a| !a.is_test && a.library.is_some()) {
+        let best = found.entry(artifact.name.replace('-', "_")).or_insert(artifact);
+        if rank(artifact) > rank(best) {
+            *best = artifact;
+        }
+    }
+    found.into_iter().filter_map(|(name, a)| Some((name, a.library.as_deref()?))).collect()
+}
+
+fn rustdoc(artifact: &Artifact, libraries: &BTreeMap<String, &Path>, made: &Made) -> Command {
+    let mut command = Command::new(tools::rustdoc());
+    command.current_dir(&artifact.package).stdin(Stdio::null());
+    command.args([
+        "--deny",
+        "warnings",
+        "--edition",
+        &artifact.edition,
+        "--crate-type",
+        &artifact.kind,
+    ]);
+    command.args(["--crate-name", &artifact.name.replace('-', "_")]);
+    if artifact.kind == "bin" {
+        command.args(["--document-private-items", "--allow", "rustdoc::private_intra_doc_links"]);
+    }
+    command.arg("--out-dir").arg(top().join("target/doc"));
+    let folders: BTreeSet<_> = libraries.values().filter_map(|library| library.parent()).collect();
+    for folder in folders {
+        command.arg("-L").arg(format!("dependency={}", folder.display()));
+    }
+    for (name, library) in libraries {
+        command.arg("--extern").arg(format!("{name}={}", library.display()));
+    }
+    command.env("CARGO_MANIFEST_DIR", &artifact.package);
+    if let Some((_, out)) = made.written.iter().find(|(package, _)| *package == artifact.package) {
+        command.env("OUT_DIR", out);
+    }
+    command.arg(&artifact.source);
+    command
+}
