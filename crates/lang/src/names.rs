@@ -301,8 +301,8 @@ impl Lowerer<'_> {
             _ => None,
         };
         d = match self.nearest(word.text(), names.iter().map(String::as_str)) {
-            _ if is_list && matches!(word.text(), "length" | "size" | "len") => d.meant("count"),
             _ if of_each => d.meant(&format!("map(each => each.{})", word.text())),
+            _ if is_list && matches!(word.text(), "length" | "size" | "len") => d.meant("count"),
             Some(near) => d.meant(near),
             None if let Some(made) = made => d.hint(made),
             None if names.is_empty() => d,
