@@ -5,7 +5,10 @@ use crate::evaluator::{Evaluator, Given, Result};
 use crate::fault::Fault;
 use base::Name;
 use expr::dimension::Dimension;
-use geometry::{Bend, Combination, Construction, Figure, Made, Surface, combine, offset};
+use geometry::{
+    Bend, Combination, Construction, Figure, Made, Side, Source, Surface, combine, contour,
+    edges_from, offset,
+};
 use kernel::builtin::Making;
 use kernel::{ClassId, ClassKind, ThingId};
 use std::rc::Rc;
@@ -41,6 +44,8 @@ impl<'a> Evaluator<'a> {
             Making::Figure(what) => self.made_figure(what, class, of, nearest),
             Making::Combined(how) => self.made_region(&combined(how)?, class, nearest),
             Making::Offset => self.made_region(&widened()?, class, nearest),
+            Making::Joined => self.made_contour(of, class, nearest),
+            Making::Edge => self.made_edge(of, class, nearest),
         }
     }
 
@@ -80,6 +85,16 @@ impl<'a> Evaluator<'a> {
                 vec![("center", place(center)), ("start", place(start)), ("end", place(end))]
             }
         };
+        self.made_of_parts(class, &parts, nearest)
+    }
+
+    /// Makes a thing of parts by their names.
+    fn made_of_parts(
+        &self,
+        class: ClassId,
+        parts: &[(&str, Answer<'a>)],
+        nearest: ThingId,
+    ) -> Result<Answer<'a>> {
         let fields = self.layout(class);
         let given = fields.fields.iter().filter_map(|&field| {
             let name = self.document.field_name(field);
@@ -97,28 +112,9 @@ impl<'a> Evaluator<'a> {
         class: ClassId,
         nearest: ThingId,
     ) -> Result<Answer<'a>> {
-        let number = |x| Answer::Number(x, Dimension::LENGTH);
-        let corner = |b: &Bend| {
-            let [x, y] = b.at.map(number);
-            Answer::List(Rc::from([x, y, Answer::plain(b.bulge)]))
-        };
-        // the fields of a class that a list holds are made of tuples one by one
-        let listed = |class: ClassId, name: &str| {
-            let layout = self.layout(class);
-            let field = layout.fields.iter().find(|&&f| *self.document.field_name(f) == *name);
-            match field.map(|&f| &self.document.classes[self.document.field_class(f)].kind) {
-                Some(ClassKind::List(element)) => Ok(*element),
-                _ => Err(Fault::wrong(format!("a region has a list `{name}`"))),
-            }
-        };
-        let surface = listed(class, "surfaces")?;
-        let contour = listed(surface, "holes")?;
-        let bend = listed(contour, "corners")?;
-        let ring = |ring: &geometry::Ring| {
-            let corners = ring.iter().map(|b| self.as_class(corner(b), bend, nearest));
-            let corners = Answer::List(corners.collect::<Result<_>>()?);
-            self.make(contour, &[(None, corners)], nearest)
-        };
+        let surface = self.element_of(class, "surfaces")?;
+        let contour = self.element_of(surface, "holes")?;
+        let ring = |ring: &geometry::Ring| self.made_ring(ring, contour, nearest);
         let whole = |s: &Surface| {
             let holes = s.holes.iter().map(ring).collect::<Result<_>>()?;
             let parts = [(None, ring(&s.outer)?), (None, Answer::List(holes))];
@@ -126,6 +122,133 @@ impl<'a> Evaluator<'a> {
         };
         let surfaces = made.iter().map(whole).collect::<Result<_>>()?;
         self.make(class, &[(None, Answer::List(surfaces))], nearest)
+    }
+
+    /// The class of what a list of a class holds: its fields are made of tuples one by one.
+    fn element_of(&self, class: ClassId, name: &str) -> Result<ClassId> {
+        let layout = self.layout(class);
+        let field = layout.fields.iter().find(|&&f| *self.document.field_name(f) == *name);
+        match field.map(|&f| &self.document.classes[self.document.field_class(f)].kind) {
+            Some(ClassKind::List(element)) => Ok(*element),
+            _ => Err(Fault::wrong(format!("a region has a list `{name}`"))),
+        }
+    }
+
+    /// Makes a contour of its corners.
+    fn made_ring(
+        &self,
+        ring: &geometry::Ring,
+        contour: ClassId,
+        nearest: ThingId,
+    ) -> Result<Answer<'a>> {
+        let number = |x| Answer::Number(x, Dimension::LENGTH);
+        let corner = |b: &Bend| {
+            let [x, y] = b.at.map(number);
+            Answer::List(Rc::from([x, y, Answer::plain(b.bulge)]))
+        };
+        let bend = self.element_of(contour, "corners")?;
+        let corners = ring.iter().map(|b| self.as_class(corner(b), bend, nearest));
+        let corners = Answer::List(corners.collect::<Result<_>>()?);
+        self.make(contour, &[(None, corners)], nearest)
+    }
+
+    /// Makes a contour of edges, in whichever order and whichever way they are drawn.
+    fn made_contour(
+        &self,
+        of: &[Answer<'a>],
+        class: ClassId,
+        nearest: ThingId,
+    ) -> Result<Answer<'a>> {
+        let mut sides = Vec::new();
+        for edges in of {
+            self.read_sides(edges, nearest, &mut sides)?;
+        }
+        let edges = sides.len() as u64;
+        self.burn_several(1 + edges.saturating_mul(edges) / 16)?;
+        let ring = contour(&sides).map_err(|why| self.no_such(class, &why.words()))?;
+        self.made_ring(&ring, class, nearest)
+    }
+
+    /// Reads edges: lines and arcs, or sets of them.
+    fn read_sides(&self, of: &Answer<'a>, nearest: ThingId, into: &mut Vec<Side>) -> Result<()> {
+        if matches!(of, Answer::List(_) | Answer::Context(_)) {
+            let items = self.items(of)?;
+            return items
+                .iter()
+                .try_for_each(|one| self.deeper(|| self.read_sides(one, nearest, into)));
+        }
+        let side = self.as_side(of, nearest)?.ok_or_else(|| {
+            let kind = self.kind(of);
+            Fault::wrong(format!("{kind} where a line or an arc is wanted"))
+        })?;
+        into.push(side);
+        Ok(())
+    }
+
+    /// Reads a line or an arc as an edge; nothing where it is neither.
+    fn as_side(&self, of: &Answer<'a>, nearest: ThingId) -> Result<Option<Side>> {
+        let [is_line, is_arc] = ["Line", "Arc"].map(|name| self.is_of(of, name));
+        if !is_line && !is_arc {
+            return Ok(None);
+        }
+        let corner = self.bent(&self.part_of(of, "corner", nearest)?)?;
+        let end = self.part_of(of, if is_arc { "end" } else { "p2" }, nearest)?;
+        let [x, y, bulge] = [corner.at.x, corner.at.y, corner.bulge].map(Answer::plain);
+        let number = |x: &Answer<'a>| self.number(x).map(|(x, _)| x);
+        let from = [number(&x)?, number(&y)?];
+        Ok(Some(Side { from, to: self.xy(&end, nearest)?, bulge: number(&bulge)? }))
+    }
+
+    fn is_of(&self, of: &Answer<'a>, name: &str) -> bool {
+        let wanted = self.document.class_named(name);
+        let class = self.class_of(of);
+        wanted.zip(class).is_some_and(|(wanted, class)| self.document.is_a(class, wanted))
+    }
+
+    /// Finds the edge of something that comes from a line, an arc or a circle; of several, the one with a number.
+    fn made_edge(&self, of: &[Answer<'a>], class: ClassId, nearest: ThingId) -> Result<Answer<'a>> {
+        let ([region, from], rest) = of.split_at(2.min(of.len())) else {
+            return Err(Fault::wrong("an edge is of something, and comes from something"));
+        };
+        let surfaces = self.covered(region, class, nearest)?;
+        self.burn_for(&surfaces)?;
+        let source = match (self.as_side(from, nearest)?, self.figure(from, nearest)?) {
+            (Some(side), _) if side.bulge != 0.0 => Source::Arc(side),
+            (Some(side), _) => Source::Line(side.from, side.to),
+            (None, Figure::Straight { from, to }) => Source::Axis(from, to),
+            (None, Figure::Circle { center, radius }) => Source::Circle(center, radius),
+            (None, Figure::Point(_) | Figure::Arc { .. }) => {
+                return Err(Fault::wrong("an edge comes from a line, a circle or an arc"));
+            }
+        };
+        let edges = edges_from(&surfaces, &source).map_err(|w| self.no_such(class, w.words()))?;
+        let nth = rest.first().map(|nth| self.number(nth)).transpose()?.map(|(nth, _)| nth);
+        let found = match (nth, edges.as_slice()) {
+            (None, [only]) => Ok(*only),
+            (None, []) => Err("none of its edges comes from there".to_string()),
+            (None, several) => Err(format!("{} of its edges come from there", several.len())),
+            (Some(nth), all) => {
+                all.get(nth as usize).filter(|_| nth >= 0.0).copied().ok_or_else(|| {
+                    let n = all.len();
+                    format!("of its edges {n} come from there, and none has the number {nth}")
+                })
+            }
+        };
+        let side = found.map_err(|why| self.no_such(class, &why))?;
+        let place =
+            |p: [f64; 2]| Answer::List(Rc::from(p.map(|x| Answer::Number(x, Dimension::LENGTH))));
+        let given = |parts: &[(&str, [f64; 2])]| {
+            let named = parts.iter().map(|&(part, at)| (part, place(at)));
+            self.made_of_parts(class, &named.collect::<Vec<_>>(), nearest)
+        };
+        match side.center() {
+            // an arc runs to the left
+            Some(center) if side.bulge < 0.0 => {
+                given(&[("center", center), ("start", side.to), ("end", side.from)])
+            }
+            Some(center) => given(&[("center", center), ("start", side.from), ("end", side.to)]),
+            None => given(&[("p1", side.from), ("p2", side.to)]),
+        }
     }
 
     /// Counts the work of looking at every pair of edges.
@@ -242,6 +365,16 @@ impl<'a> Evaluator<'a> {
 
     fn ask_of(&self, of: &Answer<'a>, name: &Name, nearest: ThingId) -> Result<Answer<'a>> {
         self.send(of, name, Vec::new(), None, nearest)
+    }
+
+    /// Returns the edges of what covers a part of the plane: a contour, a surface or a region.
+    ///
+    /// # Errors
+    /// It is none.
+    pub fn outline_of(&self, of: &Answer<'a>) -> Result<Vec<Side>> {
+        self.begin();
+        let surfaces = self.surfaces(of, kernel::DOCUMENT)?;
+        Ok(surfaces.iter().flat_map(geometry::sides_of).collect())
     }
 
     fn xy(&self, of: &Answer<'a>, nearest: ThingId) -> Result<[f64; 2]> {

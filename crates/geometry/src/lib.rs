@@ -26,7 +26,8 @@
 //! circle, from the first contact to the second is less than half a turn.
 //!
 //! A region is what contours of segments and arcs surround. Regions are combined and offset as numbers alone
-//! ([`combine`], [`offset`]): how many edges an outcome has depends on values, so that there is no formula for it.
+//! ([`combine`], [`offset`]), contours made of edges and edges found by what they come from ([`contour`],
+//! [`edges_from`]): how many edges an outcome has depends on values, so that there is no formula for it.
 //!
 //! Invariants:
 //! - a construction has one answer, or says why it has none;
@@ -36,6 +37,7 @@ mod algebra;
 mod build;
 mod circles;
 mod construction;
+mod contour;
 mod figure;
 mod lines;
 mod points;
@@ -46,5 +48,6 @@ mod work;
 pub use algebra::{Algebra, Plain};
 pub use build::{Built, NoConstruction, build, construct};
 pub use construction::{Construction, Made};
+pub use contour::{NoContour, Side, Source, contour, edges_from, edges_of, sides_of};
 pub use figure::Figure;
 pub use region::{Bend, Combination, NoRegion, Ring, Surface, combine, offset};

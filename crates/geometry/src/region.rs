@@ -13,7 +13,7 @@
 //! assert!((washer[0].area() - std::f64::consts::PI * (64.0 - 17.64)).abs() < 1e-12 * 64.0);
 //! ```
 mod arrange;
-mod edge;
+pub(crate) mod edge;
 mod rings;
 mod test;
 
@@ -24,7 +24,7 @@ use crate::region::rings::{joined, nested, simplified, winding};
 /// How many edges regions that are combined may have together.
 const MOST_EDGES: usize = 4000;
 /// Within what part of their extent places are one.
-const NEAR: f64 = 1e-9;
+pub(crate) const NEAR: f64 = 1e-9;
 
 /// A corner of a ring, and how what leaves it bends.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -186,14 +186,14 @@ impl Arrangement {
 
 /// Where and how large what is computed is.
 #[derive(Clone, Copy)]
-struct Frame {
+pub(crate) struct Frame {
     origin: V,
     near: f64,
 }
 
 impl Frame {
     /// Looks at regions: the origin is moved to their middle, so that far away is as exact as near.
-    fn of(regions: &[&[Surface]]) -> Result<Self, NoRegion> {
+    pub(crate) fn of(regions: &[&[Surface]]) -> Result<Self, NoRegion> {
         let surfaces = || regions.iter().copied().flatten();
         let rings = || surfaces().flat_map(|s| [&s.outer].into_iter().chain(&s.holes));
         let (mut least, mut most) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);

@@ -316,14 +316,23 @@ pub enum Making {
     Combined(Combination),
     /// What is within a distance of a region.
     Offset,
+    /// A contour of edges that hang together.
+    Joined,
+    /// An edge of what covers a part of the plane, by what it comes from.
+    Edge,
 }
 
-/// What makes regions: the message of the class `Region` by its form.
-const REGIONS: [(&str, Making); 4] = [
-    ("union(first,second)", Making::Combined(Combination::Union)),
-    ("difference(first,second)", Making::Combined(Combination::Difference)),
-    ("intersection(first,second)", Making::Combined(Combination::Intersection)),
-    ("offset(of,by)", Making::Offset),
+/// What makes regions and contours, and finds their edges: a class and its message by its form.
+const OUTLINES: [(&str, &str, Making); 9] = [
+    ("Region", "union(first,second)", Making::Combined(Combination::Union)),
+    ("Region", "difference(first,second)", Making::Combined(Combination::Difference)),
+    ("Region", "intersection(first,second)", Making::Combined(Combination::Intersection)),
+    ("Region", "offset(of,by)", Making::Offset),
+    ("Contour", "along(edges)", Making::Joined),
+    ("Line", "edge(of,from)", Making::Edge),
+    ("Line", "edge(of,from,nth)", Making::Edge),
+    ("Arc", "edge(of,from)", Making::Edge),
+    ("Arc", "edge(of,from,nth)", Making::Edge),
 ];
 
 /// The constructions of oriented geometry that classes of the library declare as `static builtin`: the class, its
@@ -362,8 +371,9 @@ const STRAIGHTS: &[&str] = &["Line", "Axis"];
 
 /// Returns what a class of this name declares by this form.
 pub fn making(class: &str, form: &str) -> Option<Making> {
-    if class == "Region" {
-        return REGIONS.iter().find(|(name, _)| *name == form).map(|(_, what)| *what);
+    let outline = OUTLINES.iter().find(|(of, name, _)| *of == class && *name == form);
+    if let Some((_, _, what)) = outline {
+        return Some(*what);
     }
     let is = |(classes, name, _): &&(&[&str], &str, Construction)| {
         *name == form && classes.contains(&class)

@@ -13,7 +13,7 @@ use base::Name;
 pub struct Program {
     /// What is asked of who applies it, in order: each a part of the class.
     pub parameters: Vec<Asked>,
-    /// What its parameters have to fulfil, ranges apart.
+    /// What its parameters have to fulfil, beside what is allowed of each.
     pub demands: Vec<Demand>,
     /// What it does.
     pub body: Block,
@@ -26,8 +26,24 @@ pub struct Asked {
     pub name: Name,
     /// What is asked, in words; empty where nothing is written.
     pub prompt: String,
-    /// The least and the largest value that are allowed.
-    pub range: Option<(Term, Term)>,
+    /// The values that are allowed; nothing for all.
+    pub allowed: Option<Allowed>,
+}
+
+/// The values that are allowed of a parameter.
+#[derive(Clone, PartialEq, Debug)]
+pub enum Allowed {
+    /// From the least to the largest.
+    Range {
+        /// The least.
+        least: Term,
+        /// The largest, or the one that all are less than.
+        most: Term,
+        /// Whether the largest is not allowed itself.
+        is_open: bool,
+    },
+    /// Those of a table.
+    OneOf(Vec<Term>),
 }
 
 /// A constraint in a program: what rows and calls have to fulfil.

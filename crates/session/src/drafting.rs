@@ -7,7 +7,7 @@
 //! Nothing is known of any construction: `catalogue` finds them in the classes in scope, `outcome` tries
 //! them in a copy of the text. So a construction that a library gains is a tool at once.
 //!
-//! Reading order: `catalogue`, `synonyms`, `scene`, `typed`, `outcome`, `dialogue`, `older`, `hands`, `recording`,
+//! Reading order: `catalogue`, `synonyms`, `scene`, `edges`, `typed`, `outcome`, `dialogue`, `older`, `hands`, `recording`,
 //! `parameters`, `blocks`, `operands`, `patterns`, `repeat`, `choice`, `demonstrating`, `measure`, `steps`,
 //! `visit`, `remove`, `erase`, `changing`, `visiting`, `text`.
 mod blocks;
@@ -16,6 +16,7 @@ mod changing;
 mod choice;
 mod demonstrating;
 mod dialogue;
+mod edges;
 mod erase;
 mod hands;
 mod measure;

@@ -6,7 +6,7 @@ use crate::kinds::{Kind, measured};
 use crate::lower::Lowerer;
 use crate::scope::Scope;
 use base::{Diagnostic, Name, Place, Span};
-use kernel::program::{Asked, Block, Carried, Says, Step};
+use kernel::program::{Allowed, Asked, Block, Carried, Says, Step};
 use kernel::{BinaryOperator, ClassId, Constraint, Program, Strength, Term};
 use syntax::ast::{self, AstNode, Else, Expr, Member, Value, span_without_doc};
 
@@ -36,26 +36,50 @@ impl Lowerer<'_> {
         let name = param.name()?.name();
         let kind = self.kind_of_part(scope.class(), &name)?;
         let prompt = param.prompt().map_or_else(String::new, |w| w.unquoted());
-        let range = param.domain().and_then(|domain| {
-            let Expr::Range(range) = &domain else {
-                let message = "a parameter's range is `least..largest`".to_string();
-                self.error("not-a-domain", scope.file, domain.span(), message);
-                return None;
-            };
-            let low = self.expr_of(scope, &range.start()?, &kind)?;
-            Some((low, self.expr_of(scope, &range.end()?, &kind)?))
-        });
-        Some(Asked { name, prompt, range })
+        let allowed = param.domain().and_then(|domain| self.allowed(scope, &domain, &kind));
+        Some(Asked { name, prompt, allowed })
     }
 
-    /// Makes the ranges of a program's parameters a required constraint.
+    /// Reads the values that are allowed of a parameter: `1 mm..9 mm`, `[3 mm, 4 mm]`.
+    fn allowed(&mut self, scope: &Scope, domain: &Expr, kind: &Kind) -> Option<Allowed> {
+        match domain {
+            Expr::Range(range) => {
+                let least = self.expr_of(scope, &range.start()?, kind)?;
+                let most = self.expr_of(scope, &range.end()?, kind)?;
+                Some(Allowed::Range { least, most, is_open: range.is_open() })
+            }
+            Expr::List(list) if list.elements().next().is_some() => {
+                let each = list.elements().map(|one| self.expr_of(scope, &one, kind));
+                Some(Allowed::OneOf(each.collect::<Vec<_>>().into_iter().collect::<Option<_>>()?))
+            }
+            _ => {
+                let message =
+                    "what is allowed of a parameter is `least..largest`, or a list of values";
+                self.error("not-a-domain", scope.file, domain.span(), message.into());
+                None
+            }
+        }
+    }
+
+    /// Makes what is allowed of a program's parameters a required constraint.
     fn demand_ranges(&mut self, class: ClassId, parameters: &[Asked], node: &ast::Program) {
         let within = |asked: &Asked| {
-            let (low, high) = asked.range.clone()?;
             let me = || Box::new(Term::send(Term::Me, &asked.name));
-            let least = Term::Binary(BinaryOperator::LessEqual, Box::new(low), me());
-            let most = Term::Binary(BinaryOperator::LessEqual, me(), Box::new(high));
-            Some(Term::Binary(BinaryOperator::And, Box::new(least), Box::new(most)))
+            match asked.allowed.clone()? {
+                Allowed::Range { least, most, is_open } => {
+                    let less = match is_open {
+                        true => BinaryOperator::Less,
+                        false => BinaryOperator::LessEqual,
+                    };
+                    let least = Term::Binary(BinaryOperator::LessEqual, Box::new(least), me());
+                    let most = Term::Binary(less, me(), Box::new(most));
+                    Some(Term::Binary(BinaryOperator::And, Box::new(least), Box::new(most)))
+                }
+                Allowed::OneOf(values) => {
+                    let values = Box::new(Term::List(values));
+                    Some(Term::Binary(BinaryOperator::In, me(), values))
+                }
+            }
         };
         let both = |a, b| Term::Binary(BinaryOperator::And, Box::new(a), Box::new(b));
         let Some(rule) = parameters.iter().filter_map(within).reduce(both) else { return };
@@ -66,7 +90,7 @@ impl Lowerer<'_> {
         let origin = self.origin(file, span);
         self.document.classes[class].constraints.push(Constraint {
             name,
-            doc: "The ranges of the parameters.".into(),
+            doc: "What is allowed of the parameters.".into(),
             rule,
             strength: Strength::Required,
             methods: Vec::new(),

@@ -199,6 +199,8 @@ pub(crate) enum SlotKind {
     Value,
     /// A figure of any class that understands the message, or a set of them.
     Set,
+    /// Lines and arcs that hang together.
+    Edges,
 }
 
 /// Labels that need no writing: the place of the operand tells.
@@ -206,8 +208,12 @@ const BY_PLACE: [&str; 4] = ["first", "second", "third", "curve"];
 
 impl Slot {
     fn of(document: &Document, name: &str, label: Option<String>, class: ClassId) -> Self {
-        let found = &document.classes[class];
+        let (found, is_list) = match document.classes[class].kind {
+            ClassKind::List(element) => (&document.classes[element], true),
+            _ => (&document.classes[class], false),
+        };
         let kind = match found.kind {
+            ClassKind::Composite if is_list && *found.name == *"Curve" => SlotKind::Edges,
             ClassKind::Composite if *found.name == *"Point" => SlotKind::Point,
             ClassKind::Composite => SlotKind::Curve,
             _ => SlotKind::Value,
@@ -237,6 +243,8 @@ impl Slot {
             (_, "Curve") => "line, circle or arc".into(),
             (_, "Round") => "circle or arc".into(),
             (SlotKind::Set, _) => "figure".into(),
+            (SlotKind::Edges, _) => "line or arc".into(),
+            (_, "Planar" | "Outlined") => "contour, surface or region".into(),
             (_, class) => class.to_lowercase(),
         }
     }
@@ -394,7 +402,8 @@ fn moved(document: &Document) -> Option<Tool> {
     let slots = [("what", None, point), ("by", Some("by".to_string()), point)];
     let mut slots = slots.map(|(name, label, class)| Slot::of(document, name, label, class));
     slots[0].kind = SlotKind::Set;
-    let figures = document.classes.iter().filter(|(id, _)| document.figure(*id).is_some());
+    let is_picked = |id: ClassId| document.figure(id).is_some() || is_planar(document, id);
+    let figures = document.classes.iter().filter(|(id, _)| is_picked(*id));
     slots[0].also = figures.map(|(_, class)| class.name.clone()).collect();
     let doc = "Moved so far to the right and up as a point lies from the origin: all turns of a loop, or \
                what a program drew.";
@@ -407,6 +416,11 @@ fn moved(document: &Document) -> Option<Tool> {
         call: Call::Message("moved".into()),
         slots: slots.into(),
     })
+}
+
+/// Whether a class covers a part of the plane.
+fn is_planar(document: &Document, id: ClassId) -> bool {
+    document.lineage(id).iter().any(|&c| *document.classes[c].name == *"Planar")
 }
 
 /// Returns the tool that makes a pattern of a set, or of any figure.
@@ -483,8 +497,7 @@ fn constructor(document: &Document, id: ClassId, is_program: bool) -> Option<Too
 /// Returns the tool that a message is, if it makes a figure of what it is given.
 fn of_message(document: &Document, id: ClassId, message: &Message) -> Option<Tool> {
     let class = &document.classes[id];
-    let is_planar = document.lineage(id).iter().any(|&c| *document.classes[c].name == *"Planar");
-    if document.figure(id).is_none() && !is_planar {
+    if document.figure(id).is_none() && !is_planar(document, id) {
         return None;
     }
     let word = message.word().to_string();

@@ -3,7 +3,7 @@
 use super::catalogue::{Slot, SlotKind, Tool};
 use super::scene::{self, Found};
 use super::view::{Hover, Prompt, Wants};
-use super::{Home, measure, older, outcome, parameters, typed};
+use super::{Home, edges, measure, older, outcome, parameters, typed};
 use crate::state::State;
 use crate::view::{Pointer, Refusal};
 use crate::words;
@@ -46,6 +46,8 @@ pub(crate) struct Dialogue {
     pub(crate) replaces: Option<String>,
     /// How often another solution was asked for than the nearest.
     pub(crate) turned: usize,
+    /// The edges that were picked so far, where such are wanted.
+    pub(crate) edges: Vec<String>,
 }
 
 /// What waits for the outcome of another construction.
@@ -69,6 +71,7 @@ impl Dialogue {
             goal: None,
             replaces: None,
             turned: 0,
+            edges: Vec::new(),
         }
     }
 
@@ -90,6 +93,13 @@ impl Dialogue {
                     "pick a figure, or drag over several; Tab takes its turn, or the whole loop"
                         .to_string()
                 }
+                SlotKind::Edges => match self.edges.len() {
+                    0 => "pick a line or an arc, or drag over all; what goes on from it is taken \
+                          along"
+                        .to_string(),
+                    1 => "1 edge; pick the next, Enter ends it".to_string(),
+                    n => format!("{n} edges; pick the next, Enter ends it"),
+                },
                 SlotKind::Value if *slot.class == *"Bool" => "type `yes` or `no`".to_string(),
                 SlotKind::Value => "type a value, pick a parameter or what has it".to_string(),
             };
@@ -120,7 +130,8 @@ impl Dialogue {
             words,
             operands: operands.map(|(i, slot)| (slot.name.clone(), given(i))).collect(),
             is_value: slot.is_some_and(|slot| slot.kind == SlotKind::Value),
-            takes_sets: slot.is_some_and(|slot| slot.kind == SlotKind::Set),
+            takes_sets: slot
+                .is_some_and(|slot| matches!(slot.kind, SlotKind::Set | SlotKind::Edges)),
             is_guide: self.is_guide,
             wants: Wants::Operand,
             insert: None,
@@ -140,13 +151,24 @@ impl Dialogue {
         let Some(slot) = self.slot() else {
             return Err(words::refuse("no operand is wanted".into()));
         };
-        let found = scene::scene(state, home);
-        if let Some(found) = nearest(state, slot, &found, pointer) {
+        let all = scene::scene(state, home);
+        let found = nearest(state, slot, &all, pointer);
+        // Tab goes on from a figure to the edge that comes from it
+        if found.is_none() || level % 2 == 1 {
+            match edges::by_origin(state, slot, &all, pointer) {
+                Some(Ok(text)) => return Ok(Operand::new(text, Some(pointer.at))),
+                Some(Err(why)) if found.is_none() && slot.kind == SlotKind::Curve => {
+                    return Err(why);
+                }
+                Some(Err(_)) | None => {}
+            }
+        }
+        if let Some(found) = found {
             let text = match slot.kind {
                 SlotKind::Value => measure::usual(state, found)
                     .ok_or_else(|| words::refuse(format!("{} has no measure", found.text)))?,
                 SlotKind::Set => found.at_level(level),
-                SlotKind::Point | SlotKind::Curve => found.text.clone(),
+                SlotKind::Point | SlotKind::Curve | SlotKind::Edges => found.text.clone(),
             };
             return Ok(Operand::new(text, Some(pointer.at)));
         }
@@ -161,7 +183,7 @@ impl Dialogue {
             (SlotKind::Value, "x" | "y") => {
                 Ok(Operand::new(typed::coordinate(pointer, &slot.name), Some(pointer.at)))
             }
-            (SlotKind::Curve | SlotKind::Set | SlotKind::Value, _) => {
+            (SlotKind::Curve | SlotKind::Set | SlotKind::Edges | SlotKind::Value, _) => {
                 Err(words::refuse(format!("there is no {} here", slot.in_words())))
             }
         }
@@ -188,6 +210,9 @@ impl Dialogue {
             }
             Err(refusal) => return Hover { why: Some(refusal.message), ..Hover::default() },
         };
+        if slot.kind == SlotKind::Edges && typed.trim().is_empty() {
+            return self.hover_edges(state, home, &operand.text);
+        }
         let finds = Some(operand.text.clone());
         let lit = match (slot.kind, typed.trim().is_empty()) {
             (SlotKind::Curve | SlotKind::Set | SlotKind::Point, true) => {
@@ -220,6 +245,27 @@ impl Dialogue {
     }
 }
 
+impl Dialogue {
+    /// The edges that are picked with one more, and what goes on from them.
+    pub(crate) fn with_edge(&self, state: &State, home: &Home, edge: &str) -> Vec<String> {
+        let mut picked = self.edges.clone();
+        if !picked.iter().any(|other| other == edge) {
+            picked.push(edge.into());
+        }
+        edges::followed(state, home, &picked)
+    }
+
+    /// What one more edge would do: all of them are lit.
+    fn hover_edges(&self, state: &State, home: &Home, edge: &str) -> Hover {
+        let all = self.with_edge(state, home, edge);
+        let mut ghost = drawing::Drawing::default();
+        for edge in &all {
+            ghost.elements.extend(scene::drawing_of(state, home, edge).elements);
+        }
+        Hover { finds: Some(all.join(", ")), ghost, why: None }
+    }
+}
+
 /// Returns the nearest figure that fits a slot, a point before what runs through it.
 pub(crate) fn nearest<'f>(
     state: &State,
@@ -229,6 +275,7 @@ pub(crate) fn nearest<'f>(
 ) -> Option<&'f Found> {
     let fits = |f: &&Found| match slot.kind {
         SlotKind::Value => measure::usual(state, f).is_some(),
+        SlotKind::Edges => f.side.is_none() && f.curve.ends().is_some(),
         SlotKind::Point | SlotKind::Curve | SlotKind::Set => slot.takes(state, f.class),
     };
     scene::nearest(all.iter().filter(fits), pointer)

@@ -62,6 +62,26 @@ fn fits_slot(state: &State, tool: &Tool, waiting: &Dialogue) -> bool {
     })
 }
 
+/// Gives edges that were picked, once they are a contour; until then more are wanted.
+fn give_edges(
+    open: &mut Open,
+    host: &dyn Host,
+    (edges, at): (Vec<String>, Option<(f64, f64)>),
+) -> Result<Turn, Refusal> {
+    let none = || words::refuse("no construction waits".into());
+    let operand = Operand::new(format!("[{}]", edges.join(", ")), at);
+    let before = open.dialogue.clone();
+    give(open, host, operand).or_else(|refused| {
+        open.dialogue = before;
+        let dialogue = open.dialogue.as_mut().ok_or_else(none)?;
+        if dialogue.edges == edges {
+            return Err(refused);
+        }
+        dialogue.edges = edges;
+        Ok(Turn::Wants(dialogue.prompt()))
+    })
+}
+
 /// Gives the operand that is wanted; with the last one the figure is made.
 fn give(open: &mut Open, host: &dyn Host, operand: Operand) -> Result<Turn, Refusal> {
     let home = home(open);
@@ -121,6 +141,7 @@ fn give(open: &mut Open, host: &dyn Host, operand: Operand) -> Result<Turn, Refu
     }
     if let Some(dialogue) = &mut open.dialogue {
         dialogue.filled.clear();
+        dialogue.edges.clear();
         dialogue.pointer = None;
         dialogue.is_begun = false;
         dialogue.turned = 0;
@@ -319,6 +340,10 @@ impl Session {
         let (open, beside) = self.beside_others(id);
         let home = home(open);
         let waiting = open.dialogue.as_ref().and_then(|d| Some((d, d.slot()?)));
+        if waiting.is_some_and(|(_, slot)| slot.kind == SlotKind::Edges) {
+            let turn = edges_within(open, &beside, &home, corners)?;
+            return Ok(self.reached(id, turn));
+        }
         let Some((dialogue, slot)) = waiting.filter(|(_, slot)| slot.kind == SlotKind::Set) else {
             return Err(words::refuse("no set is wanted: pick one thing".into()));
         };
@@ -406,6 +431,10 @@ impl Session {
             return prompt(open);
         }
         match open.dialogue.take() {
+            Some(mut dialogue) if !dialogue.edges.is_empty() => {
+                dialogue.edges.pop();
+                open.dialogue = Some(dialogue);
+            }
             Some(mut dialogue) => {
                 let had = dialogue.filled.pop();
                 open.dialogue = match (had, dialogue.goal.take()) {
@@ -509,6 +538,23 @@ impl Session {
     }
 }
 
+/// Gives the lines and arcs that lie in a rectangle.
+fn edges_within(
+    open: &mut Open,
+    host: &dyn Host,
+    home: &Home,
+    corners: ((f64, f64), (f64, f64)),
+) -> Result<Turn, Refusal> {
+    let mut found = scene::within(&open.state, home, corners);
+    found.retain(|found| found.side.is_none() && found.curve.ends().is_some());
+    let (single, sets) = scene::whole_sets(&open.state, home, &found);
+    let edges: Vec<String> = single.into_iter().chain(sets).collect();
+    if edges.is_empty() {
+        return Err(words::refuse("no line and no arc lies in that rectangle".into()));
+    }
+    give_edges(open, host, (edges, None))
+}
+
 fn found_hover(state: &State, home: &Home, found: Result<scene::Found, Refusal>) -> Hover {
     match found {
         Ok(found) => Hover {
@@ -597,6 +643,10 @@ fn pointed(open: &mut Open, host: &dyn Host, pointer: &Pointer) -> Result<Turn, 
             return Ok(Turn::Wants(Prompt { insert, ..dialogue.prompt() }));
         }
         dialogue.pointer = None;
+        if dialogue.slot().is_some_and(|slot| slot.kind == SlotKind::Edges) {
+            let edges = dialogue.with_edge(&state, &home, &operand.text);
+            return give_edges(open, host, (edges, operand.at));
+        }
         return give(open, host, operand);
     }
     let Some(wanted) = blocks::prompt(open) else {
@@ -636,6 +686,12 @@ fn entered(open: &mut Open, host: &dyn Host, typed: &str) -> Result<Turn, Refusa
     if open.recording.as_ref().is_some_and(|recording| recording.changing.is_some()) {
         let change = changing::give(open, host, (typed, None))?;
         return Ok(turn_of(open, Some(change), typed.into()));
+    }
+    let picked = open.dialogue.as_ref().filter(|dialogue| !dialogue.edges.is_empty());
+    if let Some(edges) = picked.map(|dialogue| dialogue.edges.clone())
+        && typed.trim().is_empty()
+    {
+        return give_edges(open, host, (edges, None));
     }
     if let Some((dialogue, slot)) = open.dialogue.as_ref().and_then(|d| Some((d, d.slot()?))) {
         let (text, wanted) =

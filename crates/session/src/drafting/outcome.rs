@@ -102,7 +102,11 @@ pub(crate) fn fits(
             {
                 Ok(())
             }
-            Ok(Answer::List(_) | Answer::Context(_)) if kind == SlotKind::Set => Ok(()),
+            Ok(Answer::List(_) | Answer::Context(_))
+                if matches!(kind, SlotKind::Set | SlotKind::Edges) =>
+            {
+                Ok(())
+            }
             Ok(answer) => match evaluator.class_of(&answer) {
                 Some(found) if is_wanted(found) => Ok(()),
                 Some(found) => {

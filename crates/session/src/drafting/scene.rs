@@ -5,9 +5,9 @@ use crate::state::State;
 use crate::view::Pointer;
 use crate::views::drawn;
 use base::Name;
-use base::number::{atan2, hypot};
+use base::number::{atan2, hypot, tan};
 use eval::{Answer, Context, Entry, Evaluator, Standing};
-use geometry::Figure;
+use geometry::{Figure, Side, Source};
 use kernel::{ClassId, DOCUMENT};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -22,11 +22,23 @@ pub(crate) struct Found {
     pub(crate) curve: Curve,
     /// What it is in, from the nearest: a turn of a loop, the loop.
     pub(crate) wholes: Vec<String>,
+    /// The edge of it, where it is one of several: of a contour, a surface or a region.
+    pub(crate) side: Option<Side>,
+    /// Whether it is a place of another figure.
+    pub(crate) is_place: bool,
     /// Whether it is part of what is drawn: no guide, not erased, no place of another figure.
     pub(crate) is_result: bool,
 }
 
 impl Found {
+    /// Whether a pointer is at the end of the edge that it is, or at its beginning; nothing where it is at neither.
+    pub(crate) fn corner_at(&self, pointer: &Pointer) -> Option<bool> {
+        let side = self.side?;
+        let away = |[x, y]: [f64; 2]| hypot(pointer.at.0 - x, pointer.at.1 - y);
+        let (begin, end) = (away(side.from), away(side.to));
+        (begin.min(end) <= pointer.reach).then_some(end < begin)
+    }
+
     /// How it, or what it is in, is written: at level 0 itself, then from the nearest whole on, and around.
     pub(crate) fn at_level(&self, level: usize) -> String {
         match level % (self.wholes.len() + 1) {
@@ -63,7 +75,11 @@ pub(crate) fn within(state: &State, home: &Home, (a, b): ((f64, f64), (f64, f64)
         })
     };
     let mut caught: BTreeSet<&str> = BTreeSet::new();
-    let found = all.iter().filter(|found| is_in(found) && !is_part(found));
+    // a contour is in it where all of its edges are
+    let cut: BTreeSet<&str> =
+        all.iter().filter(|f| f.side.is_some() && !is_in(f)).map(|f| f.text.as_str()).collect();
+    let is_whole = |found: &Found| !cut.contains(found.text.as_str());
+    let found = all.iter().filter(|found| is_in(found) && !is_part(found) && is_whole(found));
     found.filter(|found| caught.insert(&found.text)).cloned().collect()
 }
 
@@ -139,6 +155,49 @@ pub(crate) struct Curve {
 const PLACES: [&str; 5] = ["p1", "p2", "center", "start", "end"];
 
 impl Curve {
+    /// Returns where an edge lies.
+    fn of_side(side: &Side) -> Self {
+        let [from, to] = [side.from, side.to];
+        match side.center() {
+            Some(center) => Self {
+                figure: Figure::Circle {
+                    center,
+                    radius: hypot(from[0] - center[0], from[1] - center[1]).copysign(side.bulge),
+                },
+                arc: Some(if side.bulge < 0.0 { [to, from] } else { [from, to] }),
+                is_endless: false,
+            },
+            None => Self { figure: Figure::Straight { from, to }, arc: None, is_endless: false },
+        }
+    }
+
+    /// Returns where it begins and ends, where it is a segment or an arc.
+    pub(crate) fn ends(&self) -> Option<[[f64; 2]; 2]> {
+        match (self.figure, self.arc) {
+            (Figure::Straight { from, to }, _) if !self.is_endless => Some([from, to]),
+            (_, ends) => ends,
+        }
+    }
+
+    /// Returns what edges of others can come from it.
+    pub(crate) fn source(&self) -> Option<Source> {
+        match (self.figure, self.arc) {
+            (Figure::Straight { from, to }, _) if self.is_endless => Some(Source::Axis(from, to)),
+            (Figure::Straight { from, to }, _) => Some(Source::Line(from, to)),
+            (Figure::Circle { center, radius }, None) => Some(Source::Circle(center, radius)),
+            (Figure::Circle { center, radius }, Some([a, b])) => {
+                let turn = |p: [f64; 2]| atan2(p[1] - center[1], p[0] - center[0]);
+                let sweep = (turn(b) - turn(a)).rem_euclid(std::f64::consts::TAU);
+                let bulge = tan(sweep / 4.0);
+                Some(Source::Arc(match radius < 0.0 {
+                    true => Side { from: b, to: a, bulge: -bulge },
+                    false => Side { from: a, to: b, bulge },
+                }))
+            }
+            (Figure::Point(_) | Figure::Arc { .. }, _) => None,
+        }
+    }
+
     /// Returns where an answer lies; nothing where it is no figure.
     pub(crate) fn of<'a>(evaluator: &Evaluator<'a>, answer: &Answer<'a>) -> Option<Self> {
         let document = evaluator.document;
@@ -452,9 +511,20 @@ impl<'a> Scene<'_, 'a> {
             _ => {}
         }
         let Some(class) = self.evaluator.class_of(answer) else { return };
-        let Some(curve) = Curve::of(self.evaluator, answer) else { return };
-        let (wholes, is_result) = (wholes.to_vec(), self.is_result);
-        self.found.push(Found { text: text.into(), class, curve, wholes, is_result });
+        let Some(curve) = Curve::of(self.evaluator, answer) else {
+            self.sets.push((text.into(), self.is_result));
+            return self.outline((text, wholes), (class, answer));
+        };
+        let (wholes, is_result, is_place) = (wholes.to_vec(), self.is_result, false);
+        self.found.push(Found {
+            text: text.into(),
+            class,
+            curve,
+            wholes,
+            side: None,
+            is_place,
+            is_result,
+        });
         if !with_places || matches!(curve.figure, Figure::Point(_)) {
             return;
         }
@@ -464,8 +534,30 @@ impl<'a> Scene<'_, 'a> {
                     (self.evaluator.class_of(&part), Curve::of(self.evaluator, &part))
             {
                 let (text, wholes) = (format!("{text}.{name}"), Vec::new());
-                self.found.push(Found { text, class, curve, wholes, is_result: false });
+                let (side, is_place, is_result) = (None, true, false);
+                self.found.push(Found { text, class, curve, wholes, side, is_place, is_result });
             }
+        }
+    }
+
+    /// Adds the edges of what covers a part of the plane, each as the whole.
+    fn outline(&mut self, (text, wholes): (&str, &[String]), of: (ClassId, &Answer<'a>)) {
+        let document = &self.state.lowered.document;
+        let (class, answer) = of;
+        let planar = document.class_named("Planar");
+        if !planar.is_some_and(|planar| document.is_a(class, planar)) {
+            return;
+        }
+        for side in self.evaluator.outline_of(answer).unwrap_or_default() {
+            self.found.push(Found {
+                text: text.into(),
+                class,
+                curve: Curve::of_side(&side),
+                wholes: wholes.to_vec(),
+                side: Some(side),
+                is_place: false,
+                is_result: self.is_result,
+            });
         }
     }
 }

@@ -44,6 +44,8 @@ pub(crate) fn operand(slot: &Slot, typed: &str, last: Option<&str>) -> Result<St
     };
     Ok(match slot.kind {
         SlotKind::Curve | SlotKind::Set => typed.into(),
+        SlotKind::Edges if typed.starts_with('[') => typed.into(),
+        SlotKind::Edges => format!("[{typed}]"),
         SlotKind::Value if *slot.class == *"Bool" => truth(typed).into(),
         SlotKind::Value if *slot.class == *"Angle" && is_number(typed) => format!("{typed} deg"),
         SlotKind::Value => typed.into(),

@@ -8,6 +8,7 @@ use base::Name;
 use eval::{Answer, Evaluator, Standing};
 use indexmap::IndexMap;
 use kernel::builtin::{FUNCTIONS, Kind, PICTURE_MESSAGES, find};
+use kernel::program::Allowed;
 use kernel::{
     ClassId, ClassKind, Document, Message, Path, Primitive, Quantity, Shown, SlotId, Step, Term,
     ThingId, Values,
@@ -267,8 +268,8 @@ impl Maker<'_> {
         let owner = structure.things[thing].owner?;
         let program = document.program(structure.things[owner].class)?;
         let name = structure.field_name(document, thing)?;
-        let (least, most) =
-            program.parameters.iter().find(|asked| asked.name == *name)?.range.as_ref()?;
+        let asked = program.parameters.iter().find(|asked| asked.name == *name)?;
+        let Some(Allowed::Range { least, most, .. }) = &asked.allowed else { return None };
         let end = |term| match self.evaluator.evaluate(term, owner) {
             Ok(Answer::Number(x, _)) => Some(x),
             _ => None,

@@ -5,7 +5,7 @@ use session::drafting::view::{Ends, Go, NewParameter, Turn, Wants};
 use session::view::Pointer;
 
 fn record(name: &str, parameters: &[(&str, &str)]) -> Desk {
-    let mut desk = Desk::of("use geometry\nunit mm\n");
+    let mut desk = Desk::of("use contours\nunit mm\n");
     desk.session.record(desk.id, name).expect("a new program");
     for (name, example) in parameters {
         let new = NewParameter {
@@ -474,4 +474,93 @@ flange: Flange
     let text = desk.text();
     let (_, each) = text.split_once("each = for").expect("it is there");
     assert!(each.split("guides").next().is_some_and(|each| each.contains("(0..6 - 1)")), "{text}");
+}
+
+/// Half of a disc with a notch in its floor, as lines and arcs that are drawn in no order.
+fn half_disc() -> Desk {
+    let mut desk = record("Half", &[("r", "20")]);
+    guide(&mut desk, "Circle", &[Typed("0, 0"), Typed("r")]);
+    draw(&mut desk, "Line", &[Typed("r, 0"), Typed("4, 0")]);
+    draw(&mut desk, "Arc", &[Typed("0, 0"), Typed("r, 0"), Typed("-r, 0")]);
+    draw(&mut desk, "Line", &[Typed("-r, 0"), Typed("-4, 0")]);
+    draw(&mut desk, "ClockwiseArc", &[Typed("0, 0"), Typed("-4, 0"), Typed("4, 0")]);
+    assert_eq!(desk.wrong(), [], "{}", desk.text());
+    desk
+}
+
+#[test]
+fn a_contour_is_made_of_edges_that_one_pick_follows() {
+    let mut desk = half_disc();
+    let by_one = draw(&mut desk, "Contour.along(edges)", &[At(10.0, 0.0)]);
+    assert_eq!(by_one, "contour");
+    let wanted = "contour = Contour.along(edges: [line, clockwiseArc, line2, arc])";
+    assert!(desk.text().contains(wanted), "{}", desk.text());
+    let area = std::f64::consts::PI * (400.0 - 16.0) / 2.0;
+    draw(&mut desk, "value", &[Typed("contour.area / 1")]);
+    let found = value_of(&desk, "half.value");
+    assert!((found.abs() - area).abs() < 1e-9, "{found} for {area}");
+    // it is picked as a whole, and measured
+    draw(&mut desk, ":moved(by)", &[Typed("contour"), Typed("100, 0")]);
+    assert_eq!(desk.wrong(), [], "{}", desk.text());
+}
+
+#[test]
+fn where_two_edges_go_on_the_next_is_picked_and_an_open_contour_is_refused() {
+    let mut desk = half_disc();
+    // a second way from one end to the other
+    draw(&mut desk, "Line", &[Typed("-r, 0"), Typed("0, -r")]);
+    draw(&mut desk, "Line", &[Typed("0, -r"), Typed("r, 0")]);
+    desk.session.begin(desk.id, "Contour.along(edges)").expect("there are contours");
+    let pick = |desk: &mut Desk, x: f64, y: f64| {
+        let pointer = Pointer { at: (x, y), reach: 0.4, ..Pointer::default() };
+        desk.session.hover(desk.id, &pointer, "");
+        desk.session.point(desk.id, &pointer)
+    };
+    // it goes on to the place where two ways are
+    let Ok(Turn::Wants(prompt)) = pick(&mut desk, -15.0, 0.0) else { panic!("it is open") };
+    assert!(prompt.words.contains("3 edges"), "{prompt:?}");
+    let refused = desk.session.enter(desk.id, "").expect_err("it is open");
+    assert!(refused.message.contains("nothing goes on where edge"), "{}", refused.message);
+    let made = pick(&mut desk, 0.0, 20.0).expect("it closes");
+    assert!(matches!(made, Turn::Made { .. }), "{made:?}");
+    assert_eq!(desk.wrong(), [], "{}", desk.text());
+}
+
+#[test]
+fn a_step_speaks_of_the_edge_of_a_union_by_what_it_comes_from() {
+    let mut desk = record("Plate", &[("r", "5"), ("w", "40")]);
+    draw(&mut desk, "Line", &[Typed("0, 0"), Typed("w, 0")]);
+    draw(&mut desk, "Line", &[Typed("w, 0"), Typed("w, 20")]);
+    draw(&mut desk, "Line", &[Typed("w, 20"), Typed("0, 20")]);
+    draw(&mut desk, "Line", &[Typed("0, 20"), Typed("0, 0")]);
+    draw(&mut desk, "Circle", &[Typed("w, 20"), Typed("r")]);
+    draw(&mut desk, "Contour.along(edges)", &[At(20.0, 0.0)]);
+    draw(&mut desk, "Contour.circle(of)", &[At(40.0, 25.0)]);
+    draw(&mut desk, "Region.union(first,second)", &[Typed("contour"), Typed("contour2")]);
+    assert_eq!(desk.wrong(), [], "{}", desk.text());
+    // the line lies under its edge: Tab goes on to that
+    let pointer = Pointer { at: (20.0, 20.0), reach: 0.4, ..Pointer::default() };
+    desk.session.begin(desk.id, "Axis.perpendicular(to,through)").expect("there are axes");
+    desk.session.pick_wider(desk.id);
+    desk.session.point(desk.id, &pointer).expect("an edge lies there");
+    desk.session.enter(desk.id, "0, 0").expect("a place");
+    let edge = "Line.edge(of: region, from: line3)";
+    assert!(desk.text().contains(edge), "{}", desk.text());
+    assert_eq!(desk.wrong(), [], "{}", desk.text());
+    // the reference follows other values
+    draw(&mut desk, "value", &[Typed(&format!("{edge}.length"))]);
+    assert!((value_of(&desk, "plate.value") - 35.0).abs() < 1e-9);
+    desk.set("plate.r", 8.0).expect("a parameter can be set");
+    assert!((value_of(&desk, "plate.value") - 32.0).abs() < 1e-9);
+    // where the edge is gone the step says so
+    desk.set("plate.r", 41.0).expect("a parameter can be set");
+    let said = desk.session.text(desk.id).diagnostics;
+    let is_it = |said: &str| said.contains("none of its edges comes from there");
+    assert!(said.iter().any(|d| is_it(&d.message)), "{said:?}");
+}
+
+fn value_of(desk: &Desk, path: &str) -> f64 {
+    let rows = desk.session.values(desk.id);
+    let row = rows.iter().find(|row| row.path == path);
+    row.and_then(|row| row.number).unwrap_or_else(|| panic!("{path}: {}", desk.text()))
 }
