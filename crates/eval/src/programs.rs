@@ -9,7 +9,7 @@ use crate::fault::{Fault, FaultKind};
 use crate::replay::{Asked, Measures, Row};
 use base::Name;
 use kernel::program::{Block, Carried, Program, Says, Step};
-use kernel::{Argument, ClassId, OriginId, Term, ThingId};
+use kernel::{Argument, BinaryOperator, ClassId, OriginId, Term, ThingId};
 use std::rc::Rc;
 
 /// How many terms a run may evaluate, that of the programs it calls included.
@@ -89,7 +89,8 @@ pub enum Why {
 impl std::fmt::Display for Ended {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self.why {
-            Why::Outside => write!(f, "{} is not met", self.step)?,
+            Why::Outside if self.reason.is_empty() => write!(f, "{} is not met", self.step)?,
+            Why::Outside => write!(f, "{} is not met: {}", self.step, self.reason)?,
             Why::Failed => write!(f, "the step {} has no outcome: {}", self.step, self.reason)?,
             Why::TooLong => write!(f, "the run ended at the step {}: {}", self.step, self.reason)?,
         }
@@ -427,17 +428,45 @@ impl<'a> Run<'_, 'a> {
                 continue;
             }
             let mut operands = Vec::new();
-            self.parameters(program, &demand.rule, frame, &mut operands);
+            let refused = self.not_allowed(program, &demand.rule, frame);
+            let (rule, allowed) = refused.unwrap_or((&demand.rule, String::new()));
+            self.parameters(program, rule, frame, &mut operands);
             return Err(Ended {
                 why: Why::Outside,
                 step: demand.name.as_ref().map_or("a demand", Name::as_str).to_string(),
                 operands,
                 is_called: false,
-                reason: met.err().map_or_else(String::new, |fault| fault.message),
+                reason: met.err().map_or(allowed, |fault| fault.message),
                 origin: demand.origin,
             });
         }
         Ok(())
+    }
+
+    /// Of what is allowed of parameters, finds the part that is not met, with the values that are allowed.
+    fn not_allowed(
+        &self,
+        program: &'a Program,
+        rule: &'a Term,
+        frame: &Frame<'a>,
+    ) -> Option<(&'a Term, String)> {
+        match rule {
+            Term::Binary(BinaryOperator::And, a, b) => {
+                self.not_allowed(program, a, frame).or_else(|| self.not_allowed(program, b, frame))
+            }
+            Term::Binary(BinaryOperator::In, of, values) => {
+                let Term::Send { to, name, .. } = &**of else { return None };
+                let is_asked = program.parameters.iter().any(|p| p.name == *name);
+                let is_met = matches!(self.evaluator.truth(rule, frame), Ok(true));
+                let values =
+                    self.evaluator.term(values, frame).and_then(|v| self.evaluator.items(&v));
+                let all: Vec<String> =
+                    values.ok()?.iter().map(|value| self.evaluator.text_of(value)).collect();
+                let is_it = **to == Term::Me && is_asked && !is_met;
+                is_it.then(|| (rule, format!("{name} has to be one of {}", all.join(", "))))
+            }
+            _ => None,
+        }
     }
 
     /// Collects the parameters that a rule speaks of, with their values.

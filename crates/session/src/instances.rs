@@ -8,12 +8,29 @@ use crate::view::{Change, DocumentId, Refusal};
 use crate::views::drawn;
 use crate::{apply, words};
 use base::Name;
-use eval::Answer;
+use eval::{Answer, Evaluator};
 use kernel::{Command, DOCUMENT, Document, Literal, Path, Step};
 use syntax::ast::{AstNode, Member, span_without_doc};
 
 /// Values of the parts of a figure, by their paths.
 type Values = Vec<(Path, Literal)>;
+
+/// What a program drew, as the document says it without the program.
+struct Plain {
+    /// Its path.
+    path: String,
+    /// Its class.
+    class: Name,
+    /// What it is of.
+    says: Says,
+}
+
+enum Says {
+    /// A figure by the values of its parts: it can be dragged.
+    Figure(Values),
+    /// What has no parts of a fixed number, by an expression: a contour, a region, a curve through places.
+    Formula(String),
+}
 
 /// What places a thing of a program, beside its parameters.
 const PLACE: [&str; 3] = ["at", "turn", "scale"];
@@ -74,7 +91,7 @@ impl Session {
     }
 
     /// Makes plain figures of the document of what the program of a thing drew, where they are shown; the thing goes. One
-    /// step. Returns what the figures are called.
+    /// step. Contours, regions and curves through places become expressions with numbers. Returns what all are called.
     ///
     /// # Errors
     /// No program draws the thing, or it draws what is no plain figure; something else speaks of it.
@@ -89,9 +106,12 @@ impl Session {
         let figures = figures(&state, thing)?;
         let mut names: Vec<String> = Vec::new();
         let mut lines = String::new();
-        for (path, class, _) in &figures {
+        for Plain { path, class, says } in &figures {
             let name = free_name(&state, &names, path);
-            lines.push_str(&format!("{name}: {class}\n"));
+            lines.push_str(&match says {
+                Says::Figure(_) => format!("{name}: {class}\n"),
+                Says::Formula(formula) => format!("{name} => {formula}\n"),
+            });
             names.push(name);
         }
         let none = || words::refuse(format!("{thing} does not stand at the top of the text"));
@@ -104,11 +124,20 @@ impl Session {
         let label = format!("unlink {thing}");
         let since = open.done.len();
         let mut change = retext(open, &beside, text, label.clone())?;
-        let values = figures.into_iter().zip(&names).flat_map(|((_, _, values), name)| {
+        let values = figures.into_iter().zip(&names).flat_map(|(plain, name)| {
             let own = Path::of(&[name]);
+            let values = match plain.says {
+                Says::Figure(values) => values,
+                Says::Formula(_) => Values::new(),
+            };
             values.into_iter().map(move |(path, value)| (own.join(&path), value))
         });
-        match apply::apply(open, &beside, &Command::Set(values.collect())) {
+        let values: Values = values.collect();
+        let set = match values.is_empty() {
+            true => Ok(Change::default()),
+            false => apply::apply(open, &beside, &Command::Set(values)),
+        };
+        match set {
             Ok(set) => change.edits.extend(set.edits),
             Err(refusal) => {
                 open.travel(crate::document::Direction::Back);
@@ -127,8 +156,8 @@ fn part(name: &str) -> Step {
     Step::Part(name.into())
 }
 
-/// The plain figures that the program of a thing drew: their paths, their classes, the values of their parts.
-fn figures(state: &State, thing: &str) -> Result<Vec<(String, Name, Values)>, Refusal> {
+/// What the program of a thing drew, without the program.
+fn figures(state: &State, thing: &str) -> Result<Vec<Plain>, Refusal> {
     let document = &state.lowered.document;
     let path = parse_path(thing).ok_or_else(|| words::refuse(format!("{thing} is no path")))?;
     let own = words::find(state, &path)?;
@@ -150,12 +179,38 @@ fn figures(state: &State, thing: &str) -> Result<Vec<(String, Name, Values)>, Re
         let mut values = Values::new();
         let is_figure = document.figure(class).is_some();
         let is_plain = is_figure && flatten(document, &answer, &Path::default(), &mut values);
-        if !is_plain {
-            return Err(none());
-        }
-        plain.push((path, document.classes[document.named_class(class)].name.clone(), values));
+        let says = match is_plain {
+            true => Says::Figure(values),
+            false => Says::Formula(formula(&evaluator, &answer).ok_or_else(none)?),
+        };
+        let class = document.classes[document.named_class(class)].name.clone();
+        plain.push(Plain { path, class, says });
     }
     Ok(plain)
+}
+
+/// Writes what was made by its parts, with numbers; nothing where it is of what an expression cannot say.
+fn formula<'a>(evaluator: &Evaluator<'a>, answer: &Answer<'a>) -> Option<String> {
+    let document = evaluator.document;
+    let all = |parts: &[Answer<'a>]| {
+        let each = parts.iter().map(|part| formula(evaluator, part));
+        each.collect::<Option<Vec<_>>>().map(|each| each.join(", "))
+    };
+    match answer {
+        Answer::Made(made) => {
+            let class = &document.classes[document.named_class(made.class)].name;
+            Some(format!("{class}({})", all(&made.fields)?))
+        }
+        Answer::List(items) => Some(format!("[{}]", all(items)?)),
+        Answer::Number(x, dimension) => {
+            let quantity =
+                kernel::Quantity { dimension: *dimension, ..kernel::Quantity::default() };
+            let shown = kernel::show_quantity(*x, quantity, document);
+            Some(words::with_unit(shown.exact, &shown.unit))
+        }
+        Answer::Bool(_) | Answer::Option(..) | Answer::Text(_) => Some(evaluator.text_of(answer)),
+        Answer::Thing(_) | Answer::Context(_) | Answer::Picture(_) | Answer::Function(_) => None,
+    }
 }
 
 /// Collects the values of the parts of what was made; false where it has others than numbers, texts and things of these.

@@ -7,6 +7,7 @@ use crate::views;
 use base::{Diagnostic, Place};
 use expr::Dimension;
 use indexmap::IndexSet;
+use kernel::program::Allowed;
 use kernel::{
     ClassId, ClassKind, Command, ConstraintInstance, Document, Literal, Path, Primitive, Quantity,
     Shown, SlotId, Step, Structure, Term, ThingId, Value, Values,
@@ -44,7 +45,9 @@ pub(crate) fn refusal_for(state: &State, reason: &RefusalReason, report: &EditRe
             "refused: what stands fixed does not leave room for this".to_string()
         }
         RefusalReason::Unmet if are_several => format!("refused: {said} would not all hold"),
-        RefusalReason::Unmet => format!("refused: {said} would not hold"),
+        RefusalReason::Unmet => {
+            format!("refused: {said} would not hold{}", allowed_in_words(state, &sources))
+        }
         RefusalReason::NotDecided(bound) => {
             format!("not decided: {}", given_up(*bound))
         }
@@ -274,8 +277,35 @@ pub(crate) fn refusal_of_status(state: &State, status: &plan::Status) -> Option<
     let unmet: Vec<Source> = unmet.map(|u| u.source).collect();
     let constraints: Vec<String> = unmet.iter().filter_map(|&u| source_name(state, u)).collect();
     let said: Vec<String> = unmet.iter().filter_map(|&u| source_in_words(state, u)).collect();
-    let message = format!("refused: {} would not hold", listed(&said));
+    let sources: Vec<Source> = unmet.clone();
+    let message =
+        format!("refused: {} would not hold{}", listed(&said), allowed_in_words(state, &sources));
     (!status.satisfied).then(|| Refusal { message, constraints, ..Refusal::default() })
+}
+
+/// Says which values are allowed of the parameters of programs, where constraints say that and tables hold them.
+fn allowed_in_words(state: &State, sources: &[Source]) -> String {
+    let document = &state.lowered.document;
+    let evaluator = state.evaluator(&state.values);
+    let mut said = String::new();
+    for source in sources {
+        let Source::Constraint(index) = *source else { continue };
+        let instance = state.structure.constraints[index as usize];
+        let rule = &document.classes[instance.class].constraints[instance.index as usize];
+        let (true, Some(program)) = (rule.derived, document.program(instance.class)) else {
+            continue;
+        };
+        for asked in &program.parameters {
+            let Some(Allowed::OneOf(values)) = &asked.allowed else { continue };
+            let values = values.iter().filter_map(|value| {
+                let value = evaluator.evaluate(value, kernel::DOCUMENT).ok()?;
+                views::values::in_words(document, &value)
+            });
+            let values: Vec<String> = values.collect();
+            said.push_str(&format!("; {} has to be one of {}", asked.name, values.join(", ")));
+        }
+    }
+    said
 }
 
 /// Names the required constraints that do not hold, with the rules of those that have no name.

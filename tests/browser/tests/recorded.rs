@@ -191,6 +191,87 @@ async fn a_retaining_ring_has_the_lug_that_its_size_asks_for() {
     visit.book_picture("ring").await;
 }
 
+/// The half of a ring with round lugs, right of its gap, drawn by guides and then by its edges.
+async fn half_a_ring(visit: &Visit) {
+    press(visit, "[data-action='tool-circle']").await;
+    press(visit, "input[name='guide']").await;
+    for (center, radius) in
+        [("0, 0", "d3 / 2"), ("0, -b / 5", "d3 / 2 + 4 * b / 5"), ("0, 0", "d3 / 2 + a / 2")]
+    {
+        enter(visit, center).await;
+        enter(visit, radius).await;
+    }
+    for place in ["a / 5", "7 * a / 10"] {
+        construct(visit, "Axis.vertical(x)").await;
+        enter(visit, place).await;
+    }
+    for (tool, operands) in [
+        ("Point.intersection(first,second)", &["axis2", "circle3"][..]),
+        ("Point.intersection(first,second)", &["axis", "circle"]),
+        ("Circle", &["point", "a / 2"]),
+    ] {
+        construct(visit, tool).await;
+        for operand in operands {
+            enter(visit, operand).await;
+        }
+    }
+    press(visit, "[data-draft='end']").await;
+    for (tool, operands) in [
+        ("Arc.fillet(first,second,radius)", &["-circle4", "-circle2", "a / 4"][..]),
+        ("Line", &["point2", "Point(a / 5, point.y)"]),
+        ("ClockwiseArc", &["point", "line.p2", "arc.start"]),
+        ("ClockwiseArc", &["circle2.center", "arc.end", "Point(0, -d3 / 2 - b)"]),
+        ("ClockwiseArc", &["circle.center", "point2", "Point(0, -d3 / 2)"]),
+        ("Circle", &["point", "d5 / 2"]),
+    ] {
+        construct(visit, tool).await;
+        for operand in operands {
+            enter(visit, operand).await;
+        }
+    }
+}
+
+#[tokio::test]
+async fn a_whole_retaining_ring_is_one_contour_with_its_holes() {
+    let visit = hands::begin().await;
+    hands::use_library(&visit, "contours").await;
+    let parameters = [("d3", "5.6", ""), ("a", "2.7", ""), ("b", "1.3", ""), ("d5", "1.2", "")];
+    record(&visit, "Ring", &parameters).await;
+    enlarge(&visit, 20).await;
+    half_a_ring(&visit).await;
+    has(&visit, "circle5 = Circle(center: point, radius: d5 / 2)").await;
+    // the other half is its mirror image
+    construct(&visit, "Point:mirrored").await;
+    enter(&visit, "[arc, line, clockwiseArc, clockwiseArc2, clockwiseArc3]").await;
+    enter(&visit, "Axis.vertical(x: 0)").await;
+    construct(&visit, "Point:mirrored").await;
+    enter(&visit, "circle5").await;
+    enter(&visit, "Axis.vertical(x: 0)").await;
+    has(&visit, "mirrored2 = circle5.mirrored(").await;
+    // one pick of an edge takes all of the outline
+    construct(&visit, "Contour.along(edges)").await;
+    pick(&visit, 0.54, 3.5).await;
+    has(&visit, "contour = Contour.along(edges: [line").await;
+    for hole in ["circle5", "mirrored2"] {
+        construct(&visit, "Contour.circle(of)").await;
+        enter(&visit, hole).await;
+    }
+    construct(&visit, "Region.difference(first,second)").await;
+    enter(&visit, "contour").await;
+    enter(&visit, "[contour2, contour3]").await;
+    has(&visit, "region = Region.difference(contour, [contour2, contour3])").await;
+    let said = "document.querySelector(\"[data-step='region']\")";
+    visit.until(&format!("{said} && !{said}.querySelector('.wrong')")).await;
+    press(&visit, "[data-draft='end']").await;
+    visit.book_picture("retaining-ring").await;
+    // it is a ring for other values, too
+    for (parameter, value) in [("d3", "7.4"), ("a", "3.2"), ("b", "1.5")] {
+        set(&visit, parameter, value).await;
+    }
+    visit.until(&format!("{said} && !{said}.querySelector('.wrong')")).await;
+    visit.picture("ring-whole").await;
+}
+
 #[tokio::test]
 async fn a_plate_is_rows_of_rows_of_holes() {
     let visit = hands::begin().await;

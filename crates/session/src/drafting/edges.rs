@@ -74,7 +74,8 @@ pub(crate) fn by_origin(
         SlotKind::Edges | SlotKind::Set | SlotKind::Value => false,
     };
     // what was drawn last lies above
-    let found = scene::nearest(all.iter().rev().filter(|f| f.side.is_some()).filter(fits), pointer)?;
+    let found =
+        scene::nearest(all.iter().rev().filter(|f| f.side.is_some()).filter(fits), pointer)?;
     let corner = match slot.kind {
         SlotKind::Point => found.corner_at(pointer),
         _ => None,

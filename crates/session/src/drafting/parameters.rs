@@ -33,39 +33,108 @@ pub(crate) struct Declared {
     node: Param,
 }
 
-/// A range as it is written.
+/// The values that are allowed, as they are written.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub(crate) struct Range {
-    /// The least value that is allowed.
-    least: String,
-    /// The largest one, or the one that all are less than.
-    most: String,
-    /// Whether the largest one is not allowed itself.
-    is_open: bool,
+pub(crate) enum Allowed {
+    /// A range.
+    Range {
+        /// The least value that is allowed.
+        least: String,
+        /// The largest one, or the one that all are less than.
+        most: String,
+        /// Whether the largest one is not allowed itself.
+        is_open: bool,
+    },
+    /// A table of values.
+    OneOf(Vec<String>),
 }
 
-impl Range {
-    /// Reads `1..10` and `1..<10`; nothing else is a range.
+impl Allowed {
+    /// Reads `1..10`, `1..<10`, `[3 mm, 4 mm]` and `3, 4, 5 mm`; nothing else.
     fn of(text: &str) -> Option<Self> {
-        let Expr::Range(range) = typed::expression(text)? else { return None };
-        let said = |end: Option<Expr>| Some(end?.syntax().text().to_string().trim().to_string());
-        Some(Self {
-            least: said(range.start())?,
-            most: said(range.end())?,
-            is_open: range.is_open(),
-        })
+        let said = |of: Expr| of.syntax().text().to_string().trim().to_string();
+        match typed::expression(text) {
+            Some(Expr::Range(range)) => Some(Self::Range {
+                least: said(range.start()?),
+                most: said(range.end()?),
+                is_open: range.is_open(),
+            }),
+            Some(Expr::List(list)) => {
+                let values: Vec<String> = list.elements().map(said).collect();
+                (!values.is_empty()).then_some(Self::OneOf(values))
+            }
+            Some(_) => None,
+            None => {
+                let text = text.trim().strip_prefix("one of ").unwrap_or(text);
+                let Some(Expr::List(list)) = typed::expression(&format!("[{text}]")) else {
+                    return None;
+                };
+                let mut values: Vec<String> = list.elements().map(said).collect();
+                // `3, 4, 5 mm`: the unit of the last is that of all
+                let unit = values.last()?.split_once(' ').filter(|(x, _)| typed::is_number(x));
+                let unit = unit.map(|(_, unit)| unit.to_string());
+                let is_bare = values.split_last()?.1.iter().all(|value| typed::is_number(value));
+                if let (Some(unit), true) = (unit, is_bare) {
+                    let last = values.len() - 1;
+                    values[..last].iter_mut().for_each(|value| *value = format!("{value} {unit}"));
+                }
+                Some(Self::OneOf(values))
+            }
+        }
     }
 
-    /// Says it: `1 to 10`, `1 to less than 10`.
+    /// Says it: `1 to 10`, `1 to less than 10`, `3 mm, 4 mm or 5 mm`.
     pub(crate) fn in_words(&self) -> String {
-        let Self { least, most, is_open } = self;
-        format!("{least} to {}{most}", if *is_open { "less than " } else { "" })
+        match self {
+            Self::Range { least, most, is_open } => {
+                format!("{least} to {}{most}", if *is_open { "less than " } else { "" })
+            }
+            Self::OneOf(values) => match values.split_last() {
+                Some((last, rest)) if !rest.is_empty() => format!("{} or {last}", rest.join(", ")),
+                _ => values.concat(),
+            },
+        }
     }
 
-    /// The same with numbers without a unit as degrees.
-    fn in_degrees(&self) -> String {
-        let dots = if self.is_open { "..<" } else { ".." };
-        format!("{}{dots}{}", in_degrees(&self.least), in_degrees(&self.most))
+    /// As a program declares it; of angles, numbers without a unit are degrees.
+    fn written(&self, is_angle: bool) -> String {
+        let own = |text: &String| if is_angle { in_degrees(text) } else { text.clone() };
+        match self {
+            Self::Range { least, most, is_open } => {
+                let dots = if *is_open { "..<" } else { ".." };
+                format!("{}{dots}{}", own(least), own(most))
+            }
+            Self::OneOf(values) => {
+                format!("[{}]", values.iter().map(own).collect::<Vec<_>>().join(", "))
+            }
+        }
+    }
+
+    /// The condition that a value is allowed.
+    fn condition(&self, value: &str) -> String {
+        match self {
+            Self::Range { least, most, is_open } => {
+                let less = if *is_open { "<" } else { "<=" };
+                format!("{least} <= ({value}) and ({value}) {less} {most}")
+            }
+            Self::OneOf(values) => format!("({value}) in [{}]", values.join(", ")),
+        }
+    }
+
+    /// What is said in it.
+    fn values(&self) -> Vec<&String> {
+        match self {
+            Self::Range { least, most, .. } => vec![least, most],
+            Self::OneOf(values) => values.iter().collect(),
+        }
+    }
+}
+
+/// Lists the values of a table of those that are allowed; none where all are, or those of a range.
+pub(crate) fn table_of(allowed: &str) -> Vec<String> {
+    match Allowed::of(allowed) {
+        Some(Allowed::OneOf(values)) => values,
+        Some(Allowed::Range { .. }) | None => Vec::new(),
     }
 }
 
@@ -99,8 +168,8 @@ pub(crate) struct Asks {
     pub(crate) prompt: String,
     /// What is taken where nothing is typed; nothing where that depends on other parameters.
     pub(crate) usual: Option<String>,
-    /// The values that are allowed, where its ends are constants.
-    pub(crate) range: Option<Range>,
+    /// The values that are allowed, where they are constants.
+    pub(crate) range: Option<Allowed>,
 }
 
 /// Lists what a program of a document, or of what it uses, asks of each parameter, by name.
@@ -118,8 +187,8 @@ pub(crate) fn asked(state: &State, program: &str) -> Vec<(String, Asks)> {
     };
     let one = |d: &Declared| {
         let usual = Some(d.example.clone()).filter(|example| is_here(d, example));
-        let range = Range::of(&d.range);
-        let range = range.filter(|range| is_here(d, &range.least) && is_here(d, &range.most));
+        let range = Allowed::of(&d.range);
+        let range = range.filter(|range| range.values().into_iter().all(|text| is_here(d, text)));
         (d.name.clone(), Asks { prompt: d.prompt.clone(), usual, range })
     };
     all.iter().map(one).collect()
@@ -129,7 +198,7 @@ impl Asks {
     /// Checks that a value is allowed.
     ///
     /// # Errors
-    /// It lies outside of the range.
+    /// It is none of the values that are.
     pub(crate) fn allows(
         &self,
         state: &State,
@@ -137,10 +206,7 @@ impl Asks {
         (name, value): (&str, &str),
     ) -> Result<(), Refusal> {
         let Some(range) = &self.range else { return Ok(()) };
-        let Range { least, most, is_open } = range;
-        let less = if *is_open { "<" } else { "<=" };
-        let is_within = format!("{least} <= ({value}) and ({value}) {less} {most}");
-        match outcome::worth(state, home, &is_within) {
+        match outcome::worth(state, home, &range.condition(value)) {
             Ok(outcome::Worth::Truth(false)) => {
                 let message = format!("{name} is {value}: {} are allowed", range.in_words());
                 Err(words::refuse(message))
@@ -253,10 +319,15 @@ impl Said {
         };
         let mut range = new.range.trim().to_string();
         let keeps_range = is_old(&range, |old| &old.range);
-        let read = Range::of(&range);
+        let read = Allowed::of(&range).filter(|_| !range.is_empty());
         if read.is_none() && !range.is_empty() && !keeps_range {
-            let message = format!("`{range}` is no range: wanted is from..to, as 1 mm..100 mm");
+            let message = format!(
+                "`{range}` is no range and no table: wanted is from..to, as 1 mm..100 mm, or values, as 3, 4, 5 mm"
+            );
             return Err(words::refuse(message));
+        }
+        if let (Some(read), false) = (&read, keeps_range) {
+            range = read.written(false);
         }
         if class == "Angle" {
             let becomes = old.is_some_and(|old| old.class != "Angle");
@@ -264,7 +335,7 @@ impl Said {
                 example = in_degrees(&example);
             }
             if becomes || !keeps_range {
-                range = read.map_or(range, |range| range.in_degrees());
+                range = read.map_or(range, |range| range.written(true));
             }
         }
         Ok(Self { class, range, example, prompt: new.prompt.trim().into() })

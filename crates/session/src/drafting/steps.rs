@@ -50,6 +50,7 @@ pub(crate) fn view(open: &Open, home: &Home, thing: Option<&str>) -> Option<Step
         ParameterRow {
             class: of(|said| &said.class),
             range: of(|said| &said.range),
+            choices: said.map_or_else(Vec::new, |said| parameters::table_of(&said.range)),
             example: of(|said| &said.example),
             name: asked.name.to_string(),
             prompt: asked.prompt.clone(),

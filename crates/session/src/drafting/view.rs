@@ -208,6 +208,8 @@ pub struct ParameterRow {
     pub class: String,
     /// The values that are allowed; nothing for all.
     pub range: String,
+    /// The values of a table of those that are allowed; none where there is no such table.
+    pub choices: Vec<String>,
     /// The value that its program gives it, as it is written.
     pub example: String,
 }
@@ -309,7 +311,7 @@ pub struct NewParameter {
     pub prompt: String,
     /// Its class; nothing where the example tells.
     pub class: String,
-    /// The values that are allowed, `1 mm..100 mm`; nothing for all.
+    /// The values that are allowed, `1 mm..100 mm` or `3, 4, 5 mm`; nothing for all.
     pub range: String,
     /// The parameter that is said anew by this; nothing for another one.
     pub instead_of: String,

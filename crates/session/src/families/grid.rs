@@ -7,7 +7,8 @@ use crate::state::State;
 use crate::view::{FamilyGrid, FamilyRow, GridColumn, Refusal, TableView};
 use crate::words;
 use base::Name;
-use kernel::{ClassId, ClassKind, Literal, Primitive};
+use kernel::program::Allowed;
+use kernel::{ClassId, ClassKind, DOCUMENT, Literal, Primitive, Term};
 use lang::quoted;
 use syntax::ast::{self, AstNode, Member};
 
@@ -29,6 +30,7 @@ pub(crate) fn grid(state: &State, name: &str, table: Option<&str>) -> Result<Fam
         name: asked.name.to_string(),
         prompt: asked.prompt.clone(),
         example,
+        choices: choices(state, program, asked),
     };
     Ok(FamilyGrid {
         name: name.into(),
@@ -53,6 +55,21 @@ pub(super) fn examples(state: &State, program: ClassId) -> Vec<String> {
         Some(written(state, class_of(state, program, name)?, &literal))
     };
     asked.iter().map(|asked| example(&asked.name).unwrap_or_default()).collect()
+}
+
+/// Lists the values of a table of those that a parameter allows.
+fn choices<'a>(
+    state: &'a State,
+    program: ClassId,
+    asked: &'a kernel::program::Asked,
+) -> Vec<String> {
+    let Some(Allowed::OneOf(values)) = &asked.allowed else { return Vec::new() };
+    let evaluator = state.evaluator(&state.values);
+    let one = |value: &'a Term| {
+        let literal = crate::check::literal_of(&evaluator.evaluate(value, DOCUMENT).ok()?).ok()?;
+        Some(written(state, class_of(state, program, &asked.name)?, &literal))
+    };
+    values.iter().filter_map(one).collect()
 }
 
 /// Returns the class of a parameter.

@@ -45,6 +45,8 @@ pub struct GridColumn {
     pub prompt: String,
     /// Its value in the program's own example.
     pub example: String,
+    /// The values of a table of those that are allowed; none where there is no such table.
+    pub choices: Vec<String>,
 }
 
 /// What a row is used for.

@@ -229,3 +229,38 @@ fn a_branch_that_is_not_taken_is_visited_by_other_values() {
     assert!(desk.text().ends_with("rings: Rings\n"), "{}", desk.text());
     assert!(desk.text().contains("radius: 2 * minimum"), "{}", desk.text());
 }
+
+#[test]
+fn a_region_that_is_unlinked_stays_where_it_was() {
+    let mut desk = Desk::of(
+        "use drafting
+use contours
+
+unit mm
+
+program Plate(d: Length = 6, w: Length = 40) {
+    guide hole = Circle(center: Point(w / 2, 10), radius: d / 2)
+    guide box = Contour.box(Rectangle(Point(0, 0), w, 20))
+    region = Region.difference(box, Contour.circle(hole))
+    edge = Line(Point(0, 0), Point(w, 0))
+    wave = Spline([Point(0, 0), Point(w / 2, 5), Point(w, 0)])
+}
+
+plate: Placed of Plate { at = (7, 3)  turn = 30 deg }
+",
+    );
+    assert_eq!(desk.wrong(), []);
+    let before = desk.text();
+    let picture = desk.session.picture(desk.id);
+    let (_, names) = desk.session.unlink(desk.id, "plate").expect("all of it can be said");
+    assert_eq!(names, ["plate_region", "plate_edge", "plate_wave"]);
+    assert!(!desk.text().contains("Placed"), "{}", desk.text());
+    assert_eq!(desk.wrong(), [], "{}", desk.text());
+    let [was, is] = [picture, desk.session.picture(desk.id)].map(|p| drawing::bounds(&p.drawing));
+    let (was, is) = (was.expect("it is drawn"), is.expect("it is drawn"));
+    let near =
+        |a: drawing::Point, b: drawing::Point| (a.x - b.x).abs() < 1e-9 && (a.y - b.y).abs() < 1e-9;
+    assert!(near(was.least, is.least) && near(was.most, is.most), "{was:?} {is:?}");
+    desk.undo();
+    assert_eq!(desk.text(), before);
+}

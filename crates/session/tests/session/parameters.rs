@@ -366,3 +366,39 @@ program Other() {
     let said: Vec<_> = said.iter().map(|d| d.severity.as_str()).collect();
     assert_eq!(said, ["warning", "recording"]);
 }
+
+#[test]
+fn a_parameter_allows_the_values_of_a_table() {
+    let mut desk = Desk::of("use geometry\nunit mm\n");
+    desk.session.record(desk.id, "Rod").expect("a new program");
+    let new = NewParameter {
+        name: "d".into(),
+        example: "4".into(),
+        range: "3, 4, 5 mm".into(),
+        ..NewParameter::default()
+    };
+    desk.session.define_parameter(desk.id, &new).expect("it is new");
+    assert!(desk.text().contains("d: Length in [3 mm, 4 mm, 5 mm] = 4"), "{}", desk.text());
+    desk.session.begin(desk.id, "Circle").expect("there are circles");
+    desk.session.enter(desk.id, "0, 0").expect("a place");
+    desk.session.enter(desk.id, "d / 2").expect("a radius");
+    assert_eq!(desk.wrong(), [], "{}", desk.text());
+    let row = desk.session.steps(desk.id, None).expect("it is recorded").parameters.remove(0);
+    assert_eq!(row.choices, ["3 mm", "4 mm", "5 mm"]);
+    desk.set("rod.d", 5.0).expect("it is one of them");
+    let refused = desk.set("rod.d", 4.5).expect_err("it is none of them");
+    assert!(
+        refused.message.ends_with("d has to be one of 3 mm, 4 mm, 5 mm"),
+        "{}",
+        refused.message
+    );
+    desk.session.stop_recording(desk.id).expect("it is recorded");
+    // who applies it is asked for one of them
+    desk.session.begin(desk.id, "Rod").expect("it is in scope");
+    let refused = desk.session.enter(desk.id, "4.5 mm").expect_err("it is none of them");
+    assert_eq!(refused.message, "d is 4.5 mm: 3 mm, 4 mm or 5 mm are allowed");
+    let strange = NewParameter { name: "w".into(), range: "3 to 5".into(), ..new };
+    desk.session.record(desk.id, "Rod").expect("it is there");
+    let refused = desk.session.define_parameter(desk.id, &strange).expect_err("it is no table");
+    assert!(refused.message.contains("no range and no table"), "{}", refused.message);
+}

@@ -151,11 +151,20 @@ fn Parameter(lab: Lab, example: String, row: ParameterRow, used: Use) -> impl In
                 on:click=move |_| own.with_value(|row| lab.change_parameter(row))>"✎"</button>
         }
     });
+    // what a table allows is offered, and anything else is refused with the reason
+    let choices = (!row.choices.is_empty()).then(|| {
+        let list = format!("choices-{}", row.name);
+        let options =
+            row.choices.iter().map(|value| view! { <option value=value.clone()></option> });
+        (list.clone(), view! { <datalist id=list>{options.collect_view()}</datalist> })
+    });
+    let (list, choices) = choices.unzip();
     view! {
         <span class="parameter">
+            {choices}
             <button type="button" data-parameter=row.name.clone() title=title
                 on:click=move |_| lab.draft_parameter(&name.get_value())><code>{row.name.clone()}</code></button>
-            <input name=format!("value-{}", row.name) autocomplete="off" aria-label=words::value_of_parameter(&row.name)
+            <input name=format!("value-{}", row.name) autocomplete="off" list=list aria-label=words::value_of_parameter(&row.name)
                 prop:value=row.value on:change=typed
                 aria-invalid=move || wrong.with(Option::is_some).to_string() />
             {change}

@@ -80,8 +80,17 @@ fn Row(family: Family, at: usize, row: FamilyRow) -> impl IntoView {
         let change = move |e: leptos::ev::Event| {
             set(Some(named.clone()), &event_target_value(&e));
         };
+        let options: Vec<_> = column
+            .choices
+            .iter()
+            .map(|value| view! { <option value=value.clone()></option> })
+            .collect();
+        let list = format!("choices-{at}-{index}");
+        let choices = (!options.is_empty())
+            .then(|| (list.clone(), view! { <datalist id=list>{options}</datalist> }));
+        let (list, choices) = choices.unzip();
         view! {
-            <td><input class="field" autocomplete="off" spellcheck="false" aria-label=label
+            <td>{choices}<input class="field" autocomplete="off" spellcheck="false" aria-label=label list=list
                 placeholder=column.example readonly=!is_own data-cell=format!("{at},{}", index + 1)
                 prop:value=value on:change=change on:keydown=move |e| walk(&e) /></td>
         }

@@ -5,9 +5,10 @@ pub const PARAMETER_CLASS: &str = "Class of the parameter: without one, that of 
 /// The class is taken from the example.
 pub const CLASS_OF_EXAMPLE: &str = "class";
 /// The field for the values that are allowed.
-pub const RANGE: &str = "range";
+pub const RANGE: &str = "allowed";
 /// How that is written.
-pub const RANGE_HELP: &str = "The values that are allowed: 1..9, or 1 mm..100 mm";
+pub const RANGE_HELP: &str =
+    "The values that are allowed: a range, 1 mm..100 mm, or a table, 3, 4, 5 mm";
 /// Something older becomes a parameter.
 pub const AS_PARAMETER: &str = "A parameter";
 /// Something older is copied into the program.
