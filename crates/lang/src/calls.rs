@@ -203,6 +203,13 @@ impl Lowerer<'_> {
         }
     }
 
+    /// Returns true for what programs draw, where a list of things is wanted: which these are is known when it is made.
+    fn is_set_for(&self, found: &Kind, wanted: &Kind) -> bool {
+        let draws = |kind: &Kind| matches!(kind, Kind::Thing(class) if self.draws(*class));
+        let wants_things = matches!(wanted, Kind::List(each) if matches!(**each, Kind::Thing(_)));
+        wants_things && (draws(found) || matches!(found, Kind::List(each) if draws(each)))
+    }
+
     fn takes_none(
         &mut self,
         scope: &Scope,
@@ -297,7 +304,7 @@ impl Lowerer<'_> {
                 self.error("wrong-arity", scope.file, arg.expr.span(), message);
                 return None;
             }
-            if !arg.kind.fits(kind, &self.document) {
+            if !arg.kind.fits(kind, &self.document) && !self.is_set_for(&arg.kind, kind) {
                 let (found, wanted) = (arg.kind.words(&self.document), kind.words(&self.document));
                 let message = format!("{} is {found}, wanted {wanted}", labels[0]);
                 let place = Place { file: scope.file, span: arg.expr.span() };

@@ -402,8 +402,7 @@ fn moved(document: &Document) -> Option<Tool> {
     let slots = [("what", None, point), ("by", Some("by".to_string()), point)];
     let mut slots = slots.map(|(name, label, class)| Slot::of(document, name, label, class));
     slots[0].kind = SlotKind::Set;
-    let is_picked = |id: ClassId| document.figure(id).is_some() || is_planar(document, id);
-    let figures = document.classes.iter().filter(|(id, _)| is_picked(*id));
+    let figures = document.classes.iter().filter(|(id, _)| document.figure(*id).is_some());
     slots[0].also = figures.map(|(_, class)| class.name.clone()).collect();
     let doc = "Moved so far to the right and up as a point lies from the origin: all turns of a loop, or \
                what a program drew.";

@@ -500,7 +500,10 @@ fn a_contour_is_made_of_edges_that_one_pick_follows() {
     let found = value_of(&desk, "half.value");
     assert!((found.abs() - area).abs() < 1e-9, "{found} for {area}");
     // it is picked as a whole, and measured
-    draw(&mut desk, ":moved(by)", &[Typed("contour"), Typed("100, 0")]);
+    desk.session.begin(desk.id, "Point:mirrored").expect("it is mirrored");
+    let pointer = Pointer { at: (0.0, 4.0), reach: 0.4, ..Pointer::default() };
+    desk.session.point(desk.id, &pointer).expect("an edge lies there");
+    desk.session.enter(desk.id, "Axis.vertical(x: 30)").expect("it is a line");
     assert_eq!(desk.wrong(), [], "{}", desk.text());
 }
 
