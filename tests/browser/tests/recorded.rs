@@ -237,7 +237,7 @@ async fn a_whole_retaining_ring_is_one_contour_with_its_holes() {
     hands::use_library(&visit, "contours").await;
     let parameters = [("d3", "5.6", ""), ("a", "2.7", ""), ("b", "1.3", ""), ("d5", "1.2", "")];
     record(&visit, "Ring", &parameters).await;
-    enlarge(&visit, 20).await;
+    enlarge(&visit, 14).await;
     half_a_ring(&visit).await;
     has(&visit, "circle5 = Circle(center: point, radius: d5 / 2)").await;
     // the other half is its mirror image
@@ -250,17 +250,19 @@ async fn a_whole_retaining_ring_is_one_contour_with_its_holes() {
     has(&visit, "mirrored2 = circle5.mirrored(").await;
     // one pick of an edge takes all of the outline
     construct(&visit, "Contour.along(edges)").await;
-    pick(&visit, 0.54, 3.5).await;
+    pick(&visit, 0.54, 3.3).await;
     has(&visit, "contour = Contour.along(edges: [line").await;
     for hole in ["circle5", "mirrored2"] {
         construct(&visit, "Contour.circle(of)").await;
         enter(&visit, hole).await;
     }
     construct(&visit, "Region.difference(first,second)").await;
-    enter(&visit, "contour").await;
-    enter(&visit, "[contour2, contour3]").await;
-    has(&visit, "region = Region.difference(contour, [contour2, contour3])").await;
-    let said = "document.querySelector(\"[data-step='region']\")";
+    for (from, hole) in [("contour", "contour2"), ("region", "contour3")] {
+        enter(&visit, from).await;
+        enter(&visit, hole).await;
+    }
+    has(&visit, "region2 = Region.difference(region, contour3)").await;
+    let said = "document.querySelector(\"[data-step='region2']\")";
     visit.until(&format!("{said} && !{said}.querySelector('.wrong')")).await;
     press(&visit, "[data-draft='end']").await;
     visit.book_picture("retaining-ring").await;

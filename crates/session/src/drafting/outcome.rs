@@ -103,7 +103,7 @@ pub(crate) fn fits(
                 Ok(())
             }
             Ok(Answer::List(_) | Answer::Context(_))
-                if matches!(kind, SlotKind::Set | SlotKind::Edges) =>
+                if matches!(kind, SlotKind::Set | SlotKind::Edges) || **class == *"Planar" =>
             {
                 Ok(())
             }
