@@ -250,17 +250,20 @@ async fn a_whole_retaining_ring_is_one_contour_with_its_holes() {
     has(&visit, "mirrored2 = circle5.mirrored(").await;
     // one pick of an edge takes all of the outline
     construct(&visit, "Contour.along(edges)").await;
+    press(&visit, "input[name='guide']").await;
     pick(&visit, 0.54, 3.3).await;
-    has(&visit, "contour = Contour.along(edges: [line").await;
+    has(&visit, "guide contour = Contour.along(edges: [line").await;
     for hole in ["circle5", "mirrored2"] {
         construct(&visit, "Contour.circle(of)").await;
         enter(&visit, hole).await;
     }
     construct(&visit, "Region.difference(first,second)").await;
-    for (from, hole) in [("contour", "contour2"), ("region", "contour3")] {
-        enter(&visit, from).await;
-        enter(&visit, hole).await;
-    }
+    enter(&visit, "contour").await;
+    enter(&visit, "contour2").await;
+    has(&visit, "guide region = Region.difference(contour, contour2)").await;
+    press(&visit, "input[name='guide']").await;
+    enter(&visit, "region").await;
+    enter(&visit, "contour3").await;
     has(&visit, "region2 = Region.difference(region, contour3)").await;
     let said = "document.querySelector(\"[data-step='region2']\")";
     visit.until(&format!("{said} && !{said}.querySelector('.wrong')")).await;
