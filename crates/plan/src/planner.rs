@@ -276,7 +276,7 @@ impl Planner {
         let setting = Setting { structure, rules, net, holding, wishes, is_edited };
         let mut locals = Locals::new(structure);
         // what is planned first and alone is like nothing else
-        let is_first = components.len() == 1 && self.plans.mark() == 0;
+        let is_first = components.len() == 1 && self.plans.is_empty();
         let (plans, mut alike) = (&mut self.plans, Some(&mut self.alike).filter(|_| !is_first));
         let task = |c| task(plans, alike.as_deref_mut(), &setting, &mut locals, c);
         components.into_iter().map(task).collect()

@@ -99,13 +99,27 @@ impl Plans {
         }
     }
 
-    /// Returns where the plans end that are made so far.
-    pub(crate) fn mark(&self) -> usize {
-        self.made.len()
+    /// Returns true if nothing was planned yet.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.made.is_empty()
     }
-    /// Forgets the plans made since a mark.
-    pub(crate) fn forget_since(&mut self, mark: usize) {
-        self.made.truncate(mark);
+    /// Returns where what is made so far ends.
+    pub(crate) fn mark(&self) -> Mark {
+        Mark {
+            made: self.made.len(),
+            modes: self.modes.len(),
+            puzzles: self.puzzles.len(),
+            wholes: self.wholes.len(),
+            in_modes: self.in_modes.borrow().len(),
+        }
+    }
+    /// Forgets what was made since a mark.
+    pub(crate) fn forget_since(&mut self, mark: Mark) {
+        self.made.truncate(mark.made);
+        self.modes.truncate(mark.modes);
+        self.puzzles.truncate(mark.puzzles);
+        self.wholes.truncate(mark.wholes);
+        self.in_modes.get_mut().truncate(mark.in_modes);
     }
     /// Returns a system with conditions, taken apart.
     pub(crate) fn modes(&mut self, stated: Conditional) -> Rc<Modes> {
@@ -173,6 +187,16 @@ impl Plans {
         self.puzzles.insert(stated, made.clone());
         made
     }
+}
+
+/// How much was made at some time, of each kind.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Mark {
+    made: usize,
+    modes: usize,
+    puzzles: usize,
+    wholes: usize,
+    in_modes: usize,
 }
 
 /// How much was planned.

@@ -88,11 +88,14 @@ impl Suspects<'_> {
         self.planner.can_hold(&setup, rules, &mut self.values.clone(), host) == Trial::Holds
     }
 
-    /// Tries every repair that there is.
+    /// Tries every repair that there is, until what that may cost is spent.
     pub(crate) fn repairs(&mut self, anchors: &[SlotId], host: &mut dyn Host) -> Vec<Repair> {
         let mut works = Vec::new();
         let mut numbers: BTreeMap<SlotId, f64> = BTreeMap::new();
         for unit in self.set {
+            if self.planner.is_spent() {
+                break;
+            }
             let rest = self.whole.iter().filter(|u| u.source != unit.source);
             let rest: Vec<u32> = rest.flat_map(|u| u.rules.iter().copied()).collect();
             let mut there = self.values.clone();
@@ -116,6 +119,9 @@ impl Suspects<'_> {
             }
         }
         for (slot, to) in numbers {
+            if self.planner.is_spent() {
+                break;
+            }
             let to = plain(to);
             let mut there = self.values.clone();
             there.numbers[slot] = to;

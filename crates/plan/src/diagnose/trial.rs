@@ -12,6 +12,9 @@ use base::scrambled;
 use kernel::{SlotId, Values};
 use std::collections::BTreeSet;
 
+/// What planning costs, in multiplications a constraint, roughly.
+const PLANNING: u64 = 30_000;
+
 /// What a trial is about, besides its rules.
 pub(crate) struct Setup<'t> {
     pub(crate) model: Model<'t>,
@@ -75,9 +78,10 @@ impl Planner {
         trial
     }
 
-    /// States these rules alone.
+    /// States these rules alone, and counts what planning them costs.
     pub(crate) fn tasks_of(&mut self, setup: &Setup<'_>, rules: &[u32]) -> Vec<Task> {
         let wished = setup.aim.wishes.iter().flat_map(Wish::slots);
+        self.spend(PLANNING * rules.len() as u64);
         let slots: BTreeSet<SlotId> =
             rules.iter().flat_map(|&r| self.rules.get(r).slots.to_vec()).chain(wished).collect();
         let mut rules = rules.to_vec();
