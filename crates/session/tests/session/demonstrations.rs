@@ -501,7 +501,11 @@ fn a_contour_is_made_of_edges_that_one_pick_follows() {
     assert!((found.abs() - area).abs() < 1e-9, "{found} for {area}");
     // where what covers the plane is wanted, several may stand in a list
     draw(&mut desk, "Contour.circle(of)", &[Typed("circle")]);
-    draw(&mut desk, "Region.union(first,second)", &[Typed("contour"), Typed("[contour2, contour]")]);
+    draw(
+        &mut desk,
+        "Region.union(first,second)",
+        &[Typed("contour"), Typed("[contour2, contour]")],
+    );
     // it is picked as a whole
     desk.session.begin(desk.id, "Point:mirrored").expect("it is mirrored");
     let pointer = Pointer { at: (0.0, 4.0), reach: 0.4, ..Pointer::default() };
