@@ -54,6 +54,8 @@ impl Made {
 pub(crate) fn make(which: &[&str], selection: &[&str]) -> Made {
     let mut cargo = tools::cargo(&["test", "--quiet", "--no-run"]);
     cargo.args(which).args(selection).arg("--message-format=json-render-diagnostics");
+    // lines begin with what they are, not with a colour
+    cargo.env("CARGO_TERM_COLOR", "never");
     tools::lint(&mut cargo).stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
     let Ok(mut child) = cargo.spawn() else { return Made::default() };
     let (told, said) = (child.stdout.take().expect("piped"), child.stderr.take().expect("piped"));

@@ -39,7 +39,7 @@ impl Tool {
         match self {
             Tool::WasmCompiler => wasm_compiler().is_some(),
             Tool::Rustfmt => succeeds(&mut cargo(&["fmt", "--version"])),
-            Tool::Clippy => succeeds(&mut cargo(&["clippy", "--version"])),
+            Tool::Clippy => clippy_driver().is_some(),
             Tool::Browser => browser().is_some() && on_path(&["chromedriver"]).is_some(),
             Tool::Ezdxf => succeeds(Command::new(ezdxf()).args(["-c", "import ezdxf"])),
         }
@@ -133,12 +133,16 @@ pub(crate) fn wasm_compiler() -> Option<WasmCompiler> {
 /// Has cargo compile the workspace's packages with the linter, which is a compiler that complains more. Machine code is
 /// of the same speed as the compiler's at opt-level 1 (measured on the tests).
 pub(crate) fn lint(cargo: &mut Command) -> &mut Command {
-    let beside = beside_the_compiler("clippy-driver").filter(|driver| driver.exists());
-    let driver = beside.or_else(|| on_path(&["clippy-driver"]));
-    if let Some(driver) = driver {
+    if let Some(driver) = clippy_driver() {
         cargo.env("RUSTC_WORKSPACE_WRAPPER", driver);
     }
     cargo
+}
+
+/// The linter as a compiler.
+fn clippy_driver() -> Option<PathBuf> {
+    let beside = beside_the_compiler("clippy-driver").filter(|driver| driver.exists());
+    beside.or_else(|| on_path(&["clippy-driver"]))
 }
 
 /// The program that writes documentation.

@@ -87,8 +87,8 @@ struct BoxedCorner {
 
 /// Finds the corner of a rectangle that is selected, by its point or by both its sides.
 fn boxed_corner(state: &State, paths: &[Path]) -> Option<BoxedCorner> {
-    const CORNERS: [&str; 4] = ["corner", "across", "far", "beyond"];
-    const SIDES: [&str; 4] = ["bottom", "right", "top", "left"];
+    const CORNERS: [&str; 4] = ["corner", "corner2", "far", "corner4"];
+    const SIDES: [&str; 4] = ["side1", "side2", "side3", "side4"];
     let named = |path: &Path, names: &[&str; 4]| {
         let [whole @ Step::Part(_), Step::Part(name)] = path.0.as_slice() else { return None };
         let at = names.iter().position(|known| **known == **name)?;

@@ -255,18 +255,18 @@ fn sides_of_a_rectangle_are_picked_constrained_and_rounded() {
     let text = "use geometry\nr: Rectangle { corner = (0, 0)  width = 300; height = 200 }\nl: Line { p1 = (0, 300)  p2 = (100, 350) }\n";
     let mut desk = Desk::of(text);
     let picture = desk.session.picture(desk.id);
-    let tag = picture.paths.iter().position(|path| path == "r.top").expect("it is seen");
+    let tag = picture.paths.iter().position(|path| path == "r.side3").expect("it is seen");
     assert_eq!(picture.drawn_by[tag].as_deref(), Some("r"));
     let is_top = |e: &&drawing::Element| e.tag.0 == tag as u32;
     assert_eq!(picture.drawing.elements.iter().filter(is_top).count(), 1);
     // a corner that is computed is gripped as well, each once
     let grips: Vec<&str> = picture.grips.iter().map(|grip| grip.path.as_str()).collect();
-    assert_eq!(grips, ["r.corner", "l.p1", "l.p2", "r.across", "r.far", "r.beyond"]);
+    assert_eq!(grips, ["r.corner", "l.p1", "l.p2", "r.corner2", "r.far", "r.corner4"]);
     desk.drag("r.far", &[(310.0, 220.0)]);
-    assert_eq!((desk.number("r.width"), desk.number("r.height")), (310.0, 220.0));
+    assert_eq!((desk.number("r.width"), desk.number("r.corner.y")), (300.0, 20.0));
     desk.undo();
-    take(&mut desk, &["r.top", "l"], "equal length", None);
-    take(&mut desk, &["r.left"], "length", Some("150"));
+    take(&mut desk, &["r.side3", "l"], "equal length", None);
+    take(&mut desk, &["r.side4"], "length", Some("150"));
     assert!((desk.number("r.height") - 150.0).abs() < 1e-9, "{}", desk.text());
     take(&mut desk, &["r.far", "l.p1"], "coincident", None);
     assert!((desk.number("l.p1.y") - 150.0).abs() < 1e-9, "{}", desk.text());
@@ -276,8 +276,8 @@ fn sides_of_a_rectangle_are_picked_constrained_and_rounded() {
     assert!((round.number("arc.center.x") - 275.0).abs() < 1e-6, "{}", round.text());
     assert!((round.number("arc.center.y") - 175.0).abs() < 1e-6, "{}", round.text());
     let sides = Desk::of(text);
-    assert!(labels(&sides, &["r.left", "r.bottom"]).iter().any(|label| label == "round"));
-    assert!(labels(&sides, &["r.left", "r.right"]).iter().all(|label| label != "round"));
+    assert!(labels(&sides, &["r.side4", "r.side1"]).iter().any(|label| label == "round"));
+    assert!(labels(&sides, &["r.side4", "r.side2"]).iter().all(|label| label != "round"));
 }
 
 #[test]
