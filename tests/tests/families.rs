@@ -10,6 +10,8 @@ use session::Session;
 use session::view::FamilyRow;
 use std::fs;
 
+/// Families whose programs are left to the interpreter: what joins edges into a contour is not noted.
+const INTERPRETED: [&str; 1] = ["Din471"];
 /// So many rows of each family are drawn.
 const ROWS: usize = 6;
 /// So many times each: the second run is noted, and the third goes by that; then with other values, of which some
@@ -77,6 +79,7 @@ fn rows_are_drawn_again_as_the_interpreter_draws_them() {
             let rows = session.family_rows(id, &family.name, table.as_deref()).expect("rows").rows;
             let class = model.document.class_named(&family.program).expect("the program");
             let known = Known::default();
+            let is_interpreted = INTERPRETED.contains(&&*family.name);
             let every = rows.len().div_ceil(ROWS);
             let (mut drawn, mut ended, mut dice) = (0, 0, Dice::new(7));
             for (time, row) in
@@ -91,12 +94,16 @@ fn rows_are_drawn_again_as_the_interpreter_draws_them() {
                     run.expect("the values are those of parameters")
                 });
                 assert!(same_run(&a, &b), "{} {}: {a:?} {b:?}", family.name, row.name);
-                assert_eq!(again.why_interpreted(class), None, "{}", family.name);
+                let why = again.why_interpreted(class);
+                assert_eq!(why.is_some(), is_interpreted, "{}: {why:?}", family.name);
                 drawn += 1;
                 ended += u32::from(a.ended.is_some());
             }
             let (asked, replayed) = known.replays();
-            assert!(asked == drawn && 4 * replayed >= asked, "{replayed} of {asked}");
+            assert!(
+                asked == drawn && (is_interpreted || 4 * replayed >= asked),
+                "{replayed} of {asked}"
+            );
             all_ended += ended;
             families += 1;
         }

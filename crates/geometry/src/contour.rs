@@ -69,7 +69,8 @@ impl Side {
     }
 
     fn reversed(self) -> Self {
-        Self { from: self.to, to: self.from, bulge: -self.bulge }
+        // a straight edge keeps its zero: negative zero is nowhere
+        Self { from: self.to, to: self.from, bulge: 0.0 - self.bulge }
     }
 }
 

@@ -259,10 +259,10 @@ fn an_angle_that_is_computed_is_dragged_on_past_half_a_turn() {
         let came = desk.session.drag(desk.id, (wanted, 0.0));
         assert!(came.reached, "{step}: {:?}", came.message);
         let now = end(&desk);
-        let way = (now.0 - was.0).hypot(now.1 - was.1);
+        let way = base::number::hypot(now.0 - was.0, now.1 - was.1);
         assert!(way < 7.0, "{step}: it leaps by {way}");
         let left = desk.number("l.direction") - wanted;
-        assert!(left.sin().abs() < 1e-6, "{step}: {left}");
+        assert!(base::number::sin(left).abs() < 1e-6, "{step}: {left}");
         was = now;
     }
     desk.session.release(desk.id).expect("it can be kept");

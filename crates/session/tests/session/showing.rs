@@ -94,7 +94,7 @@ fn parts_without_places_do_not_lie_on_one_another() {
     assert_eq!(grips.len(), 12);
     for (n, one) in grips.iter().enumerate() {
         for other in &grips[n + 1..] {
-            let far = (one.x - other.x).hypot(one.y - other.y);
+            let far = base::number::hypot(one.x - other.x, one.y - other.y);
             assert!(far > 20.0, "{} and {} are {far} apart", one.path, other.path);
         }
     }
