@@ -15,10 +15,10 @@ use crate::state::State;
 use crate::view::Refusal;
 use crate::words;
 use base::{Name, Span};
-use kernel::{Command, DOCUMENT, Literal, Path, Step, ThingId};
+use kernel::{ClassKind, Command, DOCUMENT, Literal, Path, Step};
 use lang::{Meant, Mention};
 use std::collections::{BTreeMap, BTreeSet};
-use syntax::ast::{AstNode, Member};
+use syntax::ast::{AstNode, Expr, Member, Value};
 use syntax::edit::TextEdit;
 
 /// How far aside a copy lies, on the sheet.
@@ -365,32 +365,72 @@ pub(crate) fn deletion(
     }
     along.retain(|said| !own.iter().any(|own| own.trim() == said.trim()));
     along.dedup();
-    Ok((Command::Text(trial.state.text.clone()), along))
+    match paths {
+        // as it is deleted by itself: the step has its name
+        [only] if along.is_empty() => Ok((Command::Delete(only.clone()), along)),
+        _ => Ok((Command::Text(trial.state.text.clone()), along)),
+    }
 }
 
 /// Returns the dimensions of a document that measured more before than they do after something is gone.
 fn loosened(before: &State, after: &State) -> Vec<Name> {
-    let document = &before.lowered.document;
-    let Some(class) = document.class_named(&Name::new("Dimension")) else { return Vec::new() };
-    let measured = |state: &State, name: &Name| {
-        let thing = thing_at(state, &Path(vec![Step::Part(name.clone())]))?;
-        let parts = state.structure.parts(thing);
-        let is_shared = |part: &ThingId| state.structure.merged_with(*part).len() > 1;
-        let said = member_of(&state.text, name).matches('=').count();
-        Some((parts.filter(is_shared).count(), said))
-    };
-    let parts = before.structure.parts(DOCUMENT);
-    let dimensions = parts.filter(|&t| document.is_a(before.structure.things[t].class, class));
-    let names = dimensions.filter_map(|t| before.structure.field_name(document, t).cloned());
     let has_less = |name: &Name| {
         let (was, is) = (measured(before, name), measured(after, name));
-        was.zip(is).is_some_and(|(was, is)| is.0 < was.0 || is.1 < was.1)
+        was.zip(is).is_some_and(|(was, is)| is < was)
     };
-    names.filter(has_less).collect()
+    dimensions(before).into_iter().filter(has_less).collect()
+}
+
+/// Returns what the dimensions of a document are called.
+fn dimensions(state: &State) -> Vec<Name> {
+    let document = &state.lowered.document;
+    let Some(class) = document.class_named(&Name::new("Dimension")) else { return Vec::new() };
+    let parts = state.structure.parts(DOCUMENT);
+    let dimensions = parts.filter(|&t| document.is_a(state.structure.things[t].class, class));
+    dimensions.filter_map(|t| state.structure.field_name(document, t).cloned()).collect()
+}
+
+/// Counts the things that a dimension measures: its parts that are things, and are shared with others or given.
+fn measured(state: &State, name: &Name) -> Option<usize> {
+    let thing = thing_at(state, &Path(vec![Step::Part(name.clone())]))?;
+    let (document, structure) = (&state.lowered.document, &state.structure);
+    let given = given_in(&state.text, name);
+    let fields = document.layout(structure.things[thing].class).into_iter();
+    let is_measured = |field: &kernel::PartRef| {
+        let name = document.field_name(*field);
+        let class = &document.classes[document.field_class(*field)];
+        let shared = || {
+            let part = structure.part_named(thing, name)?;
+            Some(structure.merged_with(part).len() > 1)
+        };
+        class.kind == ClassKind::Composite && (given.contains(name) || shared().unwrap_or(false))
+    };
+    Some(fields.filter(is_measured).count())
+}
+
+/// Returns the parts that the body of a member gives a thing: `from` of `d: Distance { from = a }`. A place in numbers
+/// is none.
+fn given_in(text: &str, name: &str) -> BTreeSet<Name> {
+    let file = syntax::parse(base::FileId(0), text).file();
+    let body = file.members().find_map(|member| match member {
+        Member::Part(part) if part.names().any(|word| word.text() == name) => part.body(),
+        _ => None,
+    });
+    let members = body.into_iter().flat_map(|body| body.members());
+    let given = members.filter_map(|member| match member {
+        Member::Assign(assign) if !matches!(assign.value(), Some(Value::Expr(Expr::Tuple(_)))) => {
+            Some(assign.target()?.syntax().text().to_string())
+        }
+        _ => None,
+    });
+    given.map(|target| Name::new(target.trim())).collect()
 }
 
 /// Returns true where a dimension measures what is deleted, and goes with it.
 pub(crate) fn is_measured(open: &Open, host: &dyn Host, path: &Path) -> bool {
+    if dimensions(&open.state).is_empty() {
+        return false;
+    }
     let mut trial = Open::of(&open.name, open.state.text.clone(), host);
     let gone = apply::apply(&mut trial, host, &Command::Delete(path.clone()));
     gone.is_ok() && !loosened(&open.state, &trial.state).is_empty()

@@ -294,3 +294,17 @@ fn a_dimension_goes_with_what_it_measures() {
     let lone = Desk::of("use geometry\na: Line\nb: Line\nmerge a.p1 = b.p1\n");
     assert!(!lone.session.is_measured(lone.id, &at("a")));
 }
+
+#[test]
+fn a_dimension_stays_where_what_its_value_was_said_by_goes() {
+    let text = "use geometry\na: Line { p1 = (0, 0)  p2 = (30, 40) }\nw: Length = 50\nd: Distance { from = a.p1  to = a.p2  value = w }\n";
+    let desk = Desk::of(text);
+    assert!(!desk.session.is_measured(desk.id, &at("w")));
+    let (_, along) = desk.session.deletion(desk.id, &[at("w")]).expect("it can go");
+    assert!(along.iter().all(|said| !said.starts_with("d: Distance")), "{along:?}");
+    assert!(desk.session.is_measured(desk.id, &at("a")));
+    // what goes alone is deleted by its name
+    let lone = Desk::of("use geometry\na: Line\nb: Line\n");
+    let (command, along) = lone.session.deletion(lone.id, &[at("a")]).expect("it can go");
+    assert_eq!((command, along), (Command::Delete(at("a")), Vec::new()));
+}
