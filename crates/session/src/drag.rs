@@ -438,13 +438,30 @@ impl Drag {
         const NEAR: f64 = 3.0;
         /// What has turned further than this, in radians, is pressed anew.
         const FAR: f64 = 2.0;
+        /// An angle that leaps is never beyond this, in radians: half a turn and a little slack.
+        const MOST: f64 = std::f64::consts::PI + 1e-6;
         let ([angle], Some(term)) = (to, &self.computed) else { return to.to_vec() };
+        let now = self.computed_now(state).and_then(|now| now.first().map(|(x, _)| *x));
+        if angle.abs().max(now.map_or(0.0, f64::abs)) > MOST {
+            if let Turning::From(_) = self.turning
+                && let Ok(press) = planner.press(
+                    state.model(),
+                    &self.values,
+                    &[Target::Term { me: DOCUMENT, term }],
+                )
+            {
+                self.press = press;
+                self.turning = Turning::Plain;
+            }
+            if let Turning::No | Turning::Plain = self.turning {
+                return to.to_vec();
+            }
+        }
         let is_far = match self.turning {
             Turning::No => return to.to_vec(),
             Turning::Plain => angle.abs() > NEAR,
             Turning::From(from) => within_half_a_turn(angle - from).abs() > FAR,
         };
-        let now = self.computed_now(state).and_then(|now| now.first().map(|(x, _)| *x));
         if let Some(now) = now.filter(|_| is_far) {
             let target = Target::Term { me: DOCUMENT, term: &turned_since(term, now) };
             if let Ok(press) = planner.press(state.model(), &self.values, &[target]) {

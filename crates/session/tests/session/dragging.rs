@@ -269,3 +269,16 @@ fn an_angle_that_is_computed_is_dragged_on_past_half_a_turn() {
     desk.undo();
     assert_eq!(desk.text(), text);
 }
+
+#[test]
+fn an_angle_that_counts_whole_turns_is_dragged_as_far_as_it_is_wished() {
+    let mut desk = Desk::of("use geometry\nturn: Angle = 0.5\ntotal: Angle => 3 * turn\n");
+    desk.session.press(desk.id, &at("total")).expect("it can be dragged");
+    // at once, near half a turn, and on from there
+    for wished in [15.0, 1.0, 3.1, 3.2, 15.0, -12.0] {
+        let came = desk.session.drag(desk.id, (wished, 0.0));
+        assert!(came.reached, "{wished}: {:?}", came.message);
+        let total = desk.number("total");
+        assert!((total - wished).abs() < 1e-9, "{wished}: {total}");
+    }
+}
