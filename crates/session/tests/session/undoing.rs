@@ -156,18 +156,17 @@ fn a_whole_is_parted_whose_parts_are_one() {
 
 #[test]
 fn what_is_added_is_undone_by_its_name() {
-    let mut desk = Desk::of("use geometry\n");
+    let mut desk = Desk::of("use geometry\nbeam: Line { p1 = (0, 0)  p2 = (0, 30) }\n");
     for (members, label) in [
         ("line: Line { p1 = (0, 0)  p2 = (40, 0) }\nconstraint line.p1.y = line.p2.y", "add line"),
         ("constraint line.length = 50", "constrain line.length = 50"),
-        ("merge line.p1 = line.p1", "merge line.p1 = line.p1"),
+        ("merge line.p1 = beam.p1", "merge line.p1 = beam.p1"),
         ("use circuits", "use circuits"),
     ] {
         let command =
             Command::Edit { target: session::Path::default(), members: String::from(members) };
-        if desk.apply(&command).is_ok() {
-            assert_eq!(desk.undo_label().as_deref(), Some(label), "{members}");
-        }
+        desk.apply(&command).unwrap_or_else(|refused| panic!("{members}: {refused:?}"));
+        assert_eq!(desk.undo_label().as_deref(), Some(label), "{members}");
     }
     assert_eq!(desk.undo_label().as_deref(), Some("use circuits"));
 }
