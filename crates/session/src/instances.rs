@@ -208,7 +208,8 @@ fn formula<'a>(evaluator: &Evaluator<'a>, answer: &Answer<'a>) -> Option<String>
             let shown = kernel::show_quantity(*x, quantity, document);
             Some(words::with_unit(shown.exact, &shown.unit))
         }
-        Answer::Bool(_) | Answer::Option(..) | Answer::Text(_) => Some(evaluator.text_of(answer)),
+        Answer::Text(text) => Some(lang::quoted(text)),
+        Answer::Bool(_) | Answer::Option(..) => Some(evaluator.text_of(answer)),
         Answer::Thing(_) | Answer::Context(_) | Answer::Picture(_) | Answer::Function(_) => None,
     }
 }
@@ -240,7 +241,10 @@ fn free_name(state: &State, taken: &[String], path: &str) -> String {
     let base = parts.collect::<Vec<_>>().join("_");
     let is_free = |name: &String| {
         let path = Path(vec![Step::Part(name.as_str().into())]);
-        !taken.contains(name) && state.structure.follow(DOCUMENT, &path).is_err()
+        let class = state.structure.things[DOCUMENT].class;
+        let is_computed =
+            state.lowered.document.find_message(class, &Name::new(name), None).is_some();
+        !taken.contains(name) && !is_computed && state.structure.follow(DOCUMENT, &path).is_err()
     };
     let names = std::iter::once(base.clone()).chain((2..).map(|n| format!("{base}_{n}")));
     { names }.find(is_free).unwrap_or_default()

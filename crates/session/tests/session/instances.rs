@@ -1,6 +1,7 @@
 //! Things of programs: placed where there is room, held in their place, unlinked; and what their steps say, changed.
 
 use crate::desk::Desk;
+use session::Command;
 use session::drafting::view::{Go, StepOperand, Turn, Wants};
 use session::view::{Pointer, RowUse};
 
@@ -263,4 +264,29 @@ plate: Placed of Plate { at = (7, 3)  turn = 30 deg }
     assert!(near(was.least, is.least) && near(was.most, is.most), "{was:?} {is:?}");
     desk.undo();
     assert_eq!(desk.text(), before);
+}
+
+#[test]
+fn a_text_is_unlinked_in_quotes_and_a_second_thing_by_another_name() {
+    let text = r#"use drafting
+use contours
+
+program Sign(w: Length = 40) {
+    region = Contour.box(Rectangle(Point(0, 0), w, 20))
+    note = Note(Point(1, 1), "to the left, {w}")
+}
+
+sign: Sign
+"#;
+    let mut desk = Desk::of(text);
+    assert_eq!(desk.wrong(), []);
+    let (_, names) = desk.session.unlink(desk.id, "sign").expect("all of it can be said");
+    assert_eq!(names, ["sign_region", "sign_note"]);
+    assert!(desk.text().contains("\"to the left, "), "{}", desk.text());
+    assert_eq!(desk.wrong(), [], "{}", desk.text());
+    let members = "sign: Sign".to_string();
+    desk.apply(&Command::Edit { target: session::Path::default(), members }).expect("it is free");
+    let (_, names) = desk.session.unlink(desk.id, "sign").expect("it has other names");
+    assert_eq!(names, ["sign_region_2", "sign_note_2"]);
+    assert_eq!(desk.wrong(), [], "{}", desk.text());
 }
