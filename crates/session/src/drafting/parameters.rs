@@ -71,7 +71,9 @@ impl Allowed {
                 };
                 let mut values: Vec<String> = list.elements().map(said).collect();
                 // `3, 4, 5 mm`: the unit of the last is that of all
-                let unit = values.last()?.split_once(' ').filter(|(x, _)| typed::is_number(x));
+                let unit = values.last()?.split_once(' ').filter(|(x, unit)| {
+                    typed::is_number(x) && syntax::units::unit_length(unit) == unit.len()
+                });
                 let unit = unit.map(|(_, unit)| unit.to_string());
                 let is_bare = values.split_last()?.1.iter().all(|value| typed::is_number(value));
                 if let (Some(unit), true) = (unit, is_bare) {

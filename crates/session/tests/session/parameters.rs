@@ -397,6 +397,11 @@ fn a_parameter_allows_the_values_of_a_table() {
     desk.session.begin(desk.id, "Rod").expect("it is in scope");
     let refused = desk.session.enter(desk.id, "4.5 mm").expect_err("it is none of them");
     assert_eq!(refused.message, "d is 4.5 mm: 3 mm, 4 mm or 5 mm are allowed");
+    let summed = NewParameter { name: "s".into(), range: "3, 4, 5 + 1".into(), ..new.clone() };
+    desk.session.record(desk.id, "Sum").expect("a new program");
+    desk.session.define_parameter(desk.id, &summed).expect("it is new");
+    assert!(desk.text().contains("s: Length in [3, 4, 5 + 1] = 4"), "{}", desk.text());
+    desk.session.stop_recording(desk.id).expect("it is recorded");
     let strange = NewParameter { name: "w".into(), range: "3 to 5".into(), ..new };
     desk.session.record(desk.id, "Rod").expect("it is there");
     let refused = desk.session.define_parameter(desk.id, &strange).expect_err("it is no table");
