@@ -228,7 +228,8 @@ impl<'a> Evaluator<'a> {
             (None, []) => Err("none of its edges comes from there".to_string()),
             (None, several) => Err(format!("{} of its edges come from there", several.len())),
             (Some(nth), all) => {
-                all.get(nth as usize).filter(|_| nth >= 0.0).copied().ok_or_else(|| {
+                let is_whole = nth >= 0.0 && nth.fract() == 0.0;
+                all.get(nth as usize).filter(|_| is_whole).copied().ok_or_else(|| {
                     let n = all.len();
                     format!("of its edges {n} come from there, and none has the number {nth}")
                 })

@@ -74,6 +74,11 @@ impl Side {
     }
 }
 
+/// Whether two places are one, among edges that take up `extent` the longer way; all in one unit of length.
+pub fn meets(p: [f64; 2], q: [f64; 2], extent: f64) -> bool {
+    distance(p, q) <= NEAR * extent
+}
+
 /// Makes one ring of edges, whichever way and in whichever order they are given; it runs as the first does.
 ///
 /// ```
@@ -83,21 +88,26 @@ impl Side {
 /// let floor = side([1.0, 0.0], [-1.0, 0.0], 0.0);
 /// assert_eq!(contour(&[lid, floor]).unwrap().len(), 2);
 /// assert_eq!(contour(&[lid]), Err(NoContour::Open(1)));
+/// // what has no length plays no part
+/// let dot = side([1.0, 0.0], [1.0, 0.0], 0.0);
+/// assert_eq!(contour(&[dot, lid, dot, floor]), contour(&[lid, floor]));
 /// ```
 ///
 /// # Errors
 /// They are open somewhere, branch, or are several rings.
 pub fn contour(sides: &[Side]) -> Result<Ring, NoContour> {
-    let first = sides.first().ok_or(NoContour::Empty)?;
+    // what has no length leads nowhere
+    let mut is_used: Vec<bool> = sides.iter().map(|side| side.from == side.to).collect();
+    let begin = is_used.iter().position(|is_used| !is_used).ok_or(NoContour::Empty)?;
+    let first = sides[begin];
     if sides.len() > MOST_EDGES {
         return Err(NoContour::TooLarge);
     }
-    let near = NEAR * extent(sides);
-    let meets = |p: [f64; 2], q: [f64; 2]| distance(p, q) <= near;
+    let extent = extent(sides);
+    let meets = |p: [f64; 2], q: [f64; 2]| meets(p, q, extent);
     let mut ring = vec![Bend { at: first.from, bulge: first.bulge }];
-    let mut is_used = vec![false; sides.len()];
-    is_used[0] = true;
-    let (mut last, mut at) = (0, first.to);
+    is_used[begin] = true;
+    let (mut last, mut at) = (begin, first.to);
     loop {
         let goes_on =
             |&i: &usize| !is_used[i] && (meets(sides[i].from, at) || meets(sides[i].to, at));
@@ -173,8 +183,8 @@ pub fn edges_of(sides: &[Side], source: &Source) -> Vec<Side> {
     found.into_iter().map(|(_, side)| side).collect()
 }
 
-/// How large what edges take up is, the longer way.
-fn extent(sides: &[Side]) -> f64 {
+/// Returns how large what edges take up is, the longer way, in their unit of length.
+pub fn extent(sides: &[Side]) -> f64 {
     let of = |i: usize| sides.iter().flat_map(move |s| [s.from[i], s.to[i]]);
     let span = |i| of(i).fold(f64::NEG_INFINITY, f64::max) - of(i).fold(f64::INFINITY, f64::min);
     f64::max(span(0), span(1))

@@ -48,6 +48,8 @@ mod work;
 pub use algebra::{Algebra, Plain};
 pub use build::{Built, NoConstruction, build, construct};
 pub use construction::{Construction, Made};
-pub use contour::{NoContour, Side, Source, contour, edges_from, edges_of, sides_of};
+pub use contour::{
+    NoContour, Side, Source, contour, edges_from, edges_of, extent, meets, sides_of,
+};
 pub use figure::Figure;
 pub use region::{Bend, Combination, NoRegion, Ring, Surface, combine, offset};

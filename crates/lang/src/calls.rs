@@ -5,7 +5,7 @@ use crate::kinds::{Kind, measured, wanted_in_words, with_article};
 use crate::lower::Lowerer;
 use crate::names::owners;
 use crate::scope::Scope;
-use crate::terms::code_for;
+use crate::terms::{Holds, code_for};
 use base::diagnostic::nearest;
 use base::{Diagnostic, Name, Place, Span};
 use expr::dimension::Dimension;
@@ -203,11 +203,19 @@ impl Lowerer<'_> {
         }
     }
 
-    /// Returns true for what programs draw, where a list of things is wanted: which these are is known when it is made.
+    /// Returns true for what programs draw, and for lists of lists, where a list of things is wanted: which these are is
+    /// known when it is made.
     fn is_set_for(&self, found: &Kind, wanted: &Kind) -> bool {
         let draws = |kind: &Kind| matches!(kind, Kind::Thing(class) if self.draws(*class));
         let wants_things = matches!(wanted, Kind::List(each) if matches!(**each, Kind::Thing(_)));
-        wants_things && (draws(found) || matches!(found, Kind::List(each) if draws(each)))
+        let is_nested = || match (found, wanted) {
+            (Kind::List(each), Kind::List(wanted)) => {
+                matches!(**each, Kind::List(_)) && each.inmost().fits(wanted, &self.document)
+            }
+            _ => false,
+        };
+        wants_things
+            && (draws(found) || matches!(found, Kind::List(each) if draws(each)) || is_nested())
     }
 
     fn takes_none(
@@ -461,6 +469,11 @@ impl Lowerer<'_> {
                 Expr::Lambda(lambda) => {
                     let (value, answers) = self.lambda(scope, lambda, element)?;
                     (value, Kind::Function, answers)
+                }
+                // which parameter it is for is not known yet
+                Expr::List(list) => {
+                    let (value, kind) = self.list_of(scope, list, &Kind::Unknown, Holds::Sets)?;
+                    (value, kind, Kind::Unknown)
                 }
                 other => {
                     let (value, kind) = self.expr(scope, other)?;

@@ -59,6 +59,14 @@ impl Kind {
         (0..depth).fold(self, |kind, _| Self::List(Box::new(kind)))
     }
 
+    /// Returns the kind of what lists of lists hold in the end; of anything else, the kind itself.
+    pub(crate) fn inmost(&self) -> &Self {
+        match self {
+            Self::List(each) => each.inmost(),
+            known => known,
+        }
+    }
+
     /// Returns the kind in words.
     pub(crate) fn words(&self, document: &Document) -> String {
         match self {

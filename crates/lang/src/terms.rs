@@ -13,6 +13,15 @@ use syntax::ast::{self, AstNode, BinaryOp, Expr, UnaryOp};
 
 type Lowered = Option<(Term, Kind)>;
 
+/// What a list that is written may hold.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Holds {
+    /// Values of one kind.
+    One,
+    /// Things, and sets of things beside them: a parameter takes all of these.
+    Sets,
+}
+
 impl Lowerer<'_> {
     /// Lowers an expression.
     pub(crate) fn expr(&mut self, scope: &Scope, e: &Expr) -> Lowered {
@@ -404,6 +413,17 @@ impl Lowerer<'_> {
     }
 
     fn list(&mut self, scope: &Scope, list: &ast::ListExpr, wanted: &Kind) -> Lowered {
+        self.list_of(scope, list, wanted, Holds::One)
+    }
+
+    /// Lowers a list that is written; that of an argument may hold things and sets of things.
+    pub(crate) fn list_of(
+        &mut self,
+        scope: &Scope,
+        list: &ast::ListExpr,
+        wanted: &Kind,
+        holds: Holds,
+    ) -> Lowered {
         let mut items: Vec<(Term, Kind)> = Vec::new();
         let (mut element, mut is_mixed) = (Kind::Unknown, false);
         let wanted = if let Kind::List(each) = wanted { each } else { &Kind::Unknown };
@@ -415,6 +435,15 @@ impl Lowerer<'_> {
                 (false, Kind::Thing(_), Kind::Thing(_)) => {
                     is_mixed = true;
                     self.general(element.clone(), kind.clone())
+                }
+                // a line and the lines of a pattern are lines
+                (false, known, found)
+                    if holds == Holds::Sets
+                        && let (Kind::Thing(_), Kind::Thing(_)) =
+                            (known.inmost(), found.inmost()) =>
+                {
+                    is_mixed = true;
+                    self.general(known.inmost().clone(), found.inmost().clone())
                 }
                 (false, ..) => Kind::Unknown,
             };

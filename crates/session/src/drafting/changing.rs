@@ -4,7 +4,9 @@
 use super::operands::{self, Occurrence};
 use super::scene::{self, Curve};
 use super::view::{Prompt, StepOperand, Wants};
-use super::{Around, Home, blocks, catalogue, outcome, patterns, recording, remove, text, visit};
+use super::{
+    Around, Home, blocks, catalogue, edges, outcome, patterns, recording, remove, text, visit,
+};
 use crate::document::Open;
 use crate::host::Host;
 use crate::state::State;
@@ -40,6 +42,7 @@ impl Changing {
             words: format!("is {says}: {how}"),
             is_value: *is_value,
             takes_sets: !is_value,
+            goes_wider: !is_value,
             wants: Wants::Change(says.clone()),
             ..Prompt::default()
         }
@@ -173,14 +176,21 @@ pub(crate) fn give(
     let recording = blocks::recorded(open)?;
     let program = recording.program.clone();
     let none = || words::refuse("nothing is changed".into());
-    let Changing { step, slot, .. } = recording.changing.clone().ok_or_else(none)?;
+    let Changing { step, slot, says, .. } = recording.changing.clone().ok_or_else(none)?;
     let typed = match picked {
         None => typed.trim().to_string(),
         Some((pointer, level)) => {
             let all = scene::scene(&open.state, &home(open).ok_or_else(none)?);
             let nothing = || words::refuse(remove::why_nothing(open, &step, pointer));
             let found = scene::nearest(all.iter(), pointer).ok_or_else(nothing)?;
-            found.at_level(level)
+            let picked = found.at_level(level);
+            match is_edges(&slot, &says) {
+                true => {
+                    let (state, home) = (&open.state, home(open).ok_or_else(none)?);
+                    edges::written(state, &home, &edges::followed(state, &home, &[picked]))
+                }
+                false => picked,
+            }
         }
     };
     let change = set(open, host, (&program, &step, &slot), &typed)?;
@@ -188,6 +198,11 @@ pub(crate) fn give(
         recording.changing = None;
     }
     Ok(change)
+}
+
+/// Whether a part of what a step says is the edges of a contour, as a list.
+fn is_edges(slot: &str, says: &str) -> bool {
+    slot == "edges" && says.starts_with('[')
 }
 
 /// Lets a step say something else in one place, as one step.
@@ -210,6 +225,8 @@ pub(crate) fn set(
     let (found, _) = find(&source, program, (address, slot)).ok_or_else(none)?;
     // the text goes on from what stands twice, from what a message is sent to, and from a count
     let is_gone_on_from = found.again.is_some() || matches!(slot, "what" | "count");
+    let listed = is_edges(slot, &found.first).then(|| edges::as_list(typed)).flatten();
+    let typed = listed.as_deref().unwrap_or(typed);
     let typed = if is_gone_on_from { catalogue::bracketed(typed) } else { typed.into() };
     let mut edited = source.to_string();
     for span in found.again.iter().chain([&found.span]) {

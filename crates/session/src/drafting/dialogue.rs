@@ -132,6 +132,9 @@ impl Dialogue {
             is_value: slot.is_some_and(|slot| slot.kind == SlotKind::Value),
             takes_sets: slot
                 .is_some_and(|slot| matches!(slot.kind, SlotKind::Set | SlotKind::Edges)),
+            goes_wider: slot.is_some_and(|slot| {
+                matches!(slot.kind, SlotKind::Set | SlotKind::Curve | SlotKind::Point)
+            }),
             is_guide: self.is_guide,
             wants: Wants::Operand,
             insert: None,
@@ -258,10 +261,7 @@ impl Dialogue {
     /// What one more edge would do: all of them are lit.
     fn hover_edges(&self, state: &State, home: &Home, edge: &str) -> Hover {
         let all = self.with_edge(state, home, edge);
-        let mut ghost = drawing::Drawing::default();
-        for edge in &all {
-            ghost.elements.extend(scene::drawing_of(state, home, edge).elements);
-        }
+        let ghost = scene::drawing_of_all(state, home, &all);
         Hover { finds: Some(all.join(", ")), ghost, why: None }
     }
 }

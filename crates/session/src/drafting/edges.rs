@@ -4,54 +4,118 @@
 use super::Home;
 use super::catalogue::{Slot, SlotKind};
 use super::scene::{self, Found};
+use super::typed;
 use crate::state::State;
 use crate::view::{Pointer, Refusal};
 use crate::words;
-use geometry::{Source, edges_of};
+use geometry::{NoContour, Side, Source, contour, edges_of, extent, meets};
+use std::collections::BTreeMap;
+use syntax::ast::{AstNode, Expr};
 
 /// Returns edges with those that go on from their ends, as far as a single one does.
 pub(crate) fn followed(state: &State, home: &Home, picked: &[String]) -> Vec<String> {
     let all = edges(state, home);
-    let of = |text: &String| all.iter().find(|found| found.text == *text);
-    let mut chain: Vec<&Found> = picked.iter().filter_map(of).collect();
-    if chain.len() < picked.len() {
-        // what is typed leads nowhere by itself
-        return picked.to_vec();
-    }
+    let known: BTreeMap<&str, usize> =
+        all.iter().enumerate().map(|(i, found)| (found.text.as_str(), i)).collect();
+    let chain: Option<Vec<usize>> = picked.iter().map(|p| known.get(p.as_str()).copied()).collect();
+    // what is typed leads nowhere by itself
+    let Some(mut chain) = chain else { return picked.to_vec() };
+    let ends: Vec<[[f64; 2]; 2]> =
+        all.iter().map(|found| found.curve.ends().unwrap_or_default()).collect();
+    let sides: Vec<Side> = ends.iter().map(|&[from, to]| Side { from, to, bulge: 0.0 }).collect();
+    let extent = extent(&sides);
+    let is_near = |a, b| meets(a, b, extent);
+    let mut is_used = vec![false; all.len()];
+    let mut open: Vec<[f64; 2]> = Vec::new();
+    let mut at = 0;
     loop {
-        let ends = chain.iter().flat_map(|found| found.curve.ends()).flatten();
-        let mut open: Vec<[f64; 2]> = Vec::new();
-        for end in ends {
-            match open.iter().position(|other| is_near(*other, end)) {
-                Some(other) => _ = open.remove(other),
-                None => open.push(end),
+        // the ends of those that are new
+        for &edge in &chain[at..] {
+            is_used[edge] = true;
+            for end in ends[edge] {
+                match open.iter().position(|&other| is_near(other, end)) {
+                    Some(other) => _ = open.remove(other),
+                    None => open.push(end),
+                }
             }
         }
+        at = chain.len();
         let next = open.iter().rev().find_map(|&end| {
-            let goes_on = |found: &&Found| {
-                let is_there = chain.iter().any(|other| other.text == found.text);
-                !is_there
-                    && found.curve.ends().is_some_and(|ends| ends.iter().any(|e| is_near(*e, end)))
-            };
-            let mut next = all.iter().filter(goes_on);
+            let goes_on = |&i: &usize| !is_used[i] && ends[i].iter().any(|&e| is_near(e, end));
+            let mut next = (0..all.len()).filter(goes_on);
             next.next().filter(|_| next.next().is_none())
         });
         match next {
             Some(next) => chain.push(next),
-            None => return chain.iter().map(|found| found.text.clone()).collect(),
+            None => return chain.into_iter().map(|i| all[i].text.clone()).collect(),
         }
     }
+}
+
+/// Whether edges are no contour yet, and may be one with more: it is open, or leads on several ways.
+pub(crate) fn waits(state: &State, home: &Home, picked: &[String]) -> bool {
+    let all = edges(state, home);
+    let side = |text: &String| {
+        let found = all.iter().find(|found| found.text == *text)?;
+        match found.curve.source()? {
+            Source::Line(from, to) => Some(Side { from, to, bulge: 0.0 }),
+            Source::Arc(side) => Some(side),
+            Source::Axis(..) | Source::Circle(..) => None,
+        }
+    };
+    // what is typed may be any number of them
+    let sides: Option<Vec<Side>> = picked.iter().map(side).collect();
+    sides.is_none_or(|sides| {
+        matches!(contour(&sides), Err(NoContour::Open(_) | NoContour::Branches(_)))
+    })
+}
+
+/// Joins what is typed with the edges that were picked, as one list.
+pub(crate) fn joined(picked: &[String], typed: &str) -> String {
+    let Some(list) = as_list(typed) else { return typed.into() };
+    let Some(Expr::List(elements)) = typed::expression(&list) else { return list };
+    let own = elements.elements().map(|e| e.syntax().text().to_string().trim().to_string());
+    let mut all = picked.to_vec();
+    for text in own {
+        if !all.contains(&text) {
+            all.push(text);
+        }
+    }
+    format!("[{}]", all.join(", "))
+}
+
+/// Writes what is typed as a list, where it is none and can be one: `a, b` as `[a, b]`.
+pub(crate) fn as_list(typed: &str) -> Option<String> {
+    match typed::expression(typed) {
+        Some(Expr::List(_)) => Some(typed.into()),
+        _ => Some(format!("[{typed}]")).filter(|list| typed::expression(list).is_some()),
+    }
+}
+
+/// Writes edges as the list that they are, with whole sets by their names.
+pub(crate) fn written(state: &State, home: &Home, picked: &[String]) -> String {
+    let all = edges(state, home);
+    let of = |text: &String| all.iter().find(|found| found.text == *text).cloned();
+    let Some(caught) = picked.iter().map(of).collect::<Option<Vec<Found>>>() else {
+        return format!("[{}]", picked.join(", "));
+    };
+    let (_, sets) = scene::whole_sets(state, home, &caught);
+    let mut said: Vec<&String> = Vec::new();
+    for found in &caught {
+        let set = found.wholes.iter().rev().find(|set| sets.contains(set));
+        let text = set.unwrap_or(&found.text);
+        if !said.contains(&text) {
+            said.push(text);
+        }
+    }
+    let said: Vec<&str> = said.into_iter().map(String::as_str).collect();
+    format!("[{}]", said.join(", "))
 }
 
 /// Lists the lines and arcs that a contour can be made of.
 pub(crate) fn edges(state: &State, home: &Home) -> Vec<Found> {
     let all = scene::scene(state, home).into_iter();
     all.filter(|found| found.side.is_none() && found.curve.ends().is_some()).collect()
-}
-
-fn is_near(a: [f64; 2], b: [f64; 2]) -> bool {
-    let size = a.iter().chain(&b).fold(0.0, |most: f64, x| most.max(x.abs()));
-    base::number::hypot(a[0] - b[0], a[1] - b[1]) <= 1e-9 * size
 }
 
 /// Names the edge of a contour or region under a pointer, or its corner, by what it comes from; nothing where no such

@@ -6,8 +6,8 @@ use super::view::{
     Computed, ConstructionRow, Ends, Hover, MeasureKind, OlderUse, Prompt, Turn, Wants,
 };
 use super::{
-    Home, blocks, catalogue, changing, choice, measure, older, outcome, parameters, patterns,
-    recording, remove, repeat, scene, steps, text, typed,
+    Home, blocks, catalogue, changing, choice, edges, measure, older, outcome, parameters,
+    patterns, recording, remove, repeat, scene, steps, text, typed,
 };
 use crate::document::Open;
 use crate::host::Host;
@@ -69,12 +69,13 @@ fn give_edges(
     (edges, at): (Vec<String>, Option<(f64, f64)>),
 ) -> Result<Turn, Refusal> {
     let none = || words::refuse("no construction waits".into());
-    let operand = Operand::new(format!("[{}]", edges.join(", ")), at);
+    let (state, home) = (open.state.clone(), home(open));
+    let operand = Operand::new(edges::written(&state, &home, &edges), at);
     let before = open.dialogue.clone();
     give(open, host, operand).or_else(|refused| {
         open.dialogue = before;
         let dialogue = open.dialogue.as_mut().ok_or_else(none)?;
-        if dialogue.edges == edges {
+        if dialogue.edges == edges || !edges::waits(&state, &home, &edges) {
             return Err(refused);
         }
         dialogue.edges = edges;
@@ -547,8 +548,7 @@ fn edges_within(
 ) -> Result<Turn, Refusal> {
     let mut found = scene::within(&open.state, home, corners);
     found.retain(|found| found.side.is_none() && found.curve.ends().is_some());
-    let (single, sets) = scene::whole_sets(&open.state, home, &found);
-    let edges: Vec<String> = single.into_iter().chain(sets).collect();
+    let edges: Vec<String> = found.into_iter().map(|found| found.text).collect();
     if edges.is_empty() {
         return Err(words::refuse("no line and no arc lies in that rectangle".into()));
     }
@@ -696,6 +696,10 @@ fn entered(open: &mut Open, host: &dyn Host, typed: &str) -> Result<Turn, Refusa
     if let Some((dialogue, slot)) = open.dialogue.as_ref().and_then(|d| Some((d, d.slot()?))) {
         let (text, wanted) =
             (typed::operand(slot, typed, dialogue.last_point.as_deref())?, slot.clone());
+        let text = match slot.kind {
+            SlotKind::Edges => edges::joined(&dialogue.edges, &text),
+            _ => text,
+        };
         let again = |open: &mut Open| {
             outcome::fits(&open.state, &home, (&text, &wanted))?;
             if let Some(asks) = &wanted.asks {

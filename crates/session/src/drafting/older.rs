@@ -37,6 +37,7 @@ impl Older {
             wants: Wants::Older { path: path.clone() },
             is_value: false,
             takes_sets: false,
+            goes_wider: false,
             ..of
         }
     }

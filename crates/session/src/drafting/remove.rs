@@ -63,6 +63,7 @@ impl Removing {
                 "{step} speaks of {of}: pick or type another object for it, or delete it too"
             ),
             takes_sets: true,
+            goes_wider: true,
             wants: Wants::Substitute { step: step.clone(), gone: of.clone() },
             ..Prompt::default()
         })

@@ -92,6 +92,7 @@ impl Loop {
                 words,
                 is_value: question.is_value,
                 takes_sets: !question.is_value,
+                goes_wider: !question.is_value,
                 wants: Wants::Recurrence(question),
                 ..Prompt::default()
             });

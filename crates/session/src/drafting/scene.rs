@@ -114,19 +114,25 @@ pub(crate) fn whole_sets(
 
 /// Returns how something that a home knows is drawn; nothing where it is no figure.
 pub(crate) fn drawing_of(state: &State, home: &Home, text: &str) -> drawing::Drawing {
-    let plain = text.trim_start_matches('-').trim_matches(['(', ')']);
+    drawing_of_all(state, home, &[text.to_string()])
+}
+
+/// Returns how several things that a home knows are drawn.
+pub(crate) fn drawing_of_all(state: &State, home: &Home, texts: &[String]) -> drawing::Drawing {
     let evaluator = state.evaluator(&state.values);
-    let elements = crate::session::parse_path(plain)
-        .and_then(|inner| {
+    let own = home.path();
+    let drawn = |text: &String| {
+        let plain = text.trim_start_matches('-').trim_matches(['(', ')']);
+        let answer = crate::session::parse_path(plain).and_then(|inner| {
             // a name is of the innermost block that has it
-            let own = home.path();
             (0..=own.0.len()).rev().find_map(|n| {
                 let outer = kernel::Path(own.0[..n].to_vec());
                 evaluator.at(&inner.0.iter().fold(outer, |at, s| at.then(s.clone()))).ok()
             })
-        })
-        .map(|answer| elements_of(&evaluator, &answer))
-        .unwrap_or_default();
+        });
+        answer.map(|answer| elements_of(&evaluator, &answer)).unwrap_or_default()
+    };
+    let elements = texts.iter().flat_map(drawn).collect();
     drawing::Drawing { elements, ..drawing::Drawing::default() }
 }
 

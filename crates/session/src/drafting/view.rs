@@ -34,6 +34,8 @@ pub struct Prompt {
     pub is_value: bool,
     /// Whether a pick may mean the turn of what is picked, or the whole loop.
     pub takes_sets: bool,
+    /// Whether there is more that a pick may mean: what it is in, or the edge that comes from it.
+    pub goes_wider: bool,
     /// Whether what is made is drawn for construction alone.
     pub is_guide: bool,
     /// What kind of answer is wanted.

@@ -550,10 +550,14 @@ fn a_step_speaks_of_the_edge_of_a_union_by_what_it_comes_from() {
     assert_eq!(desk.wrong(), [], "{}", desk.text());
     // the line lies under its edge: Tab goes on to that
     let pointer = Pointer { at: (20.0, 20.0), reach: 0.4, ..Pointer::default() };
-    desk.session.begin(desk.id, "Axis.perpendicular(to,through)").expect("there are axes");
+    let prompt = desk.session.begin(desk.id, "Axis.perpendicular(to,through)");
+    assert!(prompt.expect("there are axes").goes_wider);
     desk.session.pick_wider(desk.id);
     desk.session.point(desk.id, &pointer).expect("an edge lies there");
     desk.session.enter(desk.id, "0, 0").expect("a place");
+    let between = "Line.edge(of: region, from: line3, nth: 0.5).length";
+    let why = desk.session.compute(desk.id, between).why.expect("there is no such edge");
+    assert!(why.contains("none has the number 0.5"), "{why}");
     let edge = "Line.edge(of: region, from: line3)";
     assert!(desk.text().contains(edge), "{}", desk.text());
     assert_eq!(desk.wrong(), [], "{}", desk.text());
@@ -567,6 +571,40 @@ fn a_step_speaks_of_the_edge_of_a_union_by_what_it_comes_from() {
     let said = desk.session.text(desk.id).diagnostics;
     let is_it = |said: &str| said.contains("none of its edges comes from there");
     assert!(said.iter().any(|d| is_it(&d.message)), "{said:?}");
+}
+
+#[test]
+fn edges_that_are_typed_join_those_that_were_picked() {
+    let mut desk = half_disc();
+    draw(&mut desk, "Line", &[Typed("-r, 0"), Typed("0, -r")]);
+    draw(&mut desk, "Line", &[Typed("0, -r"), Typed("r, 0")]);
+    desk.session.begin(desk.id, "Contour.along(edges)").expect("there are contours");
+    let pointer = Pointer { at: (-15.0, 0.0), reach: 0.4, ..Pointer::default() };
+    desk.session.point(desk.id, &pointer).expect("an edge lies there");
+    let made = desk.session.enter(desk.id, "arc").expect("it closes");
+    assert!(matches!(made, Turn::Made { .. }), "{made:?}");
+    assert_eq!(desk.wrong(), [], "{}", desk.text());
+}
+
+#[test]
+fn a_contour_is_made_of_edges_and_of_sets_of_edges() {
+    let lines = "a = Line(Point(0, 0), Point(10, 0))
+    m = [Line(Point(10, 0), Point(10, 10)), Line(Point(10, 10), Point(0, 10)), Line(Point(0, 10), Point(0, 0))]";
+    let of = |more: &str| {
+        format!("use drafting\nuse contours\n\nprogram Box {{\n    {lines}\n{more}}}\n\nbox: Box\n")
+    };
+    for edges in ["[a, m]", "[m, a]", "[[a], m]"] {
+        let desk =
+            Desk::of(&of(&format!("    c = Contour.along(edges: {edges})\n    v = c.area / 1\n")));
+        assert_eq!(desk.wrong(), [], "{edges}");
+        assert_eq!(value_of(&desk, "box.v").abs(), 100.0, "{edges}");
+    }
+    // by picks the set is spoken of as a whole
+    let mut desk = Desk::of(&of(""));
+    desk.session.record(desk.id, "Box").expect("it is there");
+    draw(&mut desk, "Contour.along(edges)", &[At(5.0, 0.0)]);
+    assert!(desk.text().contains("Contour.along(edges: [a, m])"), "{}", desk.text());
+    assert_eq!(desk.wrong(), [], "{}", desk.text());
 }
 
 fn value_of(desk: &Desk, path: &str) -> f64 {

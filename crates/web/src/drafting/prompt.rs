@@ -40,7 +40,7 @@ pub fn PromptLine(
     let is_drawn = move || of(&|p| !p.tool.is_empty());
     let is_value = move || of(&|p| p.is_value);
     let is_typed = move || of(&|p| !matches!(p.wants, Wants::Otherwise | Wants::Older { .. }));
-    let takes_sets = Memo::new(move |_| of(&|p| p.takes_sets));
+    let goes_wider = Memo::new(move |_| of(&|p| p.goes_wider));
     let key = move |e: leptos::ev::KeyboardEvent| match e.key().as_str() {
         "Escape" => {
             e.prevent_default();
@@ -50,7 +50,7 @@ pub fn PromptLine(
         // the keyboard goes on where nothing is under the pointer
         "Tab"
             if !e.shift_key()
-                && takes_sets.get_untracked()
+                && goes_wider.get_untracked()
                 && drafting.finds.with_untracked(Option::is_some) =>
         {
             e.prevent_default();
@@ -81,7 +81,7 @@ pub fn PromptLine(
                         on:click=move |_| drafting.calculator.update(|open| *open = !*open)>{words::CALCULATOR}</button>
                 </Show>
                 <Answers lab=lab />
-                <Show when=move || takes_sets.get()>
+                <Show when=move || goes_wider.get()>
                     <button type="button" data-draft="wider" on:click=move |_| lab.draft_wider()>{words::WIDER}</button>
                 </Show>
                 <Show when=is_drawn>
