@@ -316,6 +316,15 @@ fn counts_that_a_check_sets_one_after_the_other_are_kept_apart() {
 #[test]
 fn what_is_long_costs_as_much_as_it_is_long() {
     assert_as_said(vec![
+        (
+            "names of a body that are given each other",
+            format!(
+                "class C {{ {parts} }}\n{parts}\nc: C {{ {given} }}\n",
+                parts = joined(2_000, "  ", |i| format!("p{i}: Real = {i}")),
+                given = joined(1_999, "  ", |i| format!("p{i} = p{}", i + 1)),
+            ),
+            Anything,
+        ),
         ("parts", lines(5_000, |i| format!("p{i}: Real = {i}")), Holds),
         ("classes", lines(5_000, |i| format!("class C{i} {{ x: Real }}")), Holds),
         (

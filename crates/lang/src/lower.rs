@@ -18,6 +18,7 @@ use crate::loops::Repeated;
 use crate::members::{Definition, Pending};
 use crate::mentions::Mention;
 use crate::origins::Origins;
+use crate::outwards::Told;
 use crate::placed::PlacedClasses;
 use crate::programs::Programs;
 use crate::references::References;
@@ -255,6 +256,8 @@ pub(crate) struct Lowerer<'l> {
     pub(crate) object: ClassId,
     /// Members whose expressions are still to be lowered.
     pub(crate) pending: Vec<Pending>,
+    /// What bodies say of the names of their things, by the text and the first byte.
+    pub(crate) told: BTreeMap<(FileId, u32), Rc<Told>>,
     /// Definitions of messages, by class and name, with the scope they stand in.
     pub(crate) definitions: BTreeMap<(ClassId, Name), Definition>,
     /// What messages are worth, once known; nothing while it is being found out.
@@ -367,6 +370,7 @@ impl<'l> Lowerer<'l> {
             depth: 0,
             object: ClassId(0),
             pending: Vec::new(),
+            told: BTreeMap::new(),
             definitions: BTreeMap::new(),
             message_kinds: BTreeMap::new(),
             parts: ByName::default(),

@@ -2,7 +2,7 @@
 
 use crate::kinds::Kind;
 use crate::lower::OWN;
-use crate::outwards::{head, speaks_of, word_of};
+use crate::outwards::{Fits, Told, word_of};
 use crate::uses::{Text, binds};
 use base::{Name, Span};
 use kernel::{ClassId, Path, Step};
@@ -37,10 +37,12 @@ impl Text<'_> {
         if all.is_empty() || !all.iter().all(may_be_carried) {
             return None;
         }
+        let told = Told::of(file.syntax());
+        let above = target.0.len() - rest.0.len();
         let outwards: Vec<(Span, Name)> = all
             .iter()
             .filter_map(|m| match m {
-                Member::Assign(assign) => self.looked_for_outwards(assign, class),
+                Member::Assign(assign) => self.looked_for_outwards(&told, assign, target, class),
                 _ => None,
             })
             .collect();
@@ -52,7 +54,11 @@ impl Text<'_> {
                 *outer == name && (value.start..value.end).contains(&e.span().start)
             });
             let owner = match is_outwards {
-                true => self.nearest_around(target, rest, &name)?,
+                true => {
+                    // what says the members, and what is around it, needs no path
+                    let between = self.nearest_around(target, &name)?.checked_sub(above)?;
+                    Path(rest.0.get(..between).filter(|way| !way.is_empty())?.to_vec())
+                }
                 false => rest.clone(),
             };
             let span = Span::new(e.span().start, e.span().start);
@@ -64,28 +70,42 @@ impl Text<'_> {
         Some(edit::apply(members, &edits))
     }
 
-    /// Returns the name that the value of a member looks for further out, and where the value stands. A part is never
-    /// given itself, `emf = emf`, nor a part of its own that it cannot be, `a.node = a`.
-    fn looked_for_outwards(&self, assign: &Assign, class: ClassId) -> Option<(Span, Name)> {
-        let (target, value) = (assign.target()?, assign.value()?.expr()?);
-        if let Some(name) = word_of(&target).filter(|name| speaks_of(&value, name)) {
-            return Some((value.span(), name));
-        }
-        let name = head(&value)?;
-        let document = &self.lowered.document;
-        let [wanted, found] = [&target, &value].map(|e| {
-            let class = self.lowered.class_at(class, &steps(e)?)?;
-            Some(Kind::of_class(document, class))
-        });
-        (!found?.fits(&wanted?, document)).then(|| (value.span(), name))
+    /// Returns the name that the value of a member looks for further out, and where the value stands.
+    fn looked_for_outwards(
+        &self,
+        told: &Told,
+        assign: &Assign,
+        target: &Path,
+        class: ClassId,
+    ) -> Option<(Span, Name)> {
+        let (given, value) = (assign.target()?, assign.value()?.expr()?);
+        let around = |name: &Name| {
+            self.class_at(&Path(target.0[..self.nearest_around(target, name)?].to_vec()))
+        };
+        let is_further_out = |name: &Name| self.knows(class, name) && around(name).is_some();
+        let fits = |name: &Name| {
+            let document = &self.lowered.document;
+            let kind_in = |class: ClassId, e: &Expr| {
+                let class = self.lowered.class_at(class, &steps(e)?)?;
+                Some(Kind::of_class(document, class))
+            };
+            let wanted = kind_in(class, &given)?;
+            let can_be = |found: Kind| found.fits(&wanted, document);
+            // what messages answer is not known here
+            let own = kind_in(class, &value).is_some_and(can_be);
+            let outer = kind_in(around(name)?, &value).is_none_or(can_be);
+            Some(Fits { own, outer, is_thing: matches!(wanted, Kind::Thing(_)) })
+        };
+        let reading = told.reading(word_of(&given).as_ref(), &value, is_further_out);
+        Some((value.span(), reading.outer(fits)?))
     }
 
-    /// Returns the nearest of the things between a part and what says its members that knows a name, from there;
-    /// nothing where none does.
-    fn nearest_around(&self, target: &Path, rest: &Path, name: &Name) -> Option<Path> {
-        let above = target.0.len() - rest.0.len();
-        (1..rest.0.len()).rev().map(|n| Path(rest.0[..n].to_vec())).find(|between| {
-            let class = self.class_at(&Path(target.0[..above + between.0.len()].to_vec()));
+    /// Returns how many steps of a part's path lead to the nearest thing around it that knows a name; nothing where none
+    /// does. The things of a class see nothing around them.
+    fn nearest_around(&self, target: &Path, name: &Name) -> Option<usize> {
+        let outermost = usize::from(self.prototype(target).is_some());
+        (outermost..target.0.len()).rev().find(|&steps| {
+            let class = self.class_at(&Path(target.0[..steps].to_vec()));
             class.is_some_and(|class| self.knows(class, name))
         })
     }
