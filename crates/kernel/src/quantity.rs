@@ -137,6 +137,9 @@ pub fn spelling_for(x: f64, quantity: Quantity<'_>, document: &Document) -> Stri
     if let Some(spelling) = usual(class, dimension, document, size) {
         return spelling;
     }
+    if let Some(litres) = in_litres(class, dimension, document, size) {
+        return litres.into();
+    }
     if is_of_the_sheet(dimension) {
         return of_the_sheet(dimension, document, size);
     }
@@ -319,6 +322,23 @@ fn of_the_sheet(
     if shown == 0.0 || (least..1e5).contains(&shown) { own.into() } else { prefixed("m", size) }
 }
 
+/// Returns litres for what fills bottles and tanks: volumes and their flows from one litre up to a tenth of a cubic metre.
+/// Nobody counts a section modulus in them.
+fn in_litres(
+    class: &str,
+    dimension: Dimension,
+    document: &Document,
+    size: impl Fn(&str) -> f64,
+) -> Option<&'static str> {
+    let (litres, cubic) = match dimension {
+        Dimension::VOLUME if document.unit.is_none() && document.writes_lengths => ("L", "m^3"),
+        Dimension::VOLUME_FLOW => ("L/s", "m^3/s"),
+        _ => return None,
+    };
+    let is_of_volumes = matches!(class, "" | "Volume" | "VolumeFlow");
+    (is_of_volumes && size(litres) >= 1.0 && size(cubic) < 0.1).then_some(litres)
+}
+
 /// Returns the power of the largest unit of length with which a number is not below a tenth, and `rest` behind it.
 fn raised(power: i8, rest: &str, size: impl Fn(&str) -> f64) -> String {
     let spelling = |unit: &str| format!("{unit}^{power}{rest}");
@@ -326,11 +346,6 @@ fn raised(power: i8, rest: &str, size: impl Fn(&str) -> f64) -> String {
         return spelling("m");
     }
     let reads = |spelling: &String| size(spelling) >= 0.1;
-    // what fills bottles and tanks is counted in litres
-    let litres = format!("L{rest}");
-    if power == 3 && !reads(&spelling("m")) && size(&litres) >= 1.0 {
-        return litres;
-    }
     let mut spellings = ["km", "m", "cm", "mm"].map(spelling).into_iter();
     spellings.find(reads).unwrap_or_else(|| spelling("mm"))
 }

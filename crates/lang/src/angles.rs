@@ -1,7 +1,8 @@
 //! Angles among plain numbers: what is computed of angles is one, and is shown in degrees.
 //!
 //! In: what a message without a class answers. Out: whether it is an angle. `30 deg`, `atan2(y, x)`, what is declared
-//! as an `Angle`, their sums and differences, and what is so many times as large.
+//! as an `Angle`, their sums and differences, and what is so many times as large. A factor that speaks of `pi`
+//! turns radians into something else: `a * 180 / pi` is a plain number.
 
 use crate::kinds::Kind;
 use crate::lower::{Lowerer, OWN};
@@ -25,19 +26,25 @@ const DEEPEST: usize = 64;
 pub(crate) const ANGLE: &str = "Angle";
 
 impl Lowerer<'_> {
-    /// Warns of `sin(30)`: more than a whole turn without a unit, where degrees were perhaps meant.
+    /// Warns of `sin(30)` and `sin(-30)`: more than a whole turn without a unit, where degrees were perhaps meant.
     pub(crate) fn warn_of_degrees(&mut self, scope: &Scope, call: &CallExpr) {
         let Some(word) = call.name().filter(|w| matches!(w.text(), "sin" | "cos" | "tan")) else {
             return;
         };
-        let angle = call.args().and_then(|args| args.args().next()?.value());
+        let Some(written) = call.args().and_then(|args| args.args().next()?.value()) else {
+            return;
+        };
+        let angle = match &written {
+            Expr::Unary(unary) if unary.op() == Some(UnaryOp::Negate) => unary.operand(),
+            other => Some(other.clone()),
+        };
         let Some(Expr::Number(angle)) = angle else { return };
         let is_meant = angle.unit().is_some() || angle.value().is_none_or(|x| x <= TURN);
         if is_meant || scope.file != OWN || self.silent > 0 {
             return;
         }
-        let place = Place { file: scope.file, span: angle.span() };
-        let number = angle.syntax().text().to_string();
+        let place = Place { file: scope.file, span: written.span() };
+        let number = written.syntax().text().to_string();
         let message = format!("{number} is an angle in radians here");
         let degrees = format!("{number} deg");
         let d = Diagnostic::warning("bare-angle", place, message);
@@ -47,6 +54,7 @@ impl Lowerer<'_> {
         );
         self.report(d.hint(hint).fix(format!("write {degrees}"), [(place, degrees)]));
     }
+
     /// Returns true for an expression whose value is an angle.
     pub(crate) fn is_angle(&mut self, scope: &Scope, e: &Expr) -> bool {
         self.is_angle_within(scope, e, DEEPEST)
@@ -84,10 +92,13 @@ impl Lowerer<'_> {
             }
             Expr::Binary(binary) => {
                 let (left, right) = (of(binary.left()), of(binary.right()));
+                let by = |e: Option<Expr>| e.is_some_and(|e| is_factor(&e));
                 match binary.op() {
                     Some(BinaryOp::Add | BinaryOp::Subtract) => left || right,
-                    Some(BinaryOp::Multiply) => left != right,
-                    Some(BinaryOp::Divide) => left && !right,
+                    Some(BinaryOp::Multiply) => {
+                        left && !right && by(binary.right()) || right && !left && by(binary.left())
+                    }
+                    Some(BinaryOp::Divide) => left && !right && by(binary.right()),
                     Some(BinaryOp::Remainder) => left,
                     _ => false,
                 }
@@ -104,22 +115,32 @@ impl Lowerer<'_> {
                                 arg.value().is_some_and(|e| self.is_angle_within(scope, &e, depth))
                             })
                     }
-                    _ => self.is_declared_angle(scope, e),
+                    _ => self.is_declared_as(scope, e, ANGLE),
                 }
             }
-            Expr::Name(_) | Expr::Field(_) | Expr::Index(_) => self.is_declared_angle(scope, e),
+            Expr::Name(_) | Expr::Field(_) | Expr::Index(_) => self.is_declared_as(scope, e, ANGLE),
             _ => false,
         }
     }
 
-    /// Returns true for what is declared as an angle, or answers one.
-    fn is_declared_angle(&mut self, scope: &Scope, e: &Expr) -> bool {
+    /// Returns true for what is declared as a class of the language, or answers one.
+    fn is_declared_as(&mut self, scope: &Scope, e: &Expr, class: &str) -> bool {
         let references = self.references.take();
         self.silent += 1;
         let found = self.expr(scope, e);
         self.silent -= 1;
         self.references = references;
-        let class = found.and_then(|(term, _)| self.declared_class(scope, &term));
-        class.is_some() && class == self.visible.of_language(ANGLE)
+        let found = found.and_then(|(term, _)| self.declared_class(scope, &term));
+        found.is_some() && found == self.visible.of_language(class)
     }
+}
+
+/// Returns true for what an angle stays one by, so many times as large: it has no unit, and does not speak of `pi`.
+fn is_factor(e: &Expr) -> bool {
+    let mut parts = e.syntax().descendants().filter_map(Expr::cast);
+    !parts.any(|part| match part {
+        Expr::Number(number) => number.unit().is_some(),
+        Expr::Name(name) => name.name().is_some_and(|word| word.text() == "pi"),
+        _ => false,
+    })
 }
