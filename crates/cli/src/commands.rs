@@ -90,8 +90,8 @@ pub(crate) fn check(
         }
         let found = json!({
             "path": path,
-            "diagnostics": diagnostics,
-            "problems": problems,
+            "diagnostics": in_files(&path, diagnostics),
+            "problems": in_files(&path, problems),
             "lessons": lessons,
             "status": status,
         });
@@ -105,6 +105,16 @@ pub(crate) fn check(
         words,
         &json!({ "files": files, "errors": errors, "warnings": warnings }),
     ))
+}
+
+/// Gives what is said of a document's own text the path by which it was asked for.
+fn in_files(path: &Path, mut diagnostics: Vec<DiagnosticView>) -> Vec<DiagnosticView> {
+    let own = path.display().to_string();
+    for d in &mut diagnostics {
+        let files = d.labels.iter_mut().map(|label| &mut label.file).chain([&mut d.file]);
+        files.filter(|file| file.is_empty()).for_each(|file| file.clone_from(&own));
+    }
+    diagnostics
 }
 
 /// Returns a number of things of a kind in words: `1 file`, `0 files`.
@@ -186,6 +196,7 @@ pub(crate) fn test(arguments: &[PathBuf], which: Checks, form: Form) -> Result<R
             words.push_str(&show_check(&path, check, which));
         }
         failed += usize::from(!broken.is_empty());
+        let diagnostics = in_files(&path, diagnostics);
         files.push(json!({ "path": path, "checks": checks, "diagnostics": diagnostics }));
     }
     let _ = writeln!(words, "{passed} passed, {failed} failed");
@@ -270,7 +281,7 @@ pub(crate) fn run(path: &Path, which: Rows, form: Form) -> Result<Report, OpenEr
             "values": rows,
             "arbitrary": arbitrary,
             "status": status,
-            "diagnostics": diagnostics,
+            "diagnostics": in_files(path, diagnostics.clone()),
         })
     };
     Ok(match form {

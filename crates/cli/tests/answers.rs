@@ -20,6 +20,19 @@ fn what_is_not_there_cannot_be_explained() {
 }
 
 #[test]
+fn what_is_said_names_the_file_as_it_was_asked_for() {
+    let text = "x: Real = 1 m\n";
+    for command in ["check", "test", "run"] {
+        let told = asked(&format!("file-of-{command}"), text, command, &["--json"]);
+        let told: serde_json::Value = serde_json::from_slice(&told.stdout).expect("it is JSON");
+        let of_file = if told["files"].is_array() { &told["files"][0] } else { &told };
+        let path = &of_file["path"];
+        assert!(path.as_str().is_some_and(|path| !path.is_empty()), "{told}");
+        assert_eq!(&of_file["diagnostics"][0]["file"], path, "{command}");
+    }
+}
+
+#[test]
 fn a_picture_without_end_is_no_empty_drawing() {
     let endless =
         "class Leaf { size: Real = 3  picture => Leaf(size: size + 1).picture }\nl: Leaf\n";
