@@ -506,7 +506,6 @@ impl Lowerer<'_> {
         if let Some(class) = self.class_meant(scope.file, &word)? {
             return self.constructor(scope, &word, class, args);
         }
-        self.warn_of_degrees(scope, call);
         for (class, me) in owners(scope) {
             // `picture => picture(a, b)`: what takes no arguments leaves the name to the function, as does
             // `picture => picture()`, where that takes none as well
@@ -544,6 +543,7 @@ impl Lowerer<'_> {
             let to = Box::new(Term::Me);
             return Some((Term::Send { to, name, arguments, search: None }, kind));
         };
+        self.warn_of_degrees(scope, call);
         let (arguments, kind) = self.own_arguments(scope, b, call.span(), None, args)?;
         Some((Term::Call { name, arguments }, kind))
     }

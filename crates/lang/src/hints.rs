@@ -7,6 +7,7 @@ use crate::names::LONGEST_WORD;
 use crate::scope::Scope;
 use base::{Diagnostic, Name, Place, Span};
 use expr::dimension::Dimension;
+use kernel::quantity::is_of_the_sheet;
 use kernel::{Class, ClassId, Document, Message, Path};
 use syntax::ast::{self, AstNode, BinaryOp, Expr, UnaryOp};
 
@@ -212,7 +213,7 @@ impl Lowerer<'_> {
             (Kind::Number(Some(found)), Kind::Number(Some(wanted)), _)
                 if wanted.is_none() && !found.is_none() =>
             {
-                d.hint(counted(*found, value, &written))
+                d.hint(counted(&self.document, *found, value, &written))
             }
             (Kind::List(_), Kind::Thing(_), Expr::List(list)) => {
                 let items: Vec<String> =
@@ -377,8 +378,16 @@ fn fraction_of_unit(quotient: &ast::BinaryExpr, wanted: Dimension) -> Option<Str
 }
 
 /// Says how a quantity becomes a plain number, and what else it may be declared as.
-fn counted(found: Dimension, value: &Expr, written: &str) -> String {
-    let unit = expr::units::preferred(found).map_or_else(|| found.to_string(), str::to_string);
+fn counted(document: &Document, found: Dimension, value: &Expr, written: &str) -> String {
+    // a length, an area, … counts in the unit of the sheet, where that has one
+    let of_sheet = document.unit.as_ref().filter(|_| is_of_the_sheet(found));
+    let unit = match (of_sheet, found.0[0]) {
+        (Some(unit), 1) => unit.to_string(),
+        (Some(unit), power) => format!("{unit}^{power}"),
+        (None, _) => {
+            expr::units::preferred(found).map_or_else(|| found.to_string(), str::to_string)
+        }
+    };
     let written = match value {
         Expr::Binary(_) | Expr::If(_) | Expr::Let(_) => format!("({written})"),
         _ => written.to_string(),

@@ -191,9 +191,11 @@ impl Lowerer<'_> {
                 None => format!("it is a class: `{name}(…)` makes a thing of it"),
             });
         } else if let Some(power) = raised(word.text()) {
-            d = d
-                .hint(format!("a power is `{power}`"))
-                .fix(format!("write {power}"), [(place, power)]);
+            let hint = match unit_above(word) {
+                Some(above) => format!("the unit is `{above}/{power}`"),
+                None => format!("a power is `{power}`"),
+            };
+            d = d.hint(hint).fix(format!("write {power}"), [(place, power)]);
         } else if let Some(hint) = per_unit(word) {
             d = d.hint(hint);
         } else if let Some(hint) = crate::hints::called_otherwise(word.text()) {
@@ -301,6 +303,9 @@ impl Lowerer<'_> {
             _ => None,
         };
         d = match self.nearest(word.text(), names.iter().map(String::as_str)) {
+            _ if let Some(power) = raised(word.text()) => d
+                .hint(format!("a power is `{power}`"))
+                .fix(format!("write {power}"), [(place, power)]),
             _ if of_each => d.meant(&format!("map(each => each.{})", word.text())),
             _ if is_list && matches!(word.text(), "length" | "size" | "len") => d.meant("count"),
             Some(near) => d.meant(near),
@@ -508,12 +513,22 @@ pub(crate) fn class_at(document: &Document, class: ClassId, path: &Path) -> Opti
 }
 
 /// Returns a word that ends in raised digits as a power is written: `x^2` for `x²`.
-fn raised(word: &str) -> Option<String> {
+pub(crate) fn raised(word: &str) -> Option<String> {
     const DIGITS: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
     let of = word.trim_end_matches(DIGITS);
     let digits = word[of.len()..].chars().filter_map(|c| DIGITS.iter().position(|d| *d == c));
     let exponent: String = digits.map(|digit| digit.to_string()).collect();
     (!of.is_empty() && !exponent.is_empty()).then(|| format!("{of}^{exponent}"))
+}
+
+/// Returns the unit of the number that a name divides, as in `9.81 m/s²`, where the name is that of a unit raised.
+fn unit_above(word: &ast::Word) -> Option<String> {
+    expr::units::unit(&raised(word.text())?)?;
+    let quotient = ast::BinaryExpr::cast(word.token.parent()?.parent()?)?;
+    match (quotient.op(), quotient.left()?) {
+        (Some(BinaryOp::Divide), Expr::Number(number)) => Some(number.unit()?.text().to_string()),
+        _ => None,
+    }
 }
 
 /// Says how `5/s` is written where a number is divided by what is a unit and no name.

@@ -4,6 +4,7 @@
 use crate::angles::ANGLE;
 use crate::kinds::{Kind, measured};
 use crate::lower::Lowerer;
+use crate::names::raised;
 use crate::scope::Scope;
 use base::{Diagnostic, Name, Place, Span};
 use expr::dimension::Dimension;
@@ -272,6 +273,9 @@ impl Lowerer<'_> {
                 let written = format!("* {spelling}");
                 d.hint(format!("a product has its sign: `* {spelling}`")).fix(fix, [(place, written)])
             }
+            [] if let Some(power) = raised(spelling).filter(|u| expr::units::unit(u).is_some()) => d
+                .hint(format!("the unit is `{power}`"))
+                .fix(format!("write {power}"), [(place, power)]),
             [] => d.hint(
                 "known are m, s, kg, N, J, W, V, A, ohm, … with every prefix, and ft, lb, psi, …; a product has its \
                  sign, `2 * x`",

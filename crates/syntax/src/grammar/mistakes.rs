@@ -50,7 +50,7 @@ fn grouped_digits(p: &mut Parser<'_>) -> bool {
         _ => return false,
     };
     let first = step - 1;
-    if p.behind(1) != Number || !is_group(p, first) || step == 2 && !is_group(p, first + 2) {
+    if !is_first_group(p) || !is_group(p, first) || step == 2 && !is_group(p, first + 2) {
         return false;
     }
     let mut n = first;
@@ -68,6 +68,12 @@ fn grouped_digits(p: &mut Parser<'_>) -> bool {
     let span = p.span_at(at - 1).join(p.span_at(at + n));
     p.report_mistake((at - 1, at + n), said, Some((span, number)));
     true
+}
+
+/// Returns true behind what groups of three digits follow: a number of at most three digits and nothing else.
+fn is_first_group(p: &Parser<'_>) -> bool {
+    let is_of_digits = |word: &str| word.len() <= 3 && word.chars().all(|c| c.is_ascii_digit());
+    p.behind(1) == Number && is_of_digits(p.text_between(p.pos() - 1, p.pos() - 1))
 }
 
 /// `= 3, 4`, where what is given is a place or a list
@@ -166,14 +172,20 @@ fn decimal_comma(p: &mut Parser<'_>) -> bool {
         && p.is_adjacent(1);
     if is_one {
         let at = p.pos();
-        let number = format!("{}.{}", p.text_between(at - 1, at - 1), p.word(1));
-        let said = (
-            "decimal-comma",
-            format!("found `{}`, wanted a decimal point", p.text_between(at - 1, at + 1)),
-            format!("write `{number}`"),
-        );
+        let (before, after) = (p.text_between(at - 1, at - 1), p.word(1));
+        let number = format!("{before}.{after}");
+        let is_either = is_first_group(p) && after.len() == 3 && !before.starts_with('0');
+        let hint = match is_either {
+            true => {
+                format!("write `{number}` for a decimal comma, `{before}{after}` for thousands")
+            }
+            false => format!("write `{number}`"),
+        };
+        let said =
+            ("decimal-comma", format!("found `{before},{after}`, wanted a decimal point"), hint);
         let span = p.span_at(at - 1).join(p.span_at(at + 1));
-        p.report_mistake((at - 1, at + 1), said, Some((span, number)));
+        let fix = (!is_either).then_some((span, number));
+        p.report_mistake((at - 1, at + 1), said, fix);
     }
     is_one
 }
@@ -682,13 +694,20 @@ fn body_of_name(p: &mut Parser<'_>) -> bool {
     let is_one = p.at(Ident) && p.nth(1) == LBrace && !p.begins_line(1);
     if is_one {
         let (at, of) = (p.pos(), p.word(0));
-        let said = (
-            "expected-member",
-            format!("found a body after `{of}`, wanted its class before it"),
-            format!(
-                "declare it with its class, `{of}: Class {{ … }}`; what is declared gets its values one by one, `{of}.x = …`"
+        let said = match of.starts_with(char::is_uppercase) {
+            true => (
+                "expected-member",
+                format!("found a body after `{of}`, wanted a name before it"),
+                format!("a thing has a name before its class: `name: {of} {{ … }}`"),
             ),
-        );
+            false => (
+                "expected-member",
+                format!("found a body after `{of}`, wanted its class before it"),
+                format!(
+                    "declare it with its class, `{of}: Class {{ … }}`; what is declared gets its values one by one, `{of}.x = …`"
+                ),
+            ),
+        };
         p.report_mistake((at, at), said, None);
     }
     is_one
