@@ -449,6 +449,18 @@ impl Lowerer<'_> {
                     is_mixed = true;
                     self.general(known.inmost().clone(), found.inmost().clone())
                 }
+                // so are those of a set whose things are unlike
+                (false, known, found)
+                    if holds == Holds::Sets
+                        && matches!(
+                            (known.inmost(), found.inmost()),
+                            (Kind::Thing(_), Kind::Unknown) | (Kind::Unknown, Kind::Thing(_))
+                        ) =>
+                {
+                    is_mixed = true;
+                    let known = if *known.inmost() == Kind::Unknown { &found } else { &known };
+                    known.inmost().clone()
+                }
                 (false, ..) => Kind::Unknown,
             };
             if element == Kind::Unknown && kind != Kind::Unknown {
