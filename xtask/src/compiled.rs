@@ -32,8 +32,9 @@ pub(crate) struct Artifact {
     /// The file that the compiler began with.
     pub(crate) source: PathBuf,
     pub(crate) edition: String,
-    /// At more than opt-level 0.
-    pub(crate) is_optimised: bool,
+    /// Programs are linked with it, rather than build scripts and procedural macros: by these profiles in Cargo.toml,
+    /// overflows are checked in it.
+    pub(crate) is_of_programs: bool,
     /// Its tests were compiled with it.
     pub(crate) is_test: bool,
     /// The library that others are compiled with.
@@ -93,7 +94,7 @@ fn artifact(line: &str) -> Option<Artifact> {
         version: version(&text(line, "package_id")?),
         source: text(target, "src_path")?.into(),
         edition: text(target, "edition")?,
-        is_optimised: !line.contains(r#""opt_level":"0""#),
+        is_of_programs: line.contains(r#""overflow_checks":true"#),
         is_test: line.contains(r#""test":true},"features""#),
         library: files.split('"').find(library).map(|file| unescaped(file).into()),
         executable: text(line, "executable").map(PathBuf::from),

@@ -36,11 +36,11 @@ fn documented(made: &Made) -> Vec<&Artifact> {
     found.into_values().collect()
 }
 
-/// The libraries to compile with, by name. Of several it is the newest that programs are linked with: those of
-/// procedural macros are not optimised.
+/// The libraries to compile with, by name. Of several it is the newest that programs are linked with, rather than build
+/// scripts and procedural macros.
 fn libraries(made: &Made) -> BTreeMap<String, &Path> {
     let mut found: BTreeMap<String, &Artifact> = BTreeMap::new();
-    let rank = |a: &Artifact| (a.is_optimised, a.version.clone());
+    let rank = |a: &Artifact| (a.is_of_programs, a.version.clone());
     for artifact in made.artifacts.iter().filter(|a| !a.is_test && a.library.is_some()) {
         let best = found.entry(artifact.name.replace('-', "_")).or_insert(artifact);
         if rank(artifact) > rank(best) {

@@ -134,8 +134,21 @@ fn a_drawing_fits_whatever_the_units_and_says_what_it_lacks() {
 #[test]
 fn what_has_no_place_is_drawn_apart() {
     let svg = printed("draw-unplaced", DIVIDER, "draw", &[]);
-    let width = svg.split("width=\"").nth(1).and_then(|w| w.split('"').next());
-    assert!(width.and_then(|w| w.parse::<f64>().ok()).is_some_and(|w| w > 130.0), "{svg}");
+    // what the words of the three things stand at
+    let labels: Vec<(f64, f64)> = { svg.lines().filter(|line| line.starts_with("<text")) }
+        .map(|line| {
+            let number = |key: &str| {
+                let (_, rest) = line.split_once(&format!("{key}=\"")).expect("a place");
+                rest.split('"').next().and_then(|x| x.parse().ok()).expect("a number")
+            };
+            (number("x"), number("y"))
+        })
+        .collect();
+    assert_eq!(labels.len(), 3, "{svg}");
+    for (i, (x, y)) in labels.iter().enumerate() {
+        let apart = |(a, b): &(f64, f64)| base::number::hypot(a - x, b - y) > 30.0;
+        assert!(labels[..i].iter().all(apart), "{svg}");
+    }
     assert!(!svg.contains("NaN"));
 }
 

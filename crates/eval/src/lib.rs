@@ -56,7 +56,7 @@ pub use fault::{Fault, FaultKind};
 pub use given::given_values;
 pub use lookup::Known;
 pub use picture::{Grip, Picture};
-pub use programs::{Context, Ended, Entry, Standing, Why};
+pub use programs::{Context, Ended, Entry, Standing, Why, allowed_table};
 pub use replay::Measures;
 pub use scene::{Moved, Scene};
 pub use verdict::Verdict;

@@ -9,8 +9,11 @@ use crate::fault::{Fault, FaultKind};
 use crate::replay::{Asked, Measures, Row};
 use base::Name;
 use kernel::program::{Block, Carried, Program, Says, Step};
-use kernel::{Argument, BinaryOperator, ClassId, OriginId, Term, ThingId};
+use kernel::{Argument, ClassId, OriginId, Term, ThingId};
 use std::rc::Rc;
+
+mod demands;
+pub use demands::allowed_table;
 
 /// How many terms a run may evaluate, that of the programs it calls included.
 pub const MOST_OPERATIONS: u64 = 2_000_000;
@@ -420,86 +423,6 @@ impl<'a> Evaluator<'a> {
 }
 
 impl<'a> Run<'_, 'a> {
-    /// Tests what a program demands of its parameters.
-    fn demands(&self, program: &'a Program, frame: &Frame<'a>) -> std::result::Result<(), Ended> {
-        for demand in &program.demands {
-            let met = self.evaluator.truth(&demand.rule, frame);
-            if matches!(met, Ok(true)) {
-                continue;
-            }
-            let mut operands = Vec::new();
-            let refused = self.not_allowed(program, &demand.rule, frame);
-            let (rule, allowed) = refused.unwrap_or((&demand.rule, String::new()));
-            self.parameters(program, rule, frame, &mut operands);
-            return Err(Ended {
-                why: Why::Outside,
-                step: demand.name.as_ref().map_or("a demand", Name::as_str).to_string(),
-                operands,
-                is_called: false,
-                reason: met.err().map_or(allowed, |fault| fault.message),
-                origin: demand.origin,
-            });
-        }
-        Ok(())
-    }
-
-    /// Of what is allowed of parameters, finds the part that is not met, with the values that are allowed.
-    fn not_allowed(
-        &self,
-        program: &'a Program,
-        rule: &'a Term,
-        frame: &Frame<'a>,
-    ) -> Option<(&'a Term, String)> {
-        match rule {
-            Term::Binary(BinaryOperator::And, a, b) => {
-                self.not_allowed(program, a, frame).or_else(|| self.not_allowed(program, b, frame))
-            }
-            Term::Binary(BinaryOperator::In, of, values) => {
-                let Term::Send { to, name, .. } = &**of else { return None };
-                let is_asked = program.parameters.iter().any(|p| p.name == *name);
-                let is_met = matches!(self.evaluator.truth(rule, frame), Ok(true));
-                let values =
-                    self.evaluator.term(values, frame).and_then(|v| self.evaluator.items(&v));
-                let all: Vec<String> =
-                    values.ok()?.iter().map(|value| self.evaluator.text_of(value)).collect();
-                let is_it = **to == Term::Me && is_asked && !is_met;
-                is_it.then(|| (rule, format!("{name} has to be one of {}", all.join(", "))))
-            }
-            _ => None,
-        }
-    }
-
-    /// Collects the parameters that a rule speaks of, with their values.
-    fn parameters(
-        &self,
-        program: &'a Program,
-        rule: &'a Term,
-        frame: &Frame<'a>,
-        found: &mut Vec<(String, String)>,
-    ) {
-        match rule {
-            Term::Send { to, name, .. } if **to == Term::Me => {
-                let is_asked = program.parameters.iter().any(|p| p.name == *name);
-                let is_new = found.iter().all(|(known, _)| known != name.as_str());
-                if let (true, true, Ok(value)) =
-                    (is_asked, is_new, self.evaluator.term(rule, frame))
-                {
-                    found.push((name.to_string(), self.evaluator.text_of(&value)));
-                }
-            }
-            Term::Send { to, .. } => self.parameters(program, to, frame, found),
-            Term::Binary(_, a, b) => {
-                self.parameters(program, a, frame, found);
-                self.parameters(program, b, frame, found);
-            }
-            Term::Unary(_, a) => self.parameters(program, a, frame, found),
-            Term::Call { arguments, .. } => {
-                arguments.iter().for_each(|a| self.parameters(program, &a.value, frame, found));
-            }
-            _ => {}
-        }
-    }
-
     /// Does the steps of a block; what was made before a step fails stays made.
     fn steps(
         &mut self,

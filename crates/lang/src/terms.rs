@@ -440,26 +440,17 @@ impl Lowerer<'_> {
                     is_mixed = true;
                     self.general(element.clone(), kind.clone())
                 }
-                // a line and the lines of a pattern are lines
-                (false, known, found)
-                    if holds == Holds::Sets
-                        && let (Kind::Thing(_), Kind::Thing(_)) =
-                            (known.inmost(), found.inmost()) =>
-                {
+                // a line and the lines of a pattern are lines, whatever else is in a set beside them
+                (false, known, found) if holds == Holds::Sets => {
                     is_mixed = true;
-                    self.general(known.inmost().clone(), found.inmost().clone())
-                }
-                // so are those of a set whose things are unlike
-                (false, known, found)
-                    if holds == Holds::Sets
-                        && matches!(
-                            (known.inmost(), found.inmost()),
-                            (Kind::Thing(_), Kind::Unknown) | (Kind::Unknown, Kind::Thing(_))
-                        ) =>
-                {
-                    is_mixed = true;
-                    let known = if *known.inmost() == Kind::Unknown { &found } else { &known };
-                    known.inmost().clone()
+                    match (known.inmost(), found.inmost()) {
+                        (known @ Kind::Thing(_), found @ Kind::Thing(_)) => {
+                            self.general(known.clone(), found.clone())
+                        }
+                        (thing @ Kind::Thing(_), Kind::Unknown)
+                        | (Kind::Unknown, thing @ Kind::Thing(_)) => thing.clone(),
+                        _ => Kind::Unknown,
+                    }
                 }
                 (false, ..) => Kind::Unknown,
             };

@@ -441,32 +441,28 @@ impl Drag {
         /// An angle that leaps is never beyond this, in radians: half a turn and a little slack.
         const MOST: f64 = std::f64::consts::PI + 1e-6;
         let ([angle], Some(term)) = (to, &self.computed) else { return to.to_vec() };
-        let now = self.computed_now(state).and_then(|now| now.first().map(|(x, _)| *x));
-        if angle.abs().max(now.map_or(0.0, f64::abs)) > MOST {
-            if let Turning::From(_) = self.turning
-                && let Ok(press) = planner.press(
-                    state.model(),
-                    &self.values,
-                    &[Target::Term { me: DOCUMENT, term }],
-                )
-            {
-                self.press = press;
-                self.turning = Turning::Plain;
-            }
-            if let Turning::No | Turning::Plain = self.turning {
-                return to.to_vec();
-            }
+        if self.turning == Turning::No {
+            return to.to_vec();
         }
+        let now = self.computed_now(state).and_then(|now| now.first().map(|(x, _)| *x));
+        let is_beyond = angle.abs().max(now.map_or(0.0, f64::abs)) > MOST;
         let is_far = match self.turning {
-            Turning::No => return to.to_vec(),
-            Turning::Plain => angle.abs() > NEAR,
+            Turning::No | Turning::Plain => angle.abs() > NEAR,
             Turning::From(from) => within_half_a_turn(angle - from).abs() > FAR,
         };
-        if let Some(now) = now.filter(|_| is_far) {
-            let target = Target::Term { me: DOCUMENT, term: &turned_since(term, now) };
+        let turning = match now {
+            _ if is_beyond => Turning::Plain,
+            Some(now) if is_far => Turning::From(now),
+            _ => self.turning,
+        };
+        if turning != self.turning {
+            let term = match turning {
+                Turning::From(from) => turned_since(term, from),
+                Turning::No | Turning::Plain => term.clone(),
+            };
+            let target = Target::Term { me: DOCUMENT, term: &term };
             if let Ok(press) = planner.press(state.model(), &self.values, &[target]) {
-                self.press = press;
-                self.turning = Turning::From(now);
+                (self.press, self.turning) = (press, turning);
             }
         }
         match self.turning {

@@ -7,7 +7,6 @@ use crate::views;
 use base::{Diagnostic, Place};
 use expr::Dimension;
 use indexmap::IndexSet;
-use kernel::program::Allowed;
 use kernel::{
     ClassId, ClassKind, Command, ConstraintInstance, Document, Literal, Path, Primitive, Quantity,
     Shown, SlotId, Step, Structure, Term, ThingId, Value, Values,
@@ -277,9 +276,8 @@ pub(crate) fn refusal_of_status(state: &State, status: &plan::Status) -> Option<
     let unmet: Vec<Source> = unmet.map(|u| u.source).collect();
     let constraints: Vec<String> = unmet.iter().filter_map(|&u| source_name(state, u)).collect();
     let said: Vec<String> = unmet.iter().filter_map(|&u| source_in_words(state, u)).collect();
-    let sources: Vec<Source> = unmet.clone();
     let message =
-        format!("refused: {} would not hold{}", listed(&said), allowed_in_words(state, &sources));
+        format!("refused: {} would not hold{}", listed(&said), allowed_in_words(state, &unmet));
     (!status.satisfied).then(|| Refusal { message, constraints, ..Refusal::default() })
 }
 
@@ -290,19 +288,16 @@ fn allowed_in_words(state: &State, sources: &[Source]) -> String {
     let mut said = String::new();
     for source in sources {
         let Source::Constraint(index) = *source else { continue };
-        let instance = state.structure.constraints[index as usize];
-        let rule = &document.classes[instance.class].constraints[instance.index as usize];
-        let (true, Some(program)) = (rule.derived, document.program(instance.class)) else {
+        let ConstraintInstance { owner, class, index } =
+            state.structure.constraints[index as usize];
+        let rule = &document.classes[class].constraints[index as usize].rule;
+        let Some((name, values)) = document.program(class).and_then(|_| eval::allowed_table(rule))
+        else {
             continue;
         };
-        for asked in &program.parameters {
-            let Some(Allowed::OneOf(values)) = &asked.allowed else { continue };
-            let values = values.iter().filter_map(|value| {
-                let value = evaluator.evaluate(value, kernel::DOCUMENT).ok()?;
-                views::values::in_words(document, &value)
-            });
-            let values: Vec<String> = values.collect();
-            said.push_str(&format!("; {} has to be one of {}", asked.name, values.join(", ")));
+        let values = values.iter().map(|value| evaluator.evaluate(value, owner));
+        if let Ok(values) = values.collect::<Result<Vec<_>, _>>() {
+            said.push_str(&format!("; {}", evaluator.one_of_in_words(name, &values)));
         }
     }
     said

@@ -61,44 +61,30 @@ impl Lowerer<'_> {
         }
     }
 
-    /// Makes what is allowed of a program's parameters a required constraint.
+    /// Makes what is allowed of each of a program's parameters a required constraint: `d_range` of `d`.
     fn demand_ranges(&mut self, class: ClassId, parameters: &[Asked], node: &ast::Program) {
-        let within = |asked: &Asked| {
-            let me = || Box::new(Term::send(Term::Me, &asked.name));
-            match asked.allowed.clone()? {
-                Allowed::Range { least, most, is_open } => {
-                    let less = match is_open {
-                        true => BinaryOperator::Less,
-                        false => BinaryOperator::LessEqual,
-                    };
-                    let least = Term::Binary(BinaryOperator::LessEqual, Box::new(least), me());
-                    let most = Term::Binary(less, me(), Box::new(most));
-                    Some(Term::Binary(BinaryOperator::And, Box::new(least), Box::new(most)))
-                }
-                Allowed::OneOf(values) => {
-                    let values = Box::new(Term::List(values));
-                    Some(Term::Binary(BinaryOperator::In, me(), values))
-                }
-            }
-        };
-        let both = |a, b| Term::Binary(BinaryOperator::And, Box::new(a), Box::new(b));
-        let Some(rule) = parameters.iter().filter_map(within).reduce(both) else { return };
         let file = self.programs.declared[self.programs.of_class[&class]].1;
         let span = node.params().map_or(Span::default(), |p| p.span());
-        let name = Some(Name::new("range"));
-        self.constraints.insert((class, Name::new("range")));
-        let origin = self.origin(file, span);
-        self.document.classes[class].constraints.push(Constraint {
-            name,
-            doc: "What is allowed of the parameters.".into(),
-            rule,
-            strength: Strength::Required,
-            methods: Vec::new(),
-            derived: true,
-            reads: Vec::new(),
-            within: None,
-            origin,
-        });
+        for asked in parameters {
+            let Some(rule) = asked.allowed.clone().map(|allowed| within(&asked.name, allowed))
+            else {
+                continue;
+            };
+            let name = Name::new(&format!("{}_range", asked.name));
+            self.constraints.insert((class, name.clone()));
+            let origin = self.origin(file, span);
+            self.document.classes[class].constraints.push(Constraint {
+                name: Some(name),
+                doc: format!("What is allowed of {}.", asked.name).into(),
+                rule,
+                strength: Strength::Required,
+                methods: Vec::new(),
+                derived: true,
+                reads: Vec::new(),
+                within: None,
+                origin,
+            });
+        }
     }
 
     /// Lowers the members of a block, and adds the steps to it; their names become locals of the scope.
@@ -409,6 +395,22 @@ impl Lowerer<'_> {
         let lowered = self.expr(scope, &value);
         if let Some((term, found)) = lowered {
             carried.next = Some(measured(&self.document, term, &found, &kind));
+        }
+    }
+}
+
+/// The condition that a parameter has one of the values that are allowed.
+fn within(name: &Name, allowed: Allowed) -> Term {
+    let me = || Box::new(Term::send(Term::Me, name));
+    match allowed {
+        Allowed::Range { least, most, is_open } => {
+            let less = if is_open { BinaryOperator::Less } else { BinaryOperator::LessEqual };
+            let least = Term::Binary(BinaryOperator::LessEqual, Box::new(least), me());
+            let most = Term::Binary(less, me(), Box::new(most));
+            Term::Binary(BinaryOperator::And, Box::new(least), Box::new(most))
+        }
+        Allowed::OneOf(values) => {
+            Term::Binary(BinaryOperator::In, me(), Box::new(Term::List(values)))
         }
     }
 }

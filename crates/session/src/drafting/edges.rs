@@ -165,7 +165,7 @@ fn named(all: &[Found], edge: &Found) -> Option<(String, bool)> {
     let sides: Vec<_> = all.iter().filter(|f| f.text == edge.text).filter_map(|f| f.side).collect();
     let sources = all.iter().filter(|found| found.side.is_none() && !found.is_place);
     let named = sources.filter_map(|found| {
-        let edges = edges_of(&sides, &source(found)?);
+        let edges = edges_of(&sides, &found.curve.source()?);
         let at = edges.iter().position(|other| other.is_one_with(&side))?;
         Some((found, edges, at))
     });
@@ -180,9 +180,4 @@ fn named(all: &[Found], edge: &Found) -> Option<(String, bool)> {
     let nth = if edges.len() > 1 { format!(", nth: {at}") } else { String::new() };
     let text = format!("{class}.edge(of: {}, from: {}{nth})", edge.text, found.text);
     Some((text, is_reversed))
-}
-
-/// What edges can come from a figure.
-fn source(found: &Found) -> Option<Source> {
-    found.curve.source()
 }
