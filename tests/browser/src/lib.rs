@@ -1,24 +1,23 @@
 //! The lab in a real browser: [`Visit`] starts the `thinglab` command over a copy of the gallery,
-//! and headless Chromium on the page; the tests in `tests/` do there what people do.
+//! and takes headless Chromium to the page; the tests in `tests/` do there what people do.
 //!
 //! `cargo verify` builds the command, and the page in `dist/`, and names the command and the browser in the
 //! environment: `THINGLAB` and `CHROMIUM`. Without these a test fails and says so.
 
+mod chromium;
 pub mod hands;
 
-use std::io::{BufRead, BufReader, Read, Write};
-use std::net::TcpStream;
+use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::time::Duration;
 use std::{env, fs};
 
-use fantoccini::{Client, ClientBuilder, Locator};
-use hyper_util::client::legacy::connect::HttpConnector;
+use fantoccini::{Client, Locator};
 use serde_json::{Value, json};
 
-/// One browser on one server, over a folder of its own. All are gone with the value.
+/// One browser on one server, over a folder of its own. Server and folder are gone with the value.
 #[derive(Debug)]
 pub struct Visit {
     /// The browser.
@@ -26,8 +25,7 @@ pub struct Visit {
     /// The address that the server printed: it carries the token.
     pub address: String,
     // Dropped in this order: a folder is gone only after those who write into it.
-    _session: Session,
-    _driver: Process,
+    _browser: chromium::Lent,
     server: Option<Process>,
     folder: Folder,
 }
@@ -44,7 +42,7 @@ impl Drop for Process {
     }
 }
 
-/// What the server shows: a copy of the gallery, in `gallery/`; the browser's profile beside it.
+/// What the server shows: a copy of the gallery, in `gallery/`.
 #[derive(Debug)]
 struct Folder(PathBuf);
 
@@ -54,50 +52,57 @@ impl Drop for Folder {
     }
 }
 
-/// The browser's session with its driver; dropped before the driver, it closes the browser.
-#[derive(Debug)]
-struct Session {
-    port: u16,
-    name: String,
-}
-
-impl Drop for Session {
-    fn drop(&mut self) {
-        // Asked by hand, because a test that panics awaits nothing; the answer comes once the
-        // browser has ended.
-        let Ok(mut driver) = TcpStream::connect(("127.0.0.1", self.port)) else { return };
-        let Session { port, name } = self;
-        let ask = format!("DELETE /session/{name} HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\n\r\n");
-        let _ = driver.set_read_timeout(Some(Duration::from_secs(5)));
-        let _ = driver.write_all(ask.as_bytes());
-        let _ = driver.read(&mut [0; 64]);
-    }
-}
+/// A document that nobody has saved.
+const EMPTY: &str = "empty.thing";
 
 impl Visit {
-    /// Opens the lab on a document of the gallery (`quadrilateral.thing`), or on the gallery itself.
+    /// Opens the lab on a document of the gallery (`quadrilateral.thing`), or on the gallery itself, which opens all
+    /// that lies there.
     ///
     /// # Panics
     /// Where the server, the driver or the browser does not start: then there is nothing to test.
     pub async fn open(document: Option<&str>) -> Visit {
+        let visit = Visit::prepare(document).await;
+        visit.client.goto(&visit.address).await.expect("the page's address answers");
+        visit
+    }
+
+    /// Opens the lab on a document that does not exist yet, by its path.
+    ///
+    /// # Panics
+    /// As [`Visit::open`].
+    pub async fn open_new(path: &str) -> Visit {
+        let visit = Visit::prepare(None).await;
+        visit.go_to(path).await;
+        visit
+    }
+
+    /// Goes to the lab on a document, by its path.
+    async fn go_to(&self, path: &str) {
+        let there = self.address.replace("/#", &format!("/?document={path}#"));
+        self.client.goto(&there).await.expect("the page's address answers");
+    }
+
+    /// Opens the lab on an empty sheet, for what is to be shown there.
+    ///
+    /// # Panics
+    /// As [`Visit::open`].
+    pub async fn open_empty() -> Visit {
+        Visit::open_new(EMPTY).await
+    }
+
+    /// Starts the server, and takes a browser to it that has kept nothing but the first minute.
+    async fn prepare(document: Option<&str>) -> Visit {
         let folder = copy_of_the_gallery();
         let (server, address) = serve(&folder, document);
-        let (driver, port) = start_driver();
-        let client = ClientBuilder::new(HttpConnector::new())
-            .capabilities(capabilities(&folder.0))
-            .connect(&format!("http://127.0.0.1:{port}"))
-            .await
-            .expect("chromedriver opens Chromium");
-        let name = client.session_id().await.ok().flatten().expect("an open session has a name");
-        // whoever comes here has had the first minute
-        let beside = address.replace("/#", "/favicon.svg#");
-        client.goto(&beside).await.expect("the server answers");
-        let over = "localStorage.setItem('thinglab/first-minute', 'over')";
+        let (client, browser) = chromium::take().await;
+        let (origin, _) = address.split_once(['?', '#']).expect("an address with its token");
+        client.goto(&format!("{origin}favicon.svg")).await.expect("the server answers");
+        // another visit may have had the address; whoever comes here has had the first minute
+        let over = "localStorage.clear(); sessionStorage.clear(); \
+                    localStorage.setItem('thinglab/first-minute', 'over')";
         client.execute(over, Vec::new()).await.expect("the browser keeps it");
-        client.goto(&address).await.expect("the page's address answers");
-        let session = Session { port, name };
-        let server = Some(server);
-        Visit { client, address, _session: session, _driver: driver, server, folder }
+        Visit { client, address, _browser: browser, server: Some(server), folder }
     }
 
     /// Kills the server in the midst of whatever it does, and starts another over the same folder; the page stays.
@@ -110,13 +115,13 @@ impl Visit {
         (self.server, self.address) = (Some(server), address);
     }
 
-    /// Leaves the page at once, asked or not, and comes to the lab again.
+    /// Leaves the page at once, asked or not, and comes to the lab again, on an empty sheet.
     ///
     /// # Panics
     /// Where the browser does not go there.
     pub async fn leave_and_return(&self) {
         self.client.goto("about:blank").await.expect("an empty page");
-        self.client.goto(&self.address).await.expect("the page's address answers");
+        self.go_to(EMPTY).await;
     }
 
     /// Runs a script in the page and gives what it returns.
@@ -166,7 +171,10 @@ impl Visit {
         let centre = self.client.find(Locator::Css(".centre")).await.expect("the picture's panel");
         let image = centre.screenshot().await.expect("the browser takes a picture");
         fs::write(folder.join(format!("{name}.png")), image).expect("it is written");
-        self.client.set_window_size(1400, 900).await.expect("the window as it was");
+        self.client
+            .set_window_size(chromium::SIZE.0, chromium::SIZE.1)
+            .await
+            .expect("the window as it was");
         tokio::time::sleep(Duration::from_millis(300)).await;
     }
 
@@ -225,16 +233,6 @@ fn serve(folder: &Folder, document: Option<&str>) -> (Process, String) {
     (server, format!("http://{}", line.split_once("http://").expect("an address").1))
 }
 
-/// Starts chromedriver and gives its port. It takes a port that is free for one kind of address and
-/// ends where another program has it for the other kind: then it is asked again.
-fn start_driver() -> (Process, u16) {
-    let mark = "started successfully on port ";
-    let started = (0..5).find_map(|_| start(Command::new("chromedriver").arg("--port=0"), mark));
-    let (driver, line) = started.expect("chromedriver says that it runs");
-    let port = line.rsplit(' ').next().and_then(|word| word.trim_end_matches('.').parse().ok());
-    (driver, port.expect("chromedriver names its port"))
-}
-
 /// Starts a program and waits for the line of its output that holds a mark; gives that line, or
 /// nothing where the program ended without it.
 fn start(command: &mut Command, mark: &str) -> Option<(Process, String)> {
@@ -262,33 +260,4 @@ fn copy_of_the_gallery() -> Folder {
         fs::copy(&path, gallery.join(name)).expect("a copy");
     }
     folder
-}
-
-fn capabilities(folder: &Path) -> serde_json::Map<String, Value> {
-    let profile = format!("--user-data-dir={}", folder.join(".profile").display());
-    let arguments = [
-        "--headless=new",
-        "--no-sandbox",
-        "--disable-gpu",
-        "--disable-gpu-rasterization",
-        "--disable-software-rasterizer",
-        "--disable-dev-shm-usage",
-        "--no-first-run",
-        "--disable-background-networking",
-        "--disable-component-update",
-        "--disable-sync",
-        "--window-size=1400,900",
-        &profile,
-    ];
-    let wanted = json!({
-        "browserName": "chrome",
-        "goog:chromeOptions": { "binary": named("CHROMIUM"), "args": arguments },
-        "goog:loggingPrefs": { "browser": "ALL" },
-    });
-    match wanted {
-        Value::Object(map) => map,
-        Value::Null | Value::Bool(_) | Value::Number(_) | Value::String(_) | Value::Array(_) => {
-            unreachable!("written as an object")
-        }
-    }
 }

@@ -147,7 +147,7 @@ async fn first_ring(visit: &Visit) {
 
 #[tokio::test]
 async fn figure_7_6_is_drawn_as_its_chapter_tells() {
-    let visit = Visit::open(None).await;
+    let visit = Visit::open_empty().await;
     first_ring(&visit).await;
     press(&visit, "[data-draft='until']").await;
     // the horizontal becomes the first circle, the vertical stays, the radius becomes half of the circle's
@@ -190,7 +190,7 @@ async fn figure_7_6_is_drawn_as_its_chapter_tells() {
 
 #[tokio::test]
 async fn a_wrong_step_is_found_by_what_it_drew_and_replaced() {
-    let visit = Visit::open(None).await;
+    let visit = Visit::open_empty().await;
     first_ring(&visit).await;
     press(&visit, "[data-draft='times']").await;
     asked(&visit, "was axis:").await;

@@ -34,7 +34,7 @@ async fn go_to(visit: &Visit, (line, column): (usize, usize)) {
 
 #[tokio::test]
 async fn the_text_is_read_and_mended_by_the_keys_that_editors_have() {
-    let visit = Visit::open(None).await;
+    let visit = Visit::open_empty().await;
     visit.put("strut.thing", STRUT);
     show(&visit, "strut.thing").await;
     chord(&visit, &[key::ALT], '4').await;

@@ -203,7 +203,7 @@ async fn a_circuit_is_wired_from_the_bin_and_its_meter_read() {
 
 #[tokio::test]
 async fn terminals_joined_in_the_picture_carry_a_current() {
-    let visit = Visit::open(None).await;
+    let visit = Visit::open_empty().await;
     visit.until("document.querySelector('main')").await;
     visit.put(
         "loose.thing",
@@ -235,7 +235,7 @@ async fn terminals_joined_in_the_picture_carry_a_current() {
 
 #[tokio::test]
 async fn a_corner_dropped_on_another_is_joined_in_one_step_and_alt_leaves_it() {
-    let visit = Visit::open(None).await;
+    let visit = Visit::open_empty().await;
     visit.until("document.querySelector('main')").await;
     visit.put(
         "two.thing",
@@ -258,7 +258,7 @@ async fn a_corner_dropped_on_another_is_joined_in_one_step_and_alt_leaves_it() {
 
 #[tokio::test]
 async fn the_right_button_opens_a_menu_and_lines_are_made_parallel() {
-    let visit = Visit::open(None).await;
+    let visit = Visit::open_empty().await;
     visit.until("document.querySelector('main')").await;
     visit.put(
         "two.thing",
@@ -287,7 +287,7 @@ async fn the_right_button_opens_a_menu_and_lines_are_made_parallel() {
 
 #[tokio::test]
 async fn selecting_a_corner_on_a_phone_leaves_the_picture_where_it_is() {
-    let visit = Visit::open(None).await;
+    let visit = Visit::open_empty().await;
     visit.client.set_window_size(500, 844).await.expect("a narrow window");
     visit.until("document.querySelector('main')").await;
     visit.script("location.hash = '#/gallery/quadrilateral.thing'").await;
@@ -332,8 +332,16 @@ async fn a_card_opened_in_a_tab_of_its_own_is_not_refused() {
 
 #[tokio::test]
 async fn a_document_that_does_not_exist_yet_is_begun() {
+    // from the gallery, by its keys
     let visit = Visit::open(None).await;
-    visit.until("document.querySelector('main')").await;
+    visit.until("document.querySelector('.card')").await;
+    visit.script("document.querySelector('.file').focus()").await;
+    chord(&visit, &[], ENTER).await;
+    visit.until("document.activeElement.dataset.action === 'new'").await;
+    chord(&visit, &[], ENTER).await;
+    visit.until("window.__thinglab.state().path === 'untitled.thing'").await;
+    visit.until("document.getElementById('picture').width > 10").await;
+    // by its address
     visit.script("location.hash = '#/fresh.thing'").await;
     visit.until("window.__thinglab.state().path === 'fresh.thing'").await;
     chord(&visit, &[CONTROL], 's').await;
@@ -343,7 +351,7 @@ async fn a_document_that_does_not_exist_yet_is_begun() {
 
 #[tokio::test]
 async fn a_slider_follows_the_pointer_to_where_it_lets_go() {
-    let visit = Visit::open(None).await;
+    let visit = Visit::open_empty().await;
     let before = show(&visit, "voltage-divider.thing").await;
     let slider = "input[aria-label=\"r2.resistance, slider\"]";
     let value = format!("Number(document.querySelector('{slider}').value)");

@@ -6,7 +6,7 @@ use browser::hands::{chord, drag, grip, key, keys, show, state, text_of, use_lib
 
 #[tokio::test]
 async fn a_conflict_is_explained_and_repaired_by_a_button() {
-    let visit = Visit::open(None).await;
+    let visit = Visit::open_empty().await;
     visit.put("clash.thing", "a: Real = 3\nconstraint one: a = 3\nconstraint two: a = 4\n");
     show(&visit, "clash.thing").await;
     assert_eq!(state(&visit).await["status"]["satisfied"], false);
@@ -54,7 +54,7 @@ fn lattice(side: usize) -> String {
 
 #[tokio::test]
 async fn the_inspector_shows_switches_and_sliders_of_the_document() {
-    let visit = Visit::open(None).await;
+    let visit = Visit::open_empty().await;
     visit.put("sum.thing", "a: Real = 3\nb: Real = 4\nc: Real\nconstraint sum: c = a + b\n");
     show(&visit, "sum.thing").await;
     visit.until("document.querySelectorAll('.inspector .slider').length === 2").await;
@@ -70,7 +70,7 @@ async fn the_inspector_shows_switches_and_sliders_of_the_document() {
 
 #[tokio::test]
 async fn a_link_carries_a_whole_document() {
-    let visit = Visit::open(None).await;
+    let visit = Visit::open_empty().await;
     visit.put("sum.thing", "a: Real = 3\nb: Real = 4\n");
     show(&visit, "sum.thing").await;
     let packed = visit
@@ -90,7 +90,7 @@ async fn a_link_carries_a_whole_document() {
 
 #[tokio::test]
 async fn a_program_of_the_document_beside_is_used_from_the_bin_and_followed() {
-    let visit = Visit::open(None).await;
+    let visit = Visit::open_empty().await;
     let program = "use geometry
 program Flange(outer: Length = 30) {
     rim = Circle(center: Point(0, 0), radius: outer)

@@ -24,7 +24,7 @@ const RIGHT: char = '\u{e014}';
 
 #[tokio::test]
 async fn a_corner_is_dragged_and_taken_back() {
-    let visit = Visit::open(None).await;
+    let visit = Visit::open_empty().await;
     visit.until("document.querySelector('main')").await;
     let before = show(&visit, "quadrilateral.thing").await;
     assert_eq!(value(&before, "q.outer.side1.p1.x"), "174");
@@ -59,7 +59,7 @@ async fn a_corner_is_dragged_and_taken_back() {
 
 #[tokio::test]
 async fn the_picture_is_painted_where_the_view_says() {
-    let visit = Visit::open(None).await;
+    let visit = Visit::open_empty().await;
     visit.until("document.querySelector('main')").await;
     let state = show(&visit, "voltage-divider.thing").await;
     for path in ["r1.b.node.at", "meter.a.node.at"] {
@@ -85,7 +85,7 @@ async fn the_picture_is_painted_where_the_view_says() {
 
 #[tokio::test]
 async fn the_text_is_edited_and_a_wrong_line_keeps_what_was() {
-    let visit = Visit::open(None).await;
+    let visit = Visit::open_empty().await;
     visit.until("document.querySelector('main')").await;
     let before = show(&visit, "temperature.thing").await;
     assert_eq!(value(&before, "fahrenheit.node.number"), "162.5");
@@ -110,7 +110,7 @@ async fn the_text_is_edited_and_a_wrong_line_keeps_what_was() {
 
 #[tokio::test]
 async fn a_save_changes_only_what_was_changed() {
-    let visit = Visit::open(None).await;
+    let visit = Visit::open_empty().await;
     visit.until("document.querySelector('main')").await;
     let before = visit.saved("square-root.thing");
     let opened = show(&visit, "square-root.thing").await;
@@ -153,7 +153,7 @@ async fn choose(visit: &Visit, name: &str, besides: bool) {
 
 #[tokio::test]
 async fn an_edit_of_one_thing_asks_whether_all_of_its_class_are_meant() {
-    let visit = Visit::open(None).await;
+    let visit = Visit::open_empty().await;
     visit.until("document.querySelector('main')").await;
     visit.put("frame.thing", FRAME);
     let before = show(&visit, "frame.thing").await;
@@ -187,7 +187,7 @@ async fn an_edit_of_one_thing_asks_whether_all_of_its_class_are_meant() {
 
 #[tokio::test]
 async fn things_that_are_selected_together_are_recognised_and_made_one() {
-    let visit = Visit::open(None).await;
+    let visit = Visit::open_empty().await;
     visit.until("document.querySelector('main')").await;
     visit.put("frame.thing", FRAME);
     show(&visit, "frame.thing").await;
@@ -250,7 +250,7 @@ async fn the_page_and_the_native_session_give_the_same_bits() {
         .collect();
     names.sort();
     assert!(names.len() >= 9);
-    let visit = Visit::open(None).await;
+    let visit = Visit::open_empty().await;
     visit.until("document.querySelector('main')").await;
     for name in names {
         let text = std::fs::read_to_string(top.join("gallery").join(&name)).expect("a document");

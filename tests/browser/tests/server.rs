@@ -41,7 +41,7 @@ async fn the_page_runs_under_its_security_policy() {
 
 #[tokio::test]
 async fn the_documents_are_not_given_without_the_token() {
-    let visit = Visit::open(None).await;
+    let visit = Visit::open_empty().await;
     visit.until("document.querySelector('main')").await;
     let status = visit
         .client
@@ -57,7 +57,7 @@ async fn the_documents_are_not_given_without_the_token() {
 
 #[tokio::test]
 async fn the_page_comes_compressed() {
-    let visit = Visit::open(None).await;
+    let visit = Visit::open_empty().await;
     visit.until("document.querySelector('main')").await;
     let sizes = visit
         .script(
@@ -79,7 +79,7 @@ fn drawn(seed: &mut u64) -> u64 {
 #[tokio::test]
 async fn what_was_seen_outlives_a_killed_server_and_a_closed_page() {
     const END: char = '\u{e010}';
-    let mut visit = Visit::open(None).await;
+    let mut visit = Visit::open_empty().await;
     let mut seed = 1979;
     let mut seen = text_of(&show(&visit, "quadrilateral.thing").await);
     for round in 0..2 {
@@ -130,7 +130,7 @@ async fn what_was_seen_outlives_a_killed_server_and_a_closed_page() {
 
 #[tokio::test]
 async fn what_the_server_was_told_outlives_a_browser_that_forgets() {
-    let visit = Visit::open(None).await;
+    let visit = Visit::open_empty().await;
     let from = grip(&show(&visit, "quadrilateral.thing").await, "q.outer.side1.p1");
     let told = "window.kept = 0; new PerformanceObserver(all => all.getEntries().forEach(e => {
         window.kept += e.name.endsWith('/api/draft') ? 1 : 0 })).observe({ type: 'resource' })";

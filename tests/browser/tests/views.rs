@@ -15,7 +15,7 @@ async fn fill(visit: &Visit, selector: &str, text: &str) {
 
 #[tokio::test]
 async fn a_value_is_plotted_over_a_sweep_and_a_point_leaves_its_locus_while_it_is_dragged() {
-    let visit = Visit::open(None).await;
+    let visit = Visit::open_empty().await;
     show(&visit, "voltage-divider.thing").await;
     visit.script("document.getElementById('tab-plot').click()").await;
     visit.until("document.querySelector('.plot-form')").await;
@@ -38,7 +38,7 @@ async fn a_value_is_plotted_over_a_sweep_and_a_point_leaves_its_locus_while_it_i
 
 #[tokio::test]
 async fn a_value_is_played_until_it_is_stopped_and_that_is_one_step_back() {
-    let visit = Visit::open(None).await;
+    let visit = Visit::open_empty().await;
     let before = show(&visit, "four-bar.thing").await;
     let from = grip(&before, "crank.p2");
     let button = "document.querySelector('button.play[aria-label=\"Play turn\"]')";
@@ -60,7 +60,7 @@ async fn a_value_is_played_until_it_is_stopped_and_that_is_one_step_back() {
 
 #[tokio::test]
 async fn a_lesson_goes_on_as_its_tasks_are_done() {
-    let visit = Visit::open(None).await;
+    let visit = Visit::open_empty().await;
     let before = show(&visit, "lesson-1-first-minute.thing").await;
     visit.until("document.querySelector('.lesson .place').textContent.includes('1 of 3')").await;
     visit.until("document.querySelector('.pulse')").await;
@@ -77,7 +77,7 @@ async fn a_lesson_goes_on_as_its_tasks_are_done() {
 
 #[tokio::test]
 async fn no_page_is_wider_than_its_window() {
-    let visit = Visit::open(None).await;
+    let visit = Visit::open_empty().await;
     // a page at 200 % is one of half the width
     let sizes =
         [("wide", 1440, 900), ("tablet", 820, 1000), ("phone", 390, 844), ("large", 720, 450)];
