@@ -9,6 +9,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::{env, fs};
 
+use crate::compiled::{self, Made};
 use crate::tools::{self, WasmCompiler};
 use crate::{say, top};
 
@@ -34,23 +35,23 @@ impl Effort {
     }
 }
 
-/// Builds `dist/`.
+/// Builds `dist/`; gives what the compiler made of it, as [`module`] does.
 ///
 /// # Errors
 /// A sentence that says which step failed; the step's own messages are on the terminal.
-pub(crate) fn build(compiler: &WasmCompiler, effort: Effort) -> Result<(), String> {
-    let module = module("web", compiler, effort)?;
+pub(crate) fn build(compiler: &WasmCompiler, effort: Effort) -> Result<Made, String> {
+    let (module, made) = module("web", compiler, effort)?;
     let files = page_files(&module).and_then(|files| synchronise(&top().join("dist"), &files));
     let size = files.map_err(|error| format!("dist/ could not be written: {error}"))?;
     say!("page: {} kB in dist/", size / 1000);
-    Ok(())
+    Ok(made)
 }
 
 /// The files of the assets that are worth compressing.
 const COMPRESSED: [&str; 2] = ["codemirror.js", "style.css"];
 
 /// Compiles a package's program of the same name for the browser; gives the folder of its module: `NAME.js`, and
-/// `NAME_bg.wasm` that it loads.
+/// `NAME_bg.wasm` that it loads. For the tests the package is linted, and it is taken down what was made.
 ///
 /// # Errors
 /// As [`build`].
@@ -58,12 +59,12 @@ pub(crate) fn module(
     package: &str,
     compiler: &WasmCompiler,
     effort: Effort,
-) -> Result<PathBuf, String> {
+) -> Result<(PathBuf, Made), String> {
     say!("page: compiling {package} (minutes the first time)");
     let profile = effort.page_profile();
     let made = target().join("wasm32-unknown-unknown").join(profile).join(package);
     let made = made.with_extension("wasm");
-    run("the page did not compile", &mut compile_command(package, compiler, effort))?;
+    let wasm = compile(package, compiler, effort)?;
     let module = target().join("bindgen").join(profile).join(package);
     let compressed = COMPRESSED.map(|name| top().join("crates/web/assets").join(name));
     let is_stale =
@@ -84,7 +85,21 @@ pub(crate) fn module(
         bindgen.arg(&made).arg(&module).args(&compressed);
         run("the page's module was not made", quiet(&mut bindgen))?;
     }
-    Ok(module)
+    Ok((module, wasm))
+}
+
+fn compile(package: &str, compiler: &WasmCompiler, effort: Effort) -> Result<Made, String> {
+    let failure = "the page did not compile";
+    let mut command = compile_command(package, compiler, effort);
+    if effort != Effort::Tests {
+        return run(failure, &mut command).map(|()| Made::default());
+    }
+    if *compiler == WasmCompiler::Toolchain {
+        // the rooms below are linted where they are compiled for this machine
+        tools::lint(&mut command).env("CLIPPY_ARGS", "--no-deps__CLIPPY_HACKERY__");
+    }
+    let made = compiled::follow(&mut command);
+    if made.is_whole { Ok(made) } else { Err(String::from(failure)) }
 }
 
 /// Builds the command out of a selection of packages; gives its path. At full effort it carries what `dist/` holds of

@@ -2,7 +2,7 @@
 
 use std::io::{BufRead as _, BufReader};
 use std::path::{Path, PathBuf};
-use std::process::Stdio;
+use std::process::{Command, Stdio};
 
 use crate::{say, tools};
 
@@ -50,14 +50,18 @@ impl Made {
     }
 }
 
-/// Compiles the tests of a selection of packages, and lints them; narrowed to some targets by `which`. What the compiler
-/// and the linter say is shown.
+/// Compiles the tests of a selection of packages, and lints them; narrowed to some targets by `which`.
 pub(crate) fn make(which: &[&str], selection: &[&str]) -> Made {
     let mut cargo = tools::cargo(&["test", "--quiet", "--no-run"]);
-    cargo.args(which).args(selection).arg("--message-format=json-render-diagnostics");
+    follow(tools::lint(cargo.args(which).args(selection)))
+}
+
+/// Runs a command of cargo's and takes down what it made. What the compiler and the linter say is shown.
+pub(crate) fn follow(cargo: &mut Command) -> Made {
+    cargo.arg("--message-format=json-render-diagnostics");
     // lines begin with what they are, not with a colour
     cargo.env("CARGO_TERM_COLOR", "never");
-    tools::lint(&mut cargo).stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
+    cargo.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
     let Ok(mut child) = cargo.spawn() else { return Made::default() };
     let (told, said) = (child.stdout.take().expect("piped"), child.stderr.take().expect("piped"));
     let complaints = std::thread::spawn(move || {

@@ -10,16 +10,36 @@ use crate::{say, tools, top};
 
 /// Writes it to `target/doc`; gives whether nobody complained.
 pub(crate) fn write(made: &Made) -> bool {
-    let libraries = libraries(made);
+    let libraries = libraries(made.artifacts.iter());
     let mut is_clean = made.is_whole;
     for artifact in documented(made) {
-        let passed = rustdoc(artifact, &libraries, made).status().is_ok_and(|s| s.success());
-        if !passed {
-            say!("documentation of {} failed", artifact.name);
-        }
-        is_clean &= passed;
+        is_clean &= is_written(artifact, rustdoc(artifact, &libraries, made));
     }
     is_clean
+}
+
+/// Writes that of a package that was compiled for the browser, beside the others.
+pub(crate) fn write_for_the_browser(package: &str, made: &Made) -> bool {
+    // procedural macros run here, and what they are made of is compiled for this machine too
+    let is_there = |file: &Path| file.components().any(|part| part.as_os_str() == tools::WASM);
+    let those = made.artifacts.iter().filter(|artifact| {
+        artifact.kind == "proc-macro" || artifact.library.as_deref().is_some_and(is_there)
+    });
+    let libraries = libraries(those);
+    let own = made.artifacts.iter().find(|a| a.kind == "lib" && a.name == package);
+    own.is_some_and(|artifact| {
+        let mut rustdoc = rustdoc(artifact, &libraries, made);
+        rustdoc.args(["--target", tools::WASM]);
+        is_written(artifact, rustdoc)
+    })
+}
+
+fn is_written(artifact: &Artifact, mut rustdoc: Command) -> bool {
+    let passed = rustdoc.status().is_ok_and(|status| status.success());
+    if !passed {
+        say!("documentation of {} failed", artifact.name);
+    }
+    passed
 }
 
 /// One of each: the libraries of the workspace, and the programs of packages that have none.
@@ -38,10 +58,12 @@ fn documented(made: &Made) -> Vec<&Artifact> {
 
 /// The libraries to compile with, by name. Of several it is the newest that programs are linked with, rather than build
 /// scripts and procedural macros.
-fn libraries(made: &Made) -> BTreeMap<String, &Path> {
+fn libraries<'made>(
+    artifacts: impl Iterator<Item = &'made Artifact>,
+) -> BTreeMap<String, &'made Path> {
     let mut found: BTreeMap<String, &Artifact> = BTreeMap::new();
     let rank = |a: &Artifact| (a.is_of_programs, a.version.clone());
-    for artifact in made.artifacts.iter().filter(|a| !a.is_test && a.library.is_some()) {
+    for artifact in artifacts.filter(|a| !a.is_test && a.library.is_some()) {
         let best = found.entry(artifact.name.replace('-', "_")).or_insert(artifact);
         if rank(artifact) > rank(best) {
             *best = artifact;
@@ -73,7 +95,10 @@ fn rustdoc(artifact: &Artifact, libraries: &BTreeMap<String, &Path>, made: &Made
     for (name, library) in libraries {
         command.arg("--extern").arg(format!("{name}={}", library.display()));
     }
+    // as cargo tells procedural macros
+    let version: Vec<String> = artifact.version.iter().map(u64::to_string).collect();
     command.env("CARGO_MANIFEST_DIR", &artifact.package);
+    command.env("CARGO_PKG_NAME", &artifact.name).env("CARGO_PKG_VERSION", version.join("."));
     if let Some((_, out)) = made.written.iter().find(|(package, _)| *package == artifact.package) {
         command.env("OUT_DIR", out);
     }

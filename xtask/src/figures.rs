@@ -43,7 +43,7 @@ pub(crate) fn run((of, missing): (Of, Missing)) -> ExitCode {
     if let Of::Lab = of {
         return lab(&compiler, &browser);
     }
-    let table = bundle::module("figures", &compiler, Effort::Full).and_then(|module| {
+    let table = bundle::module("figures", &compiler, Effort::Full).and_then(|(module, _)| {
         let page = written(&module).map_err(|error| format!("no page of figures: {error}"))?;
         shown(&browser, &page)
     });
@@ -62,7 +62,7 @@ pub(crate) fn run((of, missing): (Of, Missing)) -> ExitCode {
 /// Builds the lab as people get it, and has it visited.
 fn lab(compiler: &WasmCompiler, browser: &Path) -> ExitCode {
     let built = bundle::build(compiler, Effort::Full);
-    match built.and_then(|()| bundle::build_command(Effort::Quick, &[])) {
+    match built.and_then(|_| bundle::build_command(Effort::Quick, &[])) {
         Ok(thinglab) => {
             let mut visit =
                 tools::cargo(&["run", "--quiet", "--package", "browser", "--bin", "lab-figures"]);

@@ -53,7 +53,7 @@ pub(crate) fn run(wish: &Wish) -> ExitCode {
     tools::require(&[Tool::WasmCompiler], wish.missing);
     let Some(compiler) = tools::wasm_compiler() else { return ExitCode::from(2) };
     let built = bundle::build(&compiler, wish.effort);
-    let thinglab = match built.and_then(|()| bundle::build_command(wish.effort, &[])) {
+    let thinglab = match built.and_then(|_| bundle::build_command(wish.effort, &[])) {
         Ok(path) => path,
         Err(why) => {
             say!("{why}");

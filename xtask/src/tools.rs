@@ -29,7 +29,8 @@ pub(crate) enum WasmCompiler {
     Debian { linker: PathBuf },
 }
 
-const WASM: &str = "wasm32-unknown-unknown";
+/// The browser's machine.
+pub(crate) const WASM: &str = "wasm32-unknown-unknown";
 const DEBIAN_WASM: [&str; 4] = ["rustc-web", "cargo-web", "rust-web-src", "lld-19"];
 const EZDXF: &str = "ezdxf==1.4.5";
 const DEBIAN_BROWSER: [&str; 2] = ["chromium", "chromium-driver"];

@@ -2,7 +2,8 @@
 //!
 //! Format, lints, documentation and the page's bundle count as one each, every test as one; a step
 //! that breaks off (a test that does not compile) counts as one failure. The linter compiles what it
-//! reads, and the documentation is read beside what it made: every room is compiled once.
+//! reads, and the documentation is read beside what it made: every room is compiled once for this machine. The
+//! room `web` is compiled for the browser alone, and there linted and documented, which counts as one each.
 
 use std::io::{BufRead as _, BufReader};
 use std::path::{Path, PathBuf};
@@ -13,7 +14,7 @@ use crate::bundle::{self, Effort};
 use crate::compiled;
 use crate::documentation;
 use crate::say;
-use crate::tools::{self, Missing, Tool};
+use crate::tools::{self, Missing, Tool, WasmCompiler};
 
 /// What the command line asks for.
 #[derive(Debug, PartialEq, Eq)]
@@ -81,13 +82,14 @@ pub(crate) fn run(wish: &Wish) -> ExitCode {
         say!("{}", last_line(Count { passed: 0, failed: lacking }, wish.browser));
         return ExitCode::from(2);
     }
+    let page = page(wish);
     let count = match wish.browser {
-        Browser::LeaveOut => native(wish, None),
+        Browser::LeaveOut => native(wish, page, None),
         // rooms are compiled one after the other: two such chains keep two cores busy
         Browser::Test => std::thread::scope(|scope| {
             let (compiled, programs) = mpsc::channel();
-            let browser = scope.spawn(move || in_the_browser(wish.length, &programs));
-            let mut count = native(wish, Some(compiled));
+            let browser = scope.spawn(move || in_the_browser(wish.length, page, &programs));
+            let mut count = native(wish, page, Some(compiled));
             count.add(browser.join().unwrap_or(Count { passed: 0, failed: 1 }));
             count
         }),
@@ -96,12 +98,32 @@ pub(crate) fn run(wish: &Wish) -> ExitCode {
     if count.failed == 0 { ExitCode::SUCCESS } else { ExitCode::FAILURE }
 }
 
+/// Where the room `web` is linted and documented. It has no tests, and what it stands on is compiled for nothing else.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Page {
+    /// Where it is compiled for the browser tests.
+    AsItIsBuilt,
+    /// With the other rooms: it is not built for tests, or by a compiler without a linter.
+    WithTheRooms,
+}
+
+fn page(wish: &Wish) -> Page {
+    let is_built = wish.browser == Browser::Test && wish.length == Length::Usual;
+    match tools::wasm_compiler() {
+        Some(WasmCompiler::Toolchain) if is_built => Page::AsItIsBuilt,
+        Some(WasmCompiler::Toolchain | WasmCompiler::Debian { .. }) | None => Page::WithTheRooms,
+    }
+}
+
 /// The packages that every command here compiles: cargo chooses the features of libraries for all of a command's
 /// packages, and another choice would compile the rooms once more.
-fn selection(browser: Browser) -> &'static [&'static str] {
-    match browser {
-        Browser::Test => &["--workspace", "--exclude", "bindgen"],
-        Browser::LeaveOut => &["--workspace", "--exclude", "bindgen", "--exclude", "browser"],
+fn selection(browser: Browser, page: Page) -> &'static [&'static str] {
+    match (browser, page) {
+        (Browser::Test, Page::AsItIsBuilt) => {
+            &["--workspace", "--exclude", "bindgen", "--exclude", "web"]
+        }
+        (Browser::Test, Page::WithTheRooms) => &["--workspace", "--exclude", "bindgen"],
+        (Browser::LeaveOut, _) => &["--workspace", "--exclude", "bindgen", "--exclude", "browser"],
     }
 }
 
@@ -122,12 +144,13 @@ struct Programs {
 }
 
 /// All but what is done in the browser, for which two programs are compiled first.
-fn native(wish: &Wish, compiled: Option<Sender<Programs>>) -> Count {
+fn native(wish: &Wish, page: Page, compiled: Option<Sender<Programs>>) -> Count {
+    let selection = selection(wish.browser, page);
     let mut count = step("format", &mut tools::cargo(&["fmt", "--all", "--check"]));
-    let thinglab = bundle::build_command(Effort::Tests, selection(wish.browser));
+    let thinglab = bundle::build_command(Effort::Tests, selection);
     count.add(Count::one(thinglab.is_ok()));
     if let (Some(compiled), Ok(thinglab)) = (compiled, &thinglab) {
-        let made = compiled::make(&["--test", "lab"], selection(wish.browser));
+        let made = compiled::make(&["--test", "lab"], selection);
         match made.executable("test", "lab") {
             // who waits for it has ended only where it broke off, which is counted there
             Some(tests) => drop(compiled.send(Programs { thinglab: thinglab.clone(), tests })),
@@ -135,7 +158,7 @@ fn native(wish: &Wish, compiled: Option<Sender<Programs>>) -> Count {
         }
     }
     say!("== compiling the tests, and lints");
-    let made = compiled::make(&[], selection(wish.browser));
+    let made = compiled::make(&[], selection);
     count.add(Count::one(made.is_whole));
     count.add(Count::one(made.is_clean));
     say!("== documentation");
@@ -149,25 +172,30 @@ fn native(wish: &Wish, compiled: Option<Sender<Programs>>) -> Count {
         Err(why) => say!("{why}; the audit of DXF files cannot run"),
     }
     let mut tests = tools::cargo(&["test", "--quiet", "--no-fail-fast"]);
-    lengthen(tools::lint(tests.args(selection(wish.browser))), wish.length);
+    lengthen(tools::lint(tests.args(selection)), wish.length);
     count.add(tested(tests.args(["--", "--skip", "in_the_browser::"]), "tests", Show::AtOnce));
     count
 }
 
 /// Builds the page, and tests it once the programs for that are there; what else is compiled and tested goes on
 /// meanwhile.
-fn in_the_browser(length: Length, programs: &Receiver<Programs>) -> Count {
+fn in_the_browser(length: Length, page: Page, programs: &Receiver<Programs>) -> Count {
     let effort = match length {
         Length::Usual => Effort::Tests,
         Length::Long => Effort::Full,
     };
     let built = bundle::build(&tools::wasm_compiler().expect("required above"), effort);
     let mut count = Count::one(built.is_ok());
-    if let Err(why) = &built {
-        say!("{why}");
+    match &built {
+        Ok(made) if page == Page::AsItIsBuilt => {
+            count.add(Count::one(made.is_clean));
+            count.add(Count::one(documentation::write_for_the_browser("web", made)));
+        }
+        Ok(_) => {}
+        Err(why) => say!("{why}"),
     }
     match (built, programs.recv()) {
-        (Ok(()), Ok(Programs { thinglab, tests })) => {
+        (Ok(_), Ok(Programs { thinglab, tests })) => {
             let mut tests = Command::new(tests);
             tests.arg("--quiet").env("THINGLAB", thinglab);
             if let Some(chromium) = tools::browser() {

@@ -9,6 +9,7 @@ use crate::sheet::{fit, with_words};
 use crate::{icons, words};
 use leptos::html::Canvas;
 use leptos::prelude::*;
+use presentation::shelves::{Shelf, shelved};
 use session::view::{BinEntry, PictureView};
 use wasm_bindgen::JsCast;
 
@@ -139,54 +140,6 @@ fn Uses(names: Memo<Vec<String>>, take: impl Fn(String) + Copy + Send + 'static)
     }
 }
 
-/// Tiles that lie together.
-#[derive(Clone, PartialEq, Debug)]
-struct Shelf {
-    name: String,
-    /// The number of its first tile.
-    first: usize,
-    entries: Vec<BinEntry>,
-    /// Whether it is open at first: what a library has beside its toolbox is seldom wanted.
-    is_open: bool,
-}
-
-impl Shelf {
-    /// What tells it from others: its name, where it begins, what lies on it, whether it is open.
-    fn key(&self) -> (String, usize, Vec<String>, bool) {
-        let classes = self.entries.iter().map(|entry| entry.class.clone()).collect();
-        (self.name.clone(), self.first, classes, self.is_open)
-    }
-}
-
-/// The entries by toolbox and library: the document's own, then toolboxes, then the rest; what was taken into use last
-/// comes first.
-fn shelved(found: &[BinEntry], is_filtered: bool) -> Vec<Shelf> {
-    let boxed = |library: &str| found.iter().any(|e| e.toolbox.is_some() && e.library == library);
-    let mut shelves: Vec<((u8, String), Vec<BinEntry>)> = Vec::new();
-    for entry in found {
-        let rank = match (&entry.toolbox, entry.library.as_str()) {
-            (Some(_), _) => 1,
-            (None, "") => 0,
-            (None, _) => 2,
-        };
-        let key = (rank, entry.toolbox.clone().unwrap_or_else(|| entry.library.clone()));
-        match shelves.iter_mut().find(|(shelf, _)| *shelf == key) {
-            Some((_, shelf)) => shelf.push(entry.clone()),
-            None => shelves.push((key, vec![entry.clone()])),
-        }
-    }
-    shelves.reverse();
-    shelves.sort_by_key(|((rank, _), _)| *rank);
-    let mut before = 0;
-    let numbered = shelves.into_iter().map(|((rank, name), entries)| {
-        let first = before;
-        before += entries.len();
-        let is_open = is_filtered || rank < 2 || !boxed(&name);
-        Shelf { name, first, entries, is_open }
-    });
-    numbered.collect()
-}
-
 /// A tile: a click takes the tool that places such a thing, Enter inserts one where there is room.
 #[component]
 fn Tile(lab: Lab, entry: BinEntry, number: usize) -> impl IntoView {
@@ -281,47 +234,4 @@ fn humps(name: &str) -> Vec<String> {
         }
     }
     humps
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{BinEntry, Shelf, shelved};
-
-    fn entry(class: &str, library: &str, toolbox: Option<&str>) -> BinEntry {
-        BinEntry {
-            class: String::from(class),
-            doc: String::new(),
-            library: String::from(library),
-            toolbox: toolbox.map(String::from),
-            picture: drawing::Drawing::default(),
-        }
-    }
-
-    #[test]
-    fn a_shelf_with_other_tiles_is_another_however_many_they_are() {
-        let key = |class| {
-            let found = [entry(class, "circuits", Some("Circuits"))];
-            shelved(&found, true).iter().map(Shelf::key).collect::<Vec<_>>()
-        };
-        assert_ne!(key("Resistor"), key("Capacitor"));
-        assert_eq!(key("Resistor"), key("Resistor"));
-    }
-
-    #[test]
-    fn toolboxes_come_before_what_else_libraries_have() {
-        let found = [
-            entry("Resistor", "circuits", Some("Circuits")),
-            entry("Line", "geometry", None),
-            entry("Node", "circuits", None),
-            entry("Mine", "", None),
-        ];
-        let names = |is_filtered| {
-            let shelves = shelved(&found, is_filtered).into_iter();
-            shelves.map(|s| (s.name, s.first, s.is_open)).collect::<Vec<_>>()
-        };
-        let wanted =
-            [("", 0, true), ("Circuits", 1, true), ("circuits", 2, false), ("geometry", 3, true)];
-        assert_eq!(names(false), wanted.map(|(n, at, open)| (String::from(n), at, open)));
-        assert!(names(true).iter().all(|(_, _, is_open)| *is_open));
-    }
 }

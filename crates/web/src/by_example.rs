@@ -3,11 +3,11 @@
 
 use crate::actions;
 use crate::lab::{Lab, Notice};
-use crate::picture::covers;
 use crate::words;
 use leptos::ev::{KeyboardEvent, SubmitEvent};
 use leptos::html::Input;
 use leptos::prelude::*;
+use presentation::paths::covers;
 use session::Path;
 use session::view::{ClassItem, ClassPlan, ItemKind, Scope};
 

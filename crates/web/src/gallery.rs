@@ -3,9 +3,10 @@
 use crate::first::Invitation;
 use crate::lab::Lab;
 use crate::picture::thumbnail::Thumbnail;
-use crate::server::Listed;
 use crate::{lesson, route, words};
 use leptos::prelude::*;
+use presentation::palette::Listed;
+use presentation::sentences::first_sentence;
 use session::view::DocumentId;
 
 /// A document that has been read for its card.
@@ -106,31 +107,5 @@ fn CardView(lab: Lab, listed: Listed) -> impl IntoView {
                 <p class="path">{listed.path.clone()}</p>
             </a>
         </li>
-    }
-}
-
-/// The first sentence of what a document says of itself, after its title.
-fn first_sentence(doc: &str, title: &str) -> String {
-    let rest = doc.trim().strip_prefix(title).unwrap_or(doc.trim());
-    let rest = rest.trim_start_matches([':', '.', ' ', '\n']);
-    let end = rest.find(". ").or_else(|| rest.find(".\n")).map_or(rest.len(), |at| at + 1);
-    let mut letters = rest[..end].replace('\n', " ").chars().collect::<Vec<char>>();
-    if let Some(first) = letters.first_mut() {
-        *first = first.to_uppercase().next().unwrap_or(*first);
-    }
-    letters.into_iter().collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::first_sentence;
-
-    #[test]
-    fn a_card_says_the_first_sentence_after_the_title() {
-        let doc = "Quadrilateral: the midpoints form a parallelogram. Drag a corner.";
-        assert_eq!(first_sentence(doc, "Quadrilateral"), "The midpoints form a parallelogram.");
-        assert_eq!(first_sentence("Sum", "Sum"), "");
-        assert_eq!(first_sentence("", "nameless"), "");
-        assert_eq!(first_sentence("One. Two. Three.", "One"), "Two.");
     }
 }

@@ -3,14 +3,15 @@
 use crate::actions;
 use crate::lab::Lab;
 use crate::marked::marked;
-use crate::picture::covers;
 use crate::plot::ViewsOf;
 use crate::values::{self, Place};
-use crate::{structure, words};
+use crate::words;
 use leptos::prelude::*;
+use presentation::paths::covers;
+use presentation::rows::shown_rules;
+use presentation::sentences::formula;
 use session::Command;
 use session::view::{RowKind, StructureRow, ValueRow, ValueWithin};
-use std::collections::BTreeSet;
 
 /// At most so many values, and so many constraints, are shown at once; table and tree have the others.
 const MOST: usize = 40;
@@ -210,7 +211,7 @@ fn Rule(lab: Lab, row: StructureRow) -> impl IntoView {
             <button class="path" title=row.doc
                 on:click=move |_| lab.select(Some(select.clone()))
                 on:pointerenter=move |_| lab.hover(Some(hover.clone()))>{path}</button>
-            <code title=row.detail.clone()>{words::formula(&row.detail)}</code>
+            <code title=row.detail.clone()>{formula(&row.detail)}</code>
             <span class=format!("state {state}")><span class="unseen">{state}</span></span>
         </li>
     }
@@ -252,71 +253,4 @@ fn shown_values(
     found.sort_by_key(|(at, name)| (depth(name), *at));
     found.truncate(MOST);
     found
-}
-
-/// The constraints of a thing and those that speak of it; of the document its own.
-fn shown_rules(rows: &[StructureRow], selected: Option<&str>) -> Vec<StructureRow> {
-    let rules = rows.iter().filter(|row| row.kind == RowKind::Constraint);
-    // what has a part that is one with it says something of it
-    let owner = |path: &str| path.rsplit_once('.').map(|(owner, _)| String::from(owner));
-    let speakers: BTreeSet<String> = selected
-        .map(|path| {
-            let one = rows.iter().filter(|row| row.merged_with.as_deref() == Some(path));
-            one.filter_map(|row| owner(&row.path)).collect()
-        })
-        .unwrap_or_default();
-    let fits = |row: &&StructureRow| match selected {
-        Some(path) => {
-            covers(path, &row.path)
-                || structure::speaks_of(&row.detail, path)
-                || owner(&row.path).is_some_and(|owner| speakers.contains(&owner))
-        }
-        None => row.depth == 1,
-    };
-    rules.filter(fits).take(MOST).cloned().collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::shown_rules;
-    use crate::structure::speaks_of;
-    use session::view::{RowKind, StructureRow};
-
-    #[test]
-    fn a_point_shows_the_constraint_whose_point_it_is_one_with() {
-        let row = |path: &str, kind, merged: Option<&str>| StructureRow {
-            path: String::from(path),
-            depth: 2,
-            kind,
-            name: String::new(),
-            detail: String::from("axis.passes(through: a)"),
-            doc: String::new(),
-            value: None,
-            exact: None,
-            merged_with: merged.map(String::from),
-            makes_one: Vec::new(),
-            freedom: None,
-            anchored: false,
-            enabled: true,
-            descendants: 0,
-            span: None,
-        };
-        let rows = [
-            row("line.p1", RowKind::Part, None),
-            row("mirror.a", RowKind::Part, Some("line.p1")),
-            row("mirror.across", RowKind::Constraint, None),
-            row("other.across", RowKind::Constraint, None),
-        ];
-        let shown: Vec<String> =
-            shown_rules(&rows, Some("line.p1")).into_iter().map(|row| row.path).collect();
-        assert_eq!(shown, ["mirror.across"]);
-    }
-
-    #[test]
-    fn a_rule_speaks_of_the_paths_that_stand_in_it_as_words() {
-        assert!(speaks_of("line.p1.y = line.p2.y", "line.p1"));
-        assert!(speaks_of("a.length = 2 * b.length", "b"));
-        assert!(!speaks_of("line2.length = 3", "line"));
-        assert!(!speaks_of("outer.line.length = 3", "line"));
-    }
 }

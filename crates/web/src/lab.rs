@@ -7,18 +7,22 @@ use crate::actions::Context;
 use crate::dialog::Wish;
 use crate::dock::{self, Sheet, Tab};
 use crate::drafting::Drafting;
-use crate::files::{FileSet, Files};
+use crate::files::Files;
 use crate::first;
 use crate::js;
 use crate::menu::{self, Menu};
-use crate::picture::covers;
 use crate::player::Player;
 use crate::plot::Plotting;
-use crate::server::{Listed, Stored};
+use crate::server::Stored;
 use crate::sheet::View;
 use crate::theme;
 use drawing::Point;
 use leptos::prelude::*;
+use presentation::drafts::Journal;
+use presentation::files::FileSet;
+use presentation::marks::Marked;
+use presentation::palette::Listed;
+use presentation::paths::covers;
 use session::view::{
     Caught, DocumentId, DragState, Explanation, Ghost, HeldView, LessonView, MovedView,
     PictureView, Question, Recognised, Refusal, Status, StructureRow, TextView, ToolView, ValueRow,
@@ -36,8 +40,7 @@ mod jobs;
 mod prototype;
 mod views;
 
-use drafts::Journal;
-pub use drafts::{Draft, Offered};
+pub use drafts::Offered;
 pub use jobs::{Jobs, Kind, Told};
 pub use prototype::Shown;
 
@@ -216,15 +219,6 @@ impl fmt::Debug for Lab {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Lab").finish_non_exhaustive()
     }
-}
-
-/// What is marked in all views, each as the first path of its thing.
-#[derive(Clone, PartialEq, Debug, Default)]
-pub struct Marked {
-    /// What is selected, in the order of choosing.
-    pub selected: Vec<String>,
-    /// What is under the pointer.
-    pub hovered: Option<String>,
 }
 
 /// What the left drawer shows.

@@ -9,7 +9,7 @@
 //! the server; every change is a Command and can be taken back; what is not saved is kept in the
 //! browser's storage, outside the bundle's memory.
 //!
-//! Reading order: [`page`], [`lab`], [`actions`]; the panels [`picture`] (with [`sheet`], [`paint`]),
+//! Reading order: [`page`], [`lab`], [`actions`]; the panels [`picture`] (with [`presentation`]),
 //! [`structure`], [`values`], [`text`], [`status`], [`gallery`]; then what they stand on.
 pub mod actions;
 pub mod bench;
@@ -34,9 +34,7 @@ pub mod lab;
 pub mod lesson;
 pub mod marked;
 pub mod menu;
-pub mod orbit;
 pub mod page;
-pub mod paint;
 pub mod palette;
 pub mod picture;
 pub mod player;
@@ -45,7 +43,6 @@ pub mod probe;
 pub mod rail;
 pub mod route;
 pub mod server;
-pub mod sheet;
 pub mod splitter;
 pub mod status;
 pub mod strip;
@@ -56,6 +53,8 @@ pub mod values;
 pub mod why;
 pub mod words;
 pub mod worker;
+
+use presentation::{orbit, paint, sheet};
 
 /// Puts the page into the document's body; called once, when the bundle has loaded. In the worker there is none.
 pub fn start() {

@@ -3,12 +3,11 @@
 
 use crate::actions::{self, ACTIONS, Action};
 use crate::lab::Lab;
-use crate::server::Listed;
 use crate::{route, words};
 use leptos::ev::KeyboardEvent;
 use leptos::html::Input;
 use leptos::prelude::*;
-use session::drafting::view::ConstructionRow;
+use presentation::palette::{self, Choice, Drawn};
 
 /// The palette, while it is open.
 #[component]
@@ -29,7 +28,11 @@ fn Open(lab: Lab) -> impl IntoView {
     let found = Memo::new(move |_| {
         at.set(0);
         let wanted = wanted.get();
-        lab.listed.with(|listed| drawn.with_value(|drawn| matching(&wanted, listed, drawn)))
+        let actions = ACTIONS.iter().map(|action| (action, action.id, action.label));
+        let actions: Vec<palette::Named<&'static Action>> = actions.collect();
+        lab.listed.with(|listed| {
+            drawn.with_value(|drawn| palette::matching(&wanted, &actions, listed, drawn))
+        })
     });
     leptos::task::spawn_local(async move {
         // Without the list there are still the actions.
@@ -100,18 +103,6 @@ fn Open(lab: Lab) -> impl IntoView {
     }
 }
 
-/// What can be chosen.
-#[derive(Clone, PartialEq, Debug)]
-enum Choice {
-    Do(&'static Action),
-    Draw(ConstructionRow),
-    Insert(String),
-    Open(Listed),
-}
-
-/// What can be drawn in the shown document: its constructions, and the classes of its bin.
-type Drawn = (Vec<ConstructionRow>, Vec<String>);
-
 fn drawn(lab: Lab) -> Drawn {
     let constructions = lab.ask_of_shown(session::Session::constructions).unwrap_or_default();
     let classes = lab.ask_of_shown(session::Session::bin_names).unwrap_or_default();
@@ -121,7 +112,7 @@ fn drawn(lab: Lab) -> Drawn {
 #[component]
 fn Entry(
     lab: Lab,
-    choice: Choice,
+    choice: Choice<&'static Action>,
     n: usize,
     at: RwSignal<usize>,
     choose: impl Fn(usize) + Copy + 'static,
@@ -146,102 +137,5 @@ fn Entry(
             <span class="reason">{path}{why}</span>
             {key.map(|key| view! { <kbd>{*key}</kbd> })}
         </li>
-    }
-}
-
-/// What has the words that are wanted in its label; then what has them in its own name; then what has each of
-/// them somewhere; then what has all their letters in order, the shortest first: an action in its label, a
-/// document, whose title may be long, in its path.
-///
-/// Constructions and classes are found by pieces of words, not by scattered letters. Those whose name begins so come
-/// before documents, others after what has the words in its label or name.
-fn matching(wanted: &str, listed: &[Listed], (constructions, classes): &Drawn) -> Vec<Choice> {
-    let wanted = wanted.trim().to_lowercase();
-    let rank = |label: &str, name: &str, short: &str| {
-        let (label, name, short) =
-            (label.to_lowercase(), name.to_lowercase(), short.to_lowercase());
-        match () {
-            () if label.contains(&wanted) => Some((0, 0)),
-            () if name.contains(&wanted) => Some((1, 0)),
-            () if wanted.split_whitespace().all(|word| label.contains(word)) => Some((2, 0)),
-            () => scattered(&short, &wanted).then_some((3, short.len())),
-        }
-    };
-    let action =
-        |action: &'static Action| (rank(action.label, action.id, action.label), Choice::Do(action));
-    // a title is a sentence, and may have any word in it: what is called so comes first
-    let document = |one: &Listed| {
-        let rank = rank(&one.title, &one.path, &one.path);
-        (rank.map(|rank| rank.max((0, 2))), Choice::Open(one.clone()))
-    };
-    let has = |text: &str| {
-        let text = text.to_lowercase();
-        !wanted.is_empty() && wanted.split_whitespace().all(|word| text.contains(word))
-    };
-    let called = |text: &str| match text.to_lowercase().starts_with(&wanted) {
-        true => (0, 1),
-        false => (2, 1),
-    };
-    let construction = |row: &ConstructionRow| {
-        let text = [&row.label, row.also].join(" ");
-        (has(&text).then(|| called(&row.label)), Choice::Draw(row.clone()))
-    };
-    let class = |class: &String| (has(class).then(|| called(class)), Choice::Insert(class.clone()));
-    let all = ACTIONS.iter().map(action).chain(constructions.iter().map(construction));
-    let all = all.chain(classes.iter().map(class)).chain(listed.iter().map(document));
-    let mut found: Vec<_> = all.filter_map(|(rank, choice)| Some((rank?, choice))).collect();
-    found.sort_by_key(|(rank, _)| *rank);
-    found.into_iter().map(|(_, choice)| choice).collect()
-}
-
-fn scattered(label: &str, wanted: &str) -> bool {
-    let mut letters = label.chars();
-    wanted.chars().all(|letter| letters.any(|found| found == letter))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{Choice, ConstructionRow, matching};
-    use crate::actions::ACTIONS;
-    use crate::server::Listed;
-
-    #[test]
-    fn the_palette_finds_by_words_before_letters() {
-        let listed = [Listed {
-            path: String::from("gallery/bridge.thing"),
-            title: String::from("Bridge under load"),
-            in_gallery: true,
-        }];
-        let row = ConstructionRow {
-            id: String::from("Axis.equidistant(first,second)"),
-            class: String::from("Axis"),
-            label: String::from(
-                "Line of the points that are as far from one point as from another",
-            ),
-            operands: String::from("first, second"),
-            doc: String::new(),
-            also: "perpendicular bisector",
-        };
-        let drawn = (vec![row], vec![String::from("Resistor")]);
-        assert_eq!(matching("", &listed, &drawn).len(), ACTIONS.len() + 1);
-        let first = |wanted| match matching(wanted, &listed, &drawn).into_iter().next() {
-            Some(Choice::Do(action)) => String::from(action.id),
-            Some(Choice::Draw(row)) => row.id,
-            Some(Choice::Insert(class)) => class,
-            Some(Choice::Open(listed)) => listed.path,
-            None => String::new(),
-        };
-        assert_eq!(first("zoom in"), "zoom-in");
-        assert_eq!(first("undo"), "undo");
-        assert_eq!(first("load bridge"), "gallery/bridge.thing");
-        assert_eq!(first("under load"), "gallery/bridge.thing");
-        assert_eq!(first("ftp"), "fit");
-        assert_eq!(first("recog"), "recognise");
-        assert_eq!(first("perpendicular bisector"), "Axis.equidistant(first,second)");
-        assert_eq!(first("resist"), "Resistor");
-        assert_eq!(first("brg"), "gallery/bridge.thing");
-        // no piece of every word of a long title
-        assert_eq!(first("bgeudload"), "");
-        assert_eq!(first("qqq"), "");
     }
 }

@@ -6,9 +6,9 @@
 use crate::drafting::numbers::StepNumbers;
 use crate::field::Edit;
 use crate::js::{self, Painter};
-use crate::lab::{Lab, Marked, Zoom, first_path};
+use crate::lab::{Lab, Zoom, first_path};
 use crate::paint::{
-    DisplayList, Mark, Part, arrows, caught, display_list, ghosts, grid, guides, loci, preview,
+    DisplayList, Part, arrows, caught, display_list, ghosts, grid, guides, loci, preview,
 };
 use crate::sheet::{View, bounds, fit_box, with_words};
 use crate::words;
@@ -17,14 +17,13 @@ use js_sys::Array;
 use leptos::ev::{KeyboardEvent, MouseEvent, PointerEvent, WheelEvent};
 use leptos::html::Canvas;
 use leptos::prelude::*;
+use presentation::marks::marks;
 use session::view::{Caught, Grip, MovedView, PictureView};
 use std::sync::Arc;
 use wasm_bindgen::closure::Closure;
 use wasm_bindgen::{JsCast, JsValue};
 
-mod band;
 mod hand;
-mod pick;
 pub mod thumbnail;
 
 /// Space around a picture that fits, in pixels.
@@ -338,30 +337,6 @@ fn wheel(lab: Lab, canvas: NodeRef<Canvas>, e: &WheelEvent) {
     lab.look_at(|view| view.zoomed(factor, at));
 }
 
-/// Returns true if a path leads to a thing or to a part of it, at any depth.
-pub(crate) fn covers(whole: &str, path: &str) -> bool {
-    path.strip_prefix(whole)
-        .is_some_and(|rest| rest.is_empty() || rest.starts_with('.') || rest.starts_with('['))
-}
-
-/// Returns how each of a picture's tags and then each of its grips is marked.
-fn marks(picture: &PictureView, marked: &Marked) -> Vec<Mark> {
-    let is = |whole: &String, path: &str| !whole.is_empty() && covers(whole, path);
-    if marked.selected.is_empty() && marked.hovered.is_none() {
-        return Vec::new();
-    }
-    let mark = |path: &String| {
-        if marked.selected.iter().any(|whole| is(whole, path)) {
-            Mark::Selected
-        } else if marked.hovered.as_ref().is_some_and(|whole| is(whole, path)) {
-            Mark::Hovered
-        } else {
-            Mark::None
-        }
-    };
-    picture.paths.iter().chain(picture.grips.iter().map(|grip| &grip.path)).map(mark).collect()
-}
-
 /// Says of the selected point where it is and how free.
 fn described(lab: Lab, selected: Option<String>) -> String {
     let Some(selected) = selected else { return String::new() };
@@ -455,33 +430,4 @@ fn next_grip(lab: Lab, by: isize) -> bool {
 /// Returns the sheet's point at a place of the screen, for the view that is shown.
 fn sheet_point(lab: Lab, at: (f64, f64)) -> Point {
     lab.view.with_untracked(|view| view.sheet_from_screen(at))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{Mark, Marked, covers, marks};
-    use session::view::PictureView;
-
-    #[test]
-    fn a_whole_covers_its_parts_and_no_namesakes() {
-        assert!(covers("q.side1", "q.side1"));
-        assert!(covers("q.side1", "q.side1.p1"));
-        assert!(covers("links", "links[3].p1"));
-        assert!(!covers("q.side1", "q.side10"));
-        assert!(!covers("q.side1.p1", "q.side1"));
-    }
-
-    #[test]
-    fn selection_wins_over_hovering_and_the_document_marks_nothing() {
-        let paths = ["a", "a.b", "c"].map(String::from).to_vec();
-        let picture = PictureView { paths, ..PictureView::default() };
-        let marks = |selected: &[&str], hovered: Option<&str>| {
-            let selected = selected.iter().map(|path| String::from(*path)).collect();
-            marks(&picture, &Marked { selected, hovered: hovered.map(String::from) })
-        };
-        assert_eq!(marks(&["a.b"], Some("a")), [Mark::Hovered, Mark::Selected, Mark::None]);
-        assert_eq!(marks(&["a.b", "c"], None), [Mark::None, Mark::Selected, Mark::Selected]);
-        assert_eq!(marks(&[""], None), [Mark::None; 3]);
-        assert!(marks(&[], None).is_empty());
-    }
 }

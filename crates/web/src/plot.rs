@@ -10,6 +10,7 @@ use crate::{icons, js, values, words};
 use chart::Chart;
 use leptos::ev::KeyboardEvent;
 use leptos::prelude::*;
+use presentation::numbers::slider_range;
 use session::Session;
 use session::plotting::{Plot, Request, Sweep, Sweeping};
 use session::view::{PlotEntry, Refusal, ValueRow};
@@ -224,7 +225,7 @@ impl Lab {
             // as the number is shown: an angle in degrees, unless a unit says otherwise
             let scale = if row.unit == "deg" { 180.0 / std::f64::consts::PI } else { 1.0 };
             let turn = values::whole_turn(row).map(|ends| (ends.0 * scale, ends.1 * scale));
-            let (least, most) = values::slider_range(number, turn, None);
+            let (least, most) = slider_range(number, turn, None);
             let end = |x: f64| words::with_unit(&base::number::significant(x, 6), &row.unit);
             Some((end(least), end(most)))
         });

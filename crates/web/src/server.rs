@@ -5,18 +5,8 @@
 use crate::js::{field, request, text_field};
 use crate::words;
 use js_sys::{Array, JSON, Object};
+use presentation::palette::Listed;
 use wasm_bindgen::JsValue;
-
-/// A document that the server offers.
-#[derive(Clone, PartialEq, Eq, Debug)]
-pub struct Listed {
-    /// Its path: `gallery/quadrilateral.thing`.
-    pub path: String,
-    /// What it is called.
-    pub title: String,
-    /// Whether it comes from the gallery.
-    pub in_gallery: bool,
-}
 
 /// A document's text as it stands on disk.
 #[derive(Clone, PartialEq, Eq, Debug)]

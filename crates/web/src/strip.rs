@@ -5,6 +5,7 @@ use crate::dialog::Wish;
 use crate::lab::{Lab, Notice};
 use crate::{keyboard, words};
 use leptos::prelude::*;
+use presentation::numbers::to_read;
 use session::Command;
 use session::view::{Deed, Offer, Refusal, RowKind};
 
@@ -78,15 +79,6 @@ fn Button(lab: Lab, offer: Offer) -> impl IntoView {
             on:focus=move |_| look()
             on:blur=move |_| lab.foresee(None)
             on:click=move |_| lab.take_offer(&offer.get_value())>{label}</button>
-    }
-}
-
-/// A value as a button shows it, to six digits; the field that asks for it has them all.
-fn to_read(value: &str) -> String {
-    let (number, unit) = value.split_once(' ').unwrap_or((value, ""));
-    match number.parse() {
-        Ok(x) => format!("{} {unit}", base::number::significant(x, 6)).trim_end().into(),
-        Err(_) => value.into(),
     }
 }
 
@@ -179,17 +171,5 @@ impl Lab {
             Some(offer) => self.take_offer(&offer),
             None => self.notice.set(Some(Notice::Said(String::from(words::NO_DIMENSION)))),
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::to_read;
-
-    #[test]
-    fn a_button_shows_six_digits_of_a_length() {
-        assert_eq!(to_read("353.5533905932738"), "353.553");
-        assert_eq!(to_read("-53.089384 deg"), "-53.0894 deg");
-        assert_eq!(to_read("a + b"), "a + b");
     }
 }

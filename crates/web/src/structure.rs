@@ -8,6 +8,7 @@ use leptos::attr::custom::custom_attribute;
 use leptos::ev::KeyboardEvent;
 use leptos::html::Div;
 use leptos::prelude::*;
+use presentation::rows::{Shown, kind_class, shown};
 use session::Command;
 use session::view::{RowKind, StructureRow};
 use std::collections::BTreeSet;
@@ -17,17 +18,6 @@ const FIRST_ROWS: usize = 30;
 
 /// So many rows above and below those in sight are in the page as well.
 const SPARE_ROWS: usize = 10;
-
-/// Whether a rule has a path in it, as words of its own.
-pub fn speaks_of(rule: &str, path: &str) -> bool {
-    let is_word = |c: char| c.is_alphanumeric() || c == '_';
-    !path.is_empty()
-        && rule.match_indices(path).any(|(at, _)| {
-            let before = rule[..at].chars().next_back();
-            let after = rule[at + path.len()..].chars().next();
-            !before.is_some_and(|c| is_word(c) || c == '.') && !after.is_some_and(is_word)
-        })
-}
 
 /// Which rows are open or shut against the rule, and which one has the keyboard.
 #[derive(Clone, Copy, Debug)]
@@ -219,37 +209,6 @@ fn thing_of(row: StructureRow) -> Option<String> {
 /// Whether a row is open: by its depth, unless it was toggled.
 fn is_open(row: &StructureRow, open_depth: u32, toggled: &BTreeSet<String>) -> bool {
     (row.depth < open_depth) != toggled.contains(&row.path)
-}
-
-/// A row that no shut row hides.
-#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
-struct Shown {
-    /// Its number among all rows.
-    at: usize,
-    /// The how-manieth it is of its owner's rows, from 1, and how many those are.
-    position: (u32, u32),
-}
-
-/// The rows that no shut row hides, in order.
-fn shown(rows: &[StructureRow], is_open: impl Fn(&StructureRow) -> bool) -> Vec<Shown> {
-    let mut shown: Vec<Shown> = Vec::new();
-    // for every depth on the way to the present row, the places of its owner's rows so far
-    let mut siblings: Vec<Vec<usize>> = Vec::new();
-    let close = |siblings: Vec<usize>, shown: &mut Vec<Shown>| {
-        siblings.iter().for_each(|&place| shown[place].position.1 = siblings.len() as u32);
-    };
-    let mut at = 0;
-    while let Some(row) = rows.get(at) {
-        let depth = row.depth as usize;
-        siblings.drain((depth + 1).min(siblings.len())..).for_each(|s| close(s, &mut shown));
-        siblings.resize_with(depth + 1, Vec::new);
-        siblings[depth].push(shown.len());
-        shown.push(Shown { at, position: (siblings[depth].len() as u32, 0) });
-        let shut = row.descendants > 0 && !is_open(row);
-        at += 1 + if shut { row.descendants as usize } else { 0 };
-    }
-    siblings.into_iter().for_each(|s| close(s, &mut shown));
-    shown
 }
 
 /// Returns how many levels to open at first: at least the document's own.
@@ -502,16 +461,6 @@ fn Row(tree: Tree, place: usize, shown: Shown) -> impl IntoView {
     }
 }
 
-fn kind_class(kind: RowKind) -> &'static str {
-    match kind {
-        RowKind::Part => "part",
-        RowKind::Virtual => "virtual",
-        RowKind::Constraint => "constraint",
-        RowKind::Merge => "merge",
-        RowKind::Side => "branch",
-    }
-}
-
 fn kind_sign(kind: &str) -> &'static str {
     match kind {
         "constraint" => "=",
@@ -537,57 +486,5 @@ pub(crate) fn toggle_lock(lab: Lab, path: &str) {
         }) || lab.values.with_untracked(|rows| rows.iter().any(|r| r.path == path && r.anchored));
     if let Some(path) = session::parse_path(path) {
         lab.apply(&Command::Anchor { path, held: !held });
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{Shown, shown};
-    use session::view::{RowKind, StructureRow};
-
-    fn row(path: &str, depth: u32, descendants: u32) -> StructureRow {
-        StructureRow {
-            path: String::from(path),
-            depth,
-            kind: RowKind::Part,
-            name: String::from(path),
-            detail: String::new(),
-            doc: String::new(),
-            value: None,
-            exact: None,
-            merged_with: None,
-            makes_one: Vec::new(),
-            freedom: None,
-            anchored: false,
-            enabled: true,
-            descendants,
-            span: None,
-        }
-    }
-
-    #[test]
-    fn shut_rows_hide_theirs_and_siblings_are_counted() {
-        let rows =
-            [row("", 0, 4), row("a", 1, 1), row("a.x", 2, 0), row("b", 1, 1), row("b.x", 2, 0)];
-        let found = |shut: &str| {
-            let rows = shown(&rows, |row| row.path != shut);
-            rows.iter().map(|Shown { at, position }| (*at, *position)).collect::<Vec<_>>()
-        };
-        let all = [(0, (1, 1)), (1, (1, 2)), (2, (1, 1)), (3, (2, 2)), (4, (1, 1))];
-        assert_eq!(found("none"), all);
-        assert_eq!(found("a"), [(0, (1, 1)), (1, (1, 2)), (3, (2, 2)), (4, (1, 1))]);
-        assert_eq!(found(""), [(0, (1, 1))]);
-        assert_eq!(shown(&[], |_| true), []);
-    }
-
-    #[test]
-    fn a_row_of_a_side_is_not_laid_out_as_a_panel() {
-        let style = include_str!("../assets/style.css");
-        let kinds =
-            [RowKind::Part, RowKind::Virtual, RowKind::Constraint, RowKind::Merge, RowKind::Side];
-        for kind in kinds.map(super::kind_class) {
-            let alone = format!("\n.{kind} ");
-            assert!(!style.contains(&alone), "{kind} is a class of the page's layout");
-        }
     }
 }

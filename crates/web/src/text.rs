@@ -8,7 +8,8 @@ use js_sys::{Array, Object, Uint32Array};
 use leptos::ev::KeyboardEvent;
 use leptos::html::{Div, Pre};
 use leptos::prelude::*;
-use session::view::{DeclaredView, DiagnosticView, StructureRow, TextView, WordView};
+use presentation::rows::{path_at, span_of};
+use session::view::{DeclaredView, DiagnosticView, TextView, WordView};
 use session::{Command, Session};
 use wasm_bindgen::closure::Closure;
 use wasm_bindgen::{JsCast, JsValue};
@@ -351,71 +352,5 @@ fn mark(
     });
     if let (Some((start, _)), false) = (selected, writing) {
         editor.set_cursor(start);
-    }
-}
-
-/// Where a thing is written, or else the nearest thing that it is a part of.
-fn span_of(rows: &[StructureRow], path: &str) -> Option<(u32, u32)> {
-    let mut path = path;
-    loop {
-        if path.is_empty() {
-            return None;
-        }
-        let own = rows.iter().find(|row| row.path == path && row.span.is_some());
-        if let Some(row) = own {
-            return row.span;
-        }
-        path = path.rfind('.').map_or("", |at| &path[..at]);
-    }
-}
-
-/// The smallest thing that is written around an offset.
-fn path_at(rows: &[StructureRow], offset: u32) -> Option<String> {
-    let around = rows.iter().filter_map(|row| {
-        let (start, end) = row.span?;
-        (start <= offset && offset <= end && !row.path.is_empty()).then_some((end - start, row))
-    });
-    around.min_by_key(|(length, _)| *length).map(|(_, row)| row.path.clone())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{path_at, span_of};
-    use session::view::{RowKind, StructureRow};
-
-    fn row(path: &str, span: Option<(u32, u32)>) -> StructureRow {
-        StructureRow {
-            path: String::from(path),
-            depth: 0,
-            kind: RowKind::Part,
-            name: String::new(),
-            detail: String::new(),
-            doc: String::new(),
-            value: None,
-            exact: None,
-            merged_with: None,
-            makes_one: Vec::new(),
-            freedom: None,
-            anchored: false,
-            enabled: true,
-            descendants: 0,
-            span,
-        }
-    }
-
-    #[test]
-    fn what_is_written_nowhere_is_marked_where_its_owner_is() {
-        let rows = [row("", Some((0, 90))), row("q", Some((10, 20))), row("q.side", None)];
-        assert_eq!(span_of(&rows, "q.side.p1"), Some((10, 20)));
-        assert_eq!(span_of(&rows, "other"), None);
-    }
-
-    #[test]
-    fn the_cursor_selects_the_innermost_thing() {
-        let rows =
-            [row("", Some((0, 90))), row("q", Some((10, 40))), row("q.side", Some((20, 30)))];
-        assert_eq!(path_at(&rows, 25).as_deref(), Some("q.side"));
-        assert_eq!(path_at(&rows, 12).as_deref(), Some("q"));
-        assert_eq!(path_at(&rows, 80), None);
     }
 }

@@ -6,6 +6,8 @@ use crate::{field, js, words};
 use leptos::ev::{KeyboardEvent, PointerEvent};
 use leptos::html::Span;
 use leptos::prelude::*;
+use presentation::numbers::{slider_range, step, with_unit};
+use presentation::paths::split;
 use session::view::ValueRow;
 use std::f64::consts::{PI, TAU};
 use wasm_bindgen::JsCast;
@@ -161,11 +163,6 @@ pub fn Row(
             </td>
         </tr>
     }
-}
-
-/// A path's owner, with its dot, and its last step.
-fn split(path: &str) -> (&str, &str) {
-    path.rfind('.').map_or(("", path), |at| path.split_at(at + 1))
 }
 
 /// Whether a thing is a value or the thing that it is a part of.
@@ -328,38 +325,11 @@ pub fn Slider(
     }
 }
 
-/// The ends of a slider: the old ones while the number lies between them, else `natural` ones that hold it, else some
-/// around the number and zero.
-pub(crate) fn slider_range(
-    number: f64,
-    natural: Option<(f64, f64)>,
-    old: Option<&(f64, f64)>,
-) -> (f64, f64) {
-    let holds = |(least, most): &(f64, f64)| *least <= number && number <= *most;
-    match old.copied().filter(holds).or(natural.filter(holds)) {
-        Some(ends) => ends,
-        None if number == 0.0 => (-100.0, 100.0),
-        None => ((2.0 * number).min(0.0), (2.0 * number).max(0.0)),
-    }
-}
-
 /// The ends of a whole turn in the units of a row's number, where that is an angle. One that is computed lies within
 /// half a turn of zero.
 pub(crate) fn whole_turn(row: &ValueRow) -> Option<(f64, f64)> {
     let is_upward = !row.is_virtual && row.number.is_some_and(|number| number >= 0.0);
     (row.class == "Angle").then_some(if is_upward { (0.0, TAU) } else { (-PI, PI) })
-}
-
-/// How much one step of scrubbing changes a number: one unit of its third figure or so.
-fn step(number: f64) -> f64 {
-    let mut step = 1.0;
-    while step > 1e-9 && step * 100.0 > number.abs().max(1e-9) {
-        step /= 10.0;
-    }
-    while step * 1000.0 < number.abs() {
-        step *= 10.0;
-    }
-    if number == 0.0 { 1.0 } else { step }
 }
 
 /// The field of one value: Enter sets it, Escape brings back what was there.
@@ -466,16 +436,6 @@ fn Field(lab: Lab, row: Memo<Option<ValueRow>>, selects: bool) -> impl IntoView 
     }
 }
 
-/// A bare number is meant in the unit that stands beside the field.
-fn with_unit(words: &str, unit: &str) -> String {
-    let words = words.trim();
-    if unit.is_empty() || words.parse::<f64>().is_err() {
-        String::from(words)
-    } else {
-        format!("{words} {unit}")
-    }
-}
-
 /// Which row.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum Beside {
@@ -499,40 +459,4 @@ fn focus_beside(e: &KeyboardEvent, which: Beside) -> bool {
         field.select();
     }
     field.focus().is_ok()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{slider_range, split, step, with_unit};
-
-    #[test]
-    fn a_bare_number_takes_the_unit_beside_it() {
-        assert_eq!(with_unit(" 300 ", "ohm"), "300 ohm");
-        assert_eq!(with_unit("0.3 kohm", "ohm"), "0.3 kohm");
-        assert_eq!(with_unit("300", ""), "300");
-        assert_eq!(with_unit("hello", "ohm"), "hello");
-    }
-
-    #[test]
-    fn a_slider_keeps_its_ends_while_its_number_lies_between_them() {
-        assert_eq!(slider_range(120.0, None, None), (0.0, 240.0));
-        assert_eq!(slider_range(180.0, None, Some(&(0.0, 240.0))), (0.0, 240.0));
-        assert_eq!(slider_range(-5.0, None, Some(&(0.0, 240.0))), (-10.0, 0.0));
-        assert_eq!(slider_range(30.0, Some((0.0, 360.0)), None), (0.0, 360.0));
-        assert_eq!(slider_range(30.0, Some((-180.0, 180.0)), None), (-180.0, 180.0));
-        assert_eq!(slider_range(400.0, Some((0.0, 360.0)), None), (0.0, 800.0));
-    }
-
-    #[test]
-    fn paths_end_in_a_name() {
-        assert_eq!(split("q.outer.side1.p1.x"), ("q.outer.side1.p1.", "x"));
-        assert_eq!(split("celsius"), ("", "celsius"));
-    }
-
-    #[test]
-    fn scrubbing_steps_by_the_third_figure() {
-        assert_eq!((step(174.0), step(0.0), step(20.0)), (1.0, 1.0, 0.1));
-        assert!((step(0.0075) / 1e-5 - 1.0).abs() < 1e-9);
-        assert!((step(-33_000.0) - 100.0).abs() < 1e-9);
-    }
 }

@@ -2,9 +2,9 @@
 //! values come about.
 
 use crate::lab::{Kind, Lab, Told};
-use crate::picture::covers;
 use crate::{icons, words};
 use leptos::prelude::*;
+use presentation::paths::covers;
 use session::jobs::{LongAnswer, LongQuestion};
 use session::view::{
     Advice, Analysis, Choice, ContradictionView, ExplainedStep, Ghost, HeldView, MotionView,

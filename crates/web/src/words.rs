@@ -723,31 +723,6 @@ pub fn class_made(name: &str) -> String {
     format!("{name} is a class now; the bin has it")
 }
 
-/// A rule as a person reads it: without the word `constraint`, its name and how it is computed, with the signs of
-/// arithmetic.
-pub fn formula(rule: &str) -> String {
-    let rule = rule.split(" {").next().unwrap_or(rule);
-    let rule = rule.strip_prefix("constraint ").unwrap_or(rule).trim();
-    let is_name = |name: &str| name.chars().all(|c| c.is_alphanumeric() || c == '_');
-    let rule = match rule.split_once(": ") {
-        Some((name, rest)) if is_name(name) => rest,
-        _ => rule,
-    };
-    let signs = [
-        (" * ", " · "),
-        (" - ", " − "),
-        ("<=", "≤"),
-        (">=", "≥"),
-        ("!=", "≠"),
-        ("sqrt(", "√("),
-        ("^2", "²"),
-        ("^3", "³"),
-        (" ohm", " Ω"),
-        (" deg", "°"),
-    ];
-    signs.iter().fold(String::from(rule), |rule, (from, to)| rule.replace(from, to))
-}
-
 /// Names the text in which a name is declared.
 pub fn declared_in(file: &str) -> String {
     format!("Declared in {file}")
@@ -768,19 +743,5 @@ pub fn copied(count: usize) -> String {
     match count {
         1 => String::from("copied; Ctrl+V puts it down"),
         _ => format!("{count} things copied; Ctrl+V puts them down"),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::formula;
-
-    #[test]
-    fn a_rule_is_read_as_a_formula() {
-        let rule = "constraint ohm: a.node.voltage - b.node.voltage = current * resistance";
-        assert_eq!(formula(rule), "a.node.voltage − b.node.voltage = current · resistance");
-        assert_eq!(formula("constraint a = b { a := b }"), "a = b");
-        assert_eq!(formula("constraint a.passes(through: b)"), "a.passes(through: b)");
-        assert_eq!(formula("constraint x^2 <= 4"), "x² ≤ 4");
     }
 }

@@ -3,9 +3,11 @@
 use super::{ABSENT, Lab, Opened, Zoom};
 use crate::dialog::Wish;
 use crate::lab::Notice;
-use crate::server::{self, Listed, Saved, Stored};
+use crate::server::{self, Saved, Stored};
 use crate::{js, route, words};
 use leptos::prelude::*;
+use presentation::palette::Listed;
+use presentation::paths::usable;
 use session::view::DocumentId;
 use session::{Command, used_as};
 use wasm_bindgen::JsCast;
@@ -356,30 +358,4 @@ async fn stands(path: &str) -> Result<Stored, String> {
     let begun =
         || Stored { text: String::from(NEW_TEXT), version: String::from(ABSENT), writable: true };
     Ok(server::document(path).await?.unwrap_or_else(begun))
-}
-
-/// What `use` calls a document in the text of another in the same folder; nothing for that other one itself, and where
-/// its file's name is no name.
-fn usable(path: &str, user: &str) -> Option<String> {
-    let name = used_as(path, user).filter(|_| path.ends_with(".thing") && path != user)?;
-    let is_name = name.chars().all(|c| c.is_alphanumeric() || c == '_')
-        && name.chars().next().is_some_and(|c| !c.is_numeric());
-    is_name.then_some(name)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::usable;
-
-    #[test]
-    fn what_lies_in_the_same_folder_can_be_used() {
-        assert_eq!(usable("flange.thing", "plate.thing").as_deref(), Some("flange"));
-        assert_eq!(usable("shop/flange.thing", "shop/plate.thing").as_deref(), Some("flange"));
-        for other in
-            ["plate.thing", "shop/flange.thing", "old-flange.thing", "2.thing", "notes.txt"]
-        {
-            assert_eq!(usable(other, "plate.thing"), None, "{other}");
-        }
-        assert_eq!(usable("flange.thing", "shop/plate.thing"), None);
-    }
 }

@@ -9,36 +9,8 @@ use super::{Lab, Notice};
 use crate::{js, server, theme, words};
 use js_sys::Array;
 use leptos::prelude::*;
+use presentation::drafts::{Draft, Journal, place, place_of};
 use session::Command;
-use std::collections::VecDeque;
-
-/// Where drafts are kept: the tab and the document's path follow.
-const PLACE: &str = "thinglab/draft/";
-
-/// An unsaved text.
-#[derive(Clone, PartialEq, Debug)]
-pub struct Draft {
-    /// The version on disk that it began from.
-    pub version: String,
-    /// When it was kept, in milliseconds since 1970.
-    pub kept: f64,
-    /// The text.
-    pub text: String,
-}
-
-impl Draft {
-    /// As the browser keeps it: version and time have a line of their own.
-    fn written(&self) -> String {
-        format!("{} {}\n{}", self.version, self.kept, self.text)
-    }
-
-    fn read(kept: &str) -> Option<Self> {
-        let (head, text) = kept.split_once('\n')?;
-        let (version, kept) = head.split_once(' ').unwrap_or((head, "0"));
-        let (version, text) = (String::from(version), String::from(text));
-        Some(Self { version, kept: kept.parse().unwrap_or(0.0), text })
-    }
-}
 
 /// A draft that is offered, and where it is kept.
 #[derive(Clone, PartialEq, Debug)]
@@ -48,67 +20,9 @@ pub struct Offered {
     place: String,
 }
 
-/// What the server is still to keep: of each place the latest, nothing for what it is to forget.
-#[derive(Default)]
-pub(super) struct Journal {
-    /// The places in the order in which the server is told of them.
-    waiting: VecDeque<(String, Option<String>)>,
-    /// Whether it is being told.
-    is_telling: bool,
-}
-
-impl Journal {
-    /// Takes up what is to be kept in a place. Returns true where the server is to be told from now on.
-    fn put(&mut self, place: &str, draft: Option<&str>) -> bool {
-        let draft = draft.map(String::from);
-        match self.waiting.iter_mut().find(|(known, _)| known == place) {
-            Some((_, known)) => *known = draft,
-            None => self.waiting.push_back((String::from(place), draft)),
-        }
-        !std::mem::replace(&mut self.is_telling, true)
-    }
-
-    /// What the server is to be told next. When there is nothing more, telling is over.
-    fn next(&mut self) -> Option<(String, Option<String>)> {
-        let next = self.waiting.front().cloned();
-        self.is_telling = next.is_some();
-        next
-    }
-
-    /// The server has answered for what was next; it is done unless its place has something else by now.
-    fn answered(&mut self, told: &(String, Option<String>)) {
-        if self.waiting.front() == Some(told) {
-            self.waiting.pop_front();
-        }
-    }
-
-    /// The server has not answered: what was next waits behind the others, until telling begins again.
-    fn unanswered(&mut self) {
-        if let Some(first) = self.waiting.pop_front() {
-            self.waiting.push_back(first);
-        }
-        self.is_telling = false;
-    }
-
-    /// Whether the server does not know the latest of a place yet.
-    fn is_waiting(&self, place: &str) -> bool {
-        self.waiting.iter().any(|(known, _)| known == place)
-    }
-}
-
-/// Where a tab keeps the draft of a document.
-fn place(tab: &str, path: &str) -> String {
-    format!("{PLACE}{tab}/{path}")
-}
-
 /// Where this tab does.
 fn own_place(path: &str) -> String {
     place(&js::tab_name(), path)
-}
-
-/// The tab and the path that a place is for; nothing where no draft is kept.
-fn place_of(name: &str) -> Option<(&str, &str)> {
-    name.strip_prefix(PLACE)?.split_once('/')
 }
 
 /// The drafts of a document that say something else than its file and are of no tab that lives, the newest first: of
@@ -198,7 +112,7 @@ impl Lab {
     /// What the server keeps of a document, once it has been told all; without what it could not be told.
     async fn drafts_on_disk(self, path: &str) -> Vec<(String, String)> {
         loop {
-            let is_told = self.journal.with_value(|journal| !journal.is_telling);
+            let is_told = self.journal.with_value(|journal| !journal.is_telling());
             let mut found = server::drafts(path).await;
             if is_told {
                 self.journal.with_value(|journal| {
@@ -212,7 +126,7 @@ impl Lab {
     /// Tells the server what is to be kept, one after the other. Where it does not answer, the browser alone keeps the
     /// rest, until the next draft.
     async fn write_journal(self) {
-        while let Some(next) = self.journal.try_update_value(Journal::next).flatten() {
+        while let Some(next) = self.journal.try_update_value(Journal::to_tell).flatten() {
             let (place, draft) = &next;
             let is_answered = match place_of(place) {
                 Some((tab, path)) => server::keep_draft(path, tab, draft.as_deref()).await,
@@ -245,57 +159,5 @@ impl Lab {
             self.put_draft(&place, None);
         }
         self.offer_draft(&path);
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{Draft, Journal, place, place_of};
-
-    #[test]
-    fn a_draft_is_read_as_it_was_written() {
-        for text in ["", "x: Real\n", "\nfirst line empty", "a\r\nb\n\n"] {
-            let (version, kept) = (String::from("absent"), 1.75e12);
-            let draft = Draft { version, kept, text: String::from(text) };
-            assert_eq!(Draft::read(&draft.written()), Some(draft));
-        }
-        assert_eq!(Draft::read("no line"), None);
-    }
-
-    #[test]
-    fn a_place_tells_the_tab_and_the_document() {
-        assert_eq!(place_of("thinglab/draft/7e-1/a/b.thing"), Some(("7e-1", "a/b.thing")));
-        assert_eq!(place_of("thinglab/dock"), None);
-        assert_eq!(place_of(&place("7e-1", "a/b.thing")), Some(("7e-1", "a/b.thing")));
-    }
-
-    #[test]
-    fn a_draft_that_the_server_did_not_answer_for_is_told_again() {
-        let mut journal = Journal::default();
-        assert!(journal.put("a", Some("1")));
-        assert!(!journal.put("b", None));
-        let first = journal.next().expect("it waits");
-        assert_eq!(first, ("a".into(), Some("1".into())));
-        journal.unanswered();
-        assert!(journal.is_waiting("a") && journal.is_waiting("b"));
-        // the next draft begins anew; what was not answered does not stand in the way of the others
-        assert!(journal.put("c", Some("3")));
-        let mut told = Vec::new();
-        while let Some(next) = journal.next() {
-            journal.answered(&next);
-            told.push(next.0);
-        }
-        assert_eq!(told, ["b", "a", "c"]);
-        assert!(journal.put("a", None));
-    }
-
-    #[test]
-    fn a_draft_that_changes_while_the_server_is_told_is_told_again() {
-        let mut journal = Journal::default();
-        journal.put("a", Some("1"));
-        let first = journal.next().expect("it waits");
-        assert!(!journal.put("a", Some("2")));
-        journal.answered(&first);
-        assert_eq!(journal.next(), Some(("a".into(), Some("2".into()))));
     }
 }

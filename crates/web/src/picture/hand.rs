@@ -2,9 +2,7 @@
 //!
 //! A press does nothing until the pointer moves; then it drags what was under it, or the sheet.
 
-use super::band::{Take, banded};
-use super::pick::{pick, pick_word};
-use super::{covers, sheet_point};
+use super::sheet_point;
 use crate::actions::Context;
 use crate::js;
 use crate::lab::Lab;
@@ -13,6 +11,9 @@ use crate::sheet::View;
 use leptos::ev::{MouseEvent, PointerEvent};
 use leptos::html::Canvas;
 use leptos::prelude::*;
+use presentation::band::{Take, banded};
+use presentation::paths::covers;
+use presentation::pick::{pick, pick_word};
 use session::view::{Caught, Pointer};
 
 /// How near a grip the pointer must be, in pixels: a mouse's, a finger's.

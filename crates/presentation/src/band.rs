@@ -9,7 +9,7 @@ use std::collections::BTreeSet;
 
 /// Which things a band takes.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(super) enum Take {
+pub enum Take {
     /// Those that lie in it as a whole.
     Within,
     /// Those that it touches as well.
@@ -17,7 +17,7 @@ pub(super) enum Take {
 }
 
 /// Returns the paths of what lies in a band between two corners on the sheet, each whole once, in order of the picture.
-pub(super) fn banded(picture: &PictureView, (a, b): (Point, Point), take: Take) -> Vec<String> {
+pub fn banded(picture: &PictureView, (a, b): (Point, Point), take: Take) -> Vec<String> {
     let band = Bounds {
         least: Point { x: a.x.min(b.x), y: a.y.min(b.y) },
         most: Point { x: a.x.max(b.x), y: a.y.max(b.y) },

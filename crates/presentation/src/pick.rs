@@ -1,12 +1,13 @@
 //! What lies under the pointer: grips first, then other points, words, lines and curves.
 
+use crate::paths::covers;
 use crate::sheet::View;
 use drawing::{Element, Placement, Point, Shape};
 use session::view::PictureView;
 
 /// Returns the path of what lies within `reach` pixels of a place on the screen; of what a program drew, that which
 /// [`deeper`] says.
-pub(super) fn pick(
+pub fn pick(
     picture: &PictureView,
     view: &View,
     at: (f64, f64),
@@ -47,24 +48,20 @@ pub(super) fn pick(
 
 /// Returns what a pick chooses of what a program drew: at first the thing whose program it is; where that is chosen
 /// already, the entity; then its turn, the whole set, and so on outwards, to the thing again.
-pub(super) fn deeper(whole: &str, entity: &str, chosen: Option<&str>) -> String {
+pub fn deeper(whole: &str, entity: &str, chosen: Option<&str>) -> String {
     match chosen {
         Some(chosen) if chosen == whole => entity.to_string(),
-        Some(chosen) if super::covers(whole, chosen) && super::covers(chosen, entity) => {
+        Some(chosen) if covers(whole, chosen) && covers(chosen, entity) => {
             let end = chosen.rfind(['.', '[']).unwrap_or(0);
             chosen[..end].to_string()
         }
-        Some(chosen) if super::covers(whole, chosen) => entity.to_string(),
+        Some(chosen) if covers(whole, chosen) => entity.to_string(),
         _ => whole.to_string(),
     }
 }
 
 /// Returns the words at a place on the screen, and the path of the thing that they are of.
-pub(super) fn pick_word(
-    picture: &PictureView,
-    view: &View,
-    at: (f64, f64),
-) -> Option<(String, String)> {
+pub fn pick_word(picture: &PictureView, view: &View, at: (f64, f64)) -> Option<(String, String)> {
     let element = word_at(picture, view, at)?;
     let path = picture.paths.get(element.tag.0 as usize)?;
     match &element.shape {

@@ -1,0 +1,84 @@
+//! Numbers as fields, sliders and buttons have them.
+
+/// The ends of a slider: the old ones while the number lies between them, else `natural` ones that hold it, else some
+/// around the number and zero.
+pub fn slider_range(
+    number: f64,
+    natural: Option<(f64, f64)>,
+    old: Option<&(f64, f64)>,
+) -> (f64, f64) {
+    let holds = |(least, most): &(f64, f64)| *least <= number && number <= *most;
+    match old.copied().filter(holds).or(natural.filter(holds)) {
+        Some(ends) => ends,
+        None if number == 0.0 => (-100.0, 100.0),
+        None => ((2.0 * number).min(0.0), (2.0 * number).max(0.0)),
+    }
+}
+
+/// How much one step of scrubbing changes a number: one unit of its third figure or so.
+pub fn step(number: f64) -> f64 {
+    let mut step = 1.0;
+    while step > 1e-9 && step * 100.0 > number.abs().max(1e-9) {
+        step /= 10.0;
+    }
+    while step * 1000.0 < number.abs() {
+        step *= 10.0;
+    }
+    if number == 0.0 { 1.0 } else { step }
+}
+
+/// A bare number is meant in the unit that stands beside the field.
+pub fn with_unit(words: &str, unit: &str) -> String {
+    let words = words.trim();
+    if unit.is_empty() || words.parse::<f64>().is_err() {
+        String::from(words)
+    } else {
+        format!("{words} {unit}")
+    }
+}
+
+/// A value as a button shows it, to six digits; the field that asks for it has them all.
+pub fn to_read(value: &str) -> String {
+    let (number, unit) = value.split_once(' ').unwrap_or((value, ""));
+    match number.parse() {
+        Ok(x) => format!("{} {unit}", base::number::significant(x, 6)).trim_end().into(),
+        Err(_) => value.into(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{slider_range, step, to_read, with_unit};
+
+    #[test]
+    fn a_bare_number_takes_the_unit_beside_it() {
+        assert_eq!(with_unit(" 300 ", "ohm"), "300 ohm");
+        assert_eq!(with_unit("0.3 kohm", "ohm"), "0.3 kohm");
+        assert_eq!(with_unit("300", ""), "300");
+        assert_eq!(with_unit("hello", "ohm"), "hello");
+    }
+
+    #[test]
+    fn a_slider_keeps_its_ends_while_its_number_lies_between_them() {
+        assert_eq!(slider_range(120.0, None, None), (0.0, 240.0));
+        assert_eq!(slider_range(180.0, None, Some(&(0.0, 240.0))), (0.0, 240.0));
+        assert_eq!(slider_range(-5.0, None, Some(&(0.0, 240.0))), (-10.0, 0.0));
+        assert_eq!(slider_range(30.0, Some((0.0, 360.0)), None), (0.0, 360.0));
+        assert_eq!(slider_range(30.0, Some((-180.0, 180.0)), None), (-180.0, 180.0));
+        assert_eq!(slider_range(400.0, Some((0.0, 360.0)), None), (0.0, 800.0));
+    }
+
+    #[test]
+    fn scrubbing_steps_by_the_third_figure() {
+        assert_eq!((step(174.0), step(0.0), step(20.0)), (1.0, 1.0, 0.1));
+        assert!((step(0.0075) / 1e-5 - 1.0).abs() < 1e-9);
+        assert!((step(-33_000.0) - 100.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn a_button_shows_six_digits_of_a_length() {
+        assert_eq!(to_read("353.5533905932738"), "353.553");
+        assert_eq!(to_read("-53.089384 deg"), "-53.0894 deg");
+        assert_eq!(to_read("a + b"), "a + b");
+    }
+}

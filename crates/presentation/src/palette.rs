@@ -1,0 +1,152 @@
+//! The palette: what has the words that are wanted, of actions, constructions, classes and documents.
+
+use session::drafting::view::ConstructionRow;
+
+/// An action: itself, its name, its label.
+pub type Named<A> = (A, &'static str, &'static str);
+
+/// A document that the server offers.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Listed {
+    /// Its path: `gallery/quadrilateral.thing`.
+    pub path: String,
+    /// What it is called.
+    pub title: String,
+    /// Whether it comes from the gallery.
+    pub in_gallery: bool,
+}
+
+/// What can be chosen.
+#[derive(Clone, PartialEq, Debug)]
+pub enum Choice<A> {
+    /// An action.
+    Do(A),
+    /// A construction.
+    Draw(ConstructionRow),
+    /// A class of the bin.
+    Insert(String),
+    /// A document.
+    Open(Listed),
+}
+
+/// What can be drawn in the shown document: its constructions, and the classes of its bin.
+pub type Drawn = (Vec<ConstructionRow>, Vec<String>);
+
+/// What has the words that are wanted in its label; then what has them in its own name; then what has each of
+/// them somewhere; then what has all their letters in order, the shortest first: an action in its label, a
+/// document, whose title may be long, in its path.
+///
+/// Constructions and classes are found by pieces of words, not by scattered letters. Those whose name begins so come
+/// before documents, others after what has the words in its label or name.
+pub fn matching<A: Clone>(
+    wanted: &str,
+    actions: &[Named<A>],
+    listed: &[Listed],
+    (constructions, classes): &Drawn,
+) -> Vec<Choice<A>> {
+    let wanted = wanted.trim().to_lowercase();
+    let rank = |label: &str, name: &str, short: &str| {
+        let (label, name, short) =
+            (label.to_lowercase(), name.to_lowercase(), short.to_lowercase());
+        match () {
+            () if label.contains(&wanted) => Some((0, 0)),
+            () if name.contains(&wanted) => Some((1, 0)),
+            () if wanted.split_whitespace().all(|word| label.contains(word)) => Some((2, 0)),
+            () => scattered(&short, &wanted).then_some((3, short.len())),
+        }
+    };
+    let action =
+        |(action, id, label): &Named<A>| (rank(label, id, label), Choice::Do(action.clone()));
+    // a title is a sentence, and may have any word in it: what is called so comes first
+    let document = |one: &Listed| {
+        let rank = rank(&one.title, &one.path, &one.path);
+        (rank.map(|rank| rank.max((0, 2))), Choice::Open(one.clone()))
+    };
+    let has = |text: &str| {
+        let text = text.to_lowercase();
+        !wanted.is_empty() && wanted.split_whitespace().all(|word| text.contains(word))
+    };
+    let called = |text: &str| match text.to_lowercase().starts_with(&wanted) {
+        true => (0, 1),
+        false => (2, 1),
+    };
+    let construction = |row: &ConstructionRow| {
+        let text = [&row.label, row.also].join(" ");
+        (has(&text).then(|| called(&row.label)), Choice::Draw(row.clone()))
+    };
+    let class = |class: &String| (has(class).then(|| called(class)), Choice::Insert(class.clone()));
+    let all = actions.iter().map(action).chain(constructions.iter().map(construction));
+    let all = all.chain(classes.iter().map(class)).chain(listed.iter().map(document));
+    let mut found: Vec<_> = all.filter_map(|(rank, choice)| Some((rank?, choice))).collect();
+    found.sort_by_key(|(rank, _)| *rank);
+    found.into_iter().map(|(_, choice)| choice).collect()
+}
+
+fn scattered(label: &str, wanted: &str) -> bool {
+    let mut letters = label.chars();
+    wanted.chars().all(|letter| letters.any(|found| found == letter))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Choice, ConstructionRow, Listed, Named, matching};
+
+    /// Some of the page's.
+    const ACTIONS: [Named<&str>; 15] = [
+        ("new", "new", "New document"),
+        ("open", "open", "Open a file of this machine"),
+        ("save", "save", "Save"),
+        ("undo", "undo", "Undo"),
+        ("redo", "redo", "Redo"),
+        ("explain", "explain", "Why is it so?"),
+        ("recognise", "recognise", "What could it be parts of?"),
+        ("delete", "delete", "Delete"),
+        ("duplicate", "duplicate", "Duplicate"),
+        ("copy", "copy", "Copy"),
+        ("insert", "insert", "Insert from the bin"),
+        ("fit", "fit", "Fit the picture"),
+        ("zoom-in", "zoom-in", "Zoom in"),
+        ("zoom-out", "zoom-out", "Zoom out"),
+        ("theme", "theme", "Light, dark or as the system says"),
+    ];
+
+    #[test]
+    fn the_palette_finds_by_words_before_letters() {
+        let listed = [Listed {
+            path: String::from("gallery/bridge.thing"),
+            title: String::from("Bridge under load"),
+            in_gallery: true,
+        }];
+        let row = ConstructionRow {
+            id: String::from("Axis.equidistant(first,second)"),
+            class: String::from("Axis"),
+            label: String::from(
+                "Line of the points that are as far from one point as from another",
+            ),
+            operands: String::from("first, second"),
+            doc: String::new(),
+            also: "perpendicular bisector",
+        };
+        let drawn = (vec![row], vec![String::from("Resistor")]);
+        assert_eq!(matching("", &ACTIONS, &listed, &drawn).len(), ACTIONS.len() + 1);
+        let first = |wanted| match matching(wanted, &ACTIONS, &listed, &drawn).into_iter().next() {
+            Some(Choice::Do(action)) => String::from(action),
+            Some(Choice::Draw(row)) => row.id,
+            Some(Choice::Insert(class)) => class,
+            Some(Choice::Open(listed)) => listed.path,
+            None => String::new(),
+        };
+        assert_eq!(first("zoom in"), "zoom-in");
+        assert_eq!(first("undo"), "undo");
+        assert_eq!(first("load bridge"), "gallery/bridge.thing");
+        assert_eq!(first("under load"), "gallery/bridge.thing");
+        assert_eq!(first("ftp"), "fit");
+        assert_eq!(first("recog"), "recognise");
+        assert_eq!(first("perpendicular bisector"), "Axis.equidistant(first,second)");
+        assert_eq!(first("resist"), "Resistor");
+        assert_eq!(first("brg"), "gallery/bridge.thing");
+        // no piece of every word of a long title
+        assert_eq!(first("bgeudload"), "");
+        assert_eq!(first("qqq"), "");
+    }
+}
