@@ -53,7 +53,8 @@ impl FaultKind {
 }
 
 impl Fault {
-    pub(crate) fn new(kind: FaultKind, message: impl Into<String>) -> Self {
+    /// A fault of a kind, with its message, that names no member yet.
+    pub fn new(kind: FaultKind, message: impl Into<String>) -> Self {
         Self { origin: None, kind, message: message.into() }
     }
     pub(crate) fn unknown(message: impl Into<String>) -> Self {

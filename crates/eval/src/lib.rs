@@ -38,6 +38,7 @@ mod given;
 mod lookup;
 mod make;
 mod measure;
+mod numerals;
 mod operate;
 mod picture;
 pub mod programs;

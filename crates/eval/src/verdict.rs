@@ -5,10 +5,10 @@
 //! measure serves their comparisons.
 
 use crate::answer::{Answer, Frame};
-use crate::builtin::{number_text, read_number};
 use crate::evaluator::{Evaluator, Result};
 use crate::fault::Fault;
 use crate::measure;
+use crate::numerals::{number_text, read_number};
 use crate::sway::Order;
 use base::Name;
 use base::number::{Tolerance, close, pow, shortest};

@@ -518,10 +518,24 @@ impl Walk<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lower::hold;
-    use crate::rule::Source;
+    use crate::rule::{Body, Shape, Source};
     use base::Dice;
-    use kernel::{Form, Primitive, Slot, Strength};
+    use base::number::Tolerance;
+    use kernel::{Form, Primitive, Slot};
+    use solve::Level;
+
+    /// A stay of so many slots.
+    fn held(count: u32) -> Shape {
+        Shape {
+            level: Level::WeakStay,
+            body: Body::Hold((0..count).collect()),
+            methods: Vec::new(),
+            derived: true,
+            reads: Vec::new(),
+            within: Tolerance::Relative,
+            when: Vec::new(),
+        }
+    }
 
     fn structure(dice: &mut Dice, slots: u32) -> Structure {
         let (mut form, mut things) = (Form::default(), IdVec::new());
@@ -557,7 +571,7 @@ mod tests {
                     .collect();
                 mentioned.sort_unstable();
                 mentioned.dedup();
-                let shape = rules.add_shape(hold(Strength::Weak, mentioned.len() as u32));
+                let shape = rules.add_shape(held(mentioned.len() as u32));
                 rules.add(Source::Stay(i), shape, mentioned);
             }
             let net = Net::new(&structure, &rules);

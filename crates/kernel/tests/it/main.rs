@@ -1,5 +1,6 @@
 //! What structures are made of documents.
 
 mod builder;
+mod builtin;
 mod naive;
 mod structure;
