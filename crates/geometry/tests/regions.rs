@@ -5,6 +5,11 @@ use base::number::{atan, cos, hypot, sin};
 use geometry::{Bend, Combination, Ring, Surface, combine, offset};
 use std::f64::consts::PI;
 
+// what only the room itself knows stands beside its tests, and is compiled with them here
+#[expect(dead_code, reason = "the room asks more of it")]
+#[path = "../src/region/edge.rs"]
+mod edge;
+
 /// How many regions are looked at in each way.
 const CASES: usize = 80;
 

@@ -1,7 +1,12 @@
 //! Every construct as a tree, kind by kind.
 
 use base::FileId;
-use syntax::{dump, parse};
+use syntax::units::unit_length;
+use syntax::{dump, kind, parse, units};
+
+// what only the room itself knows stands beside its tests, and is compiled with them here
+#[path = "../src/lexer.rs"]
+mod lexer;
 
 /// Parses a text without faults and shows its members.
 fn check(text: &str, expected: &str) {
@@ -327,4 +332,15 @@ fn a_line_end_ends_an_expression() {
         "constraint a = b\n{ a := b }",
         "(Constraint constraint (BinaryExpr (NameExpr a) = (NameExpr b)) (MethodList { (Method (NameExpr a) := (NameExpr b)) }))",
     );
+}
+
+#[test]
+fn a_unit_is_a_whole_word() {
+    assert_eq!(unit_length("kohm"), 4);
+    assert_eq!(unit_length("kohms"), 0);
+    assert_eq!(unit_length("°"), 2);
+    assert_eq!(unit_length("N*m"), 3);
+    assert_eq!(unit_length("m^x"), 1);
+    assert_eq!(unit_length("s^-1"), 4);
+    assert_eq!(unit_length("in"), 2);
 }
