@@ -232,10 +232,22 @@ fn mistakes_of_beginners_are_told_as_a_teacher_would() {
 
 /// The tables of the language's own words, as the manual shows them.
 fn tables_of_words() -> String {
-    use session::vocabulary::{functions, prefixes, quantities, units};
+    use session::vocabulary::{functions, messages_of_lists, messages_of_numbers, messages_of_texts};
+    use session::vocabulary::{prefixes, quantities, units};
     let mut out = String::from("| function | of | where | |\n|---|---|---|---|\n");
     for f in functions().iter().filter(|f| !f.answers.contains("picture")) {
         let _ = writeln!(out, "| `{}` | {} | {} | {} |", f.call, f.takes, f.domain, f.doc);
+    }
+    let messages = [
+        ("text", messages_of_texts()),
+        ("list or set", messages_of_lists()),
+        ("number", messages_of_numbers()),
+    ];
+    for (of, messages) in messages {
+        let _ = write!(out, "\n| of a {of} | answers | |\n|---|---|---|\n");
+        for m in messages {
+            let _ = writeln!(out, "| `.{}` | {} | {} |", m.call, m.answers, m.doc);
+        }
     }
     out += "\n| units | of |\n|---|---|\n";
     let mut rows: Vec<(String, Vec<String>)> = Vec::new();

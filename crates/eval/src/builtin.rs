@@ -9,11 +9,10 @@ use crate::operate::finite;
 use crate::replay::{Binary, Unary};
 use base::Name;
 use base::number::{joined, shortest};
-use drawing::metrics;
 use expr::dimension::Dimension;
 use kernel::builtin::{
     Builtin, Domain, FUNCTIONS, Function, LIST_MESSAGES, ListMessage, NUMBER_MESSAGES,
-    NumberMessage, PICTURE_MESSAGES, TEXT_MESSAGES, THING_MESSAGES, TextMessage, ThingMessage,
+    NumberMessage, PICTURE_MESSAGES, TEXT_MESSAGES, THING_MESSAGES, ThingMessage,
     find,
 };
 use kernel::{ClassKind, Quantity, ThingId};
@@ -214,38 +213,6 @@ impl<'a> Evaluator<'a> {
         }
     }
 
-    fn send_text(
-        &self,
-        message: TextMessage,
-        text: &str,
-        arguments: &[Answer<'a>],
-    ) -> Result<Answer<'a>> {
-        match message {
-            TextMessage::Number => read_number(text)
-                .map(Answer::plain)
-                .ok_or_else(|| Fault::no_answer(format!("`{text}` is no number"))),
-            TextMessage::Length => Ok(Answer::plain(text.chars().count() as f64)),
-            TextMessage::Width => {
-                let (size, dimension) = self.number(&arguments[0])?;
-                finite(metrics::text_width(text, size), dimension)
-            }
-            TextMessage::Height => {
-                let (size, dimension) = self.number(&arguments[0])?;
-                finite(metrics::text_height(text, size), dimension)
-            }
-            TextMessage::Text => Ok(Answer::text(text)),
-            TextMessage::Red | TextMessage::Green | TextMessage::Blue => {
-                let unknown = || Fault::no_answer(format!("`{text}` is no colour"));
-                let [red, green, blue] = drawing::components(text).ok_or_else(unknown)?;
-                Ok(Answer::plain(match message {
-                    TextMessage::Red => red,
-                    TextMessage::Green => green,
-                    _ => blue,
-                }))
-            }
-        }
-    }
-
     fn send_list(
         &self,
         to: &Answer<'a>,
@@ -344,6 +311,7 @@ impl<'a> Evaluator<'a> {
                 Ok(Answer::List(all.into()))
             }
             ListMessage::Reversed => Ok(Answer::List(items.iter().rev().cloned().collect())),
+            ListMessage::Join => self.join(&items, arguments.first()),
         }
     }
 

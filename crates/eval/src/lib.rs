@@ -47,6 +47,7 @@ mod scene;
 mod send;
 mod shapes;
 mod sway;
+mod texts;
 mod verdict;
 mod write;
 

@@ -30,6 +30,8 @@ pub enum Kind {
     List,
     /// A list or set of plain numbers.
     Plains,
+    /// A list or set of texts.
+    Texts,
     /// Numbers of one dimension: each an argument, or all in one list.
     Numbers,
     /// What the list holds.
@@ -245,6 +247,17 @@ table! {
     Width "width" Text [one("size", Kind::Length)] Same "How wide its longest line is where the letters have this size.";
     Height "height" Text [one("size", Kind::Length)] Same "How high its lines are where the letters have this size.";
     Text "text" Text [] Text "The text itself.";
+    Upper "upper" Text [] Text "The text in capital letters.";
+    Lower "lower" Text [] Text "The text in small letters.";
+    Trim "trim" Text [] Text "The text without the spaces around it.";
+    Characters "characters" Text [] Texts "Its characters, each a text.";
+    Split "split" Text [one("by", Kind::Text)] Texts "What stands between the places where another text is; its words, where this one is a space.";
+    Contains "contains" Text [one("text", Kind::Text)] Bool "Whether another text stands in it.";
+    StartsWith "startsWith" Text [one("text", Kind::Text)] Bool "Whether it begins with another text.";
+    EndsWith "endsWith" Text [one("text", Kind::Text)] Bool "Whether it ends with another text.";
+    Replaced "replaced" Text [one("text", Kind::Text), one("by", Kind::Text)] Text "The text with another one wherever a first one stands in it.";
+    Padded "padded" Text [one("to", Kind::Plain), perhaps("with", Kind::Text)] Text "The text made so many characters long at least, by spaces behind it, or by another character.";
+    RightAligned "rightAligned" Text [one("to", Kind::Plain), perhaps("with", Kind::Text)] Text "The text made so many characters long at least, by spaces before it, or by another character.";
     Red "red" Text [] Plain "How much red is in the colour that the text says, from 0 to 1.";
     Green "green" Text [] Plain "How much green is in the colour that the text says, from 0 to 1.";
     Blue "blue" Text [] Plain "How much blue is in the colour that the text says, from 0 to 1.";
@@ -272,6 +285,7 @@ table! {
     Neighbours "neighbours" List [] List "Every pair of an element and the next.";
     Union "union" List [one("other", Kind::List)] List "Its elements and then those of another list that it has not, each once.";
     Reversed "reversed" List [] Same "Its elements from the last to the first.";
+    Join "join" Texts [perhaps("with", Kind::Text)] Text "Its texts in one, another text between them.";
 }
 
 table! {

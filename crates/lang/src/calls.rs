@@ -415,7 +415,8 @@ impl Lowerer<'_> {
             first = Some(first.map_or(arg.kind.clone(), |known| known.joined(arg.kind)));
         }
         let first = first.unwrap_or(Kind::Unknown);
-        let is_list_message = matches!(b.receiver, Builtin::List | Builtin::Plains);
+        let is_list_message =
+            matches!(b.receiver, Builtin::List | Builtin::Plains | Builtin::Texts);
         let element =
             if let Kind::List(element) = &first { (**element).clone() } else { first.clone() };
         let kind = match (b.result, answers) {
@@ -446,6 +447,7 @@ impl Lowerer<'_> {
             Builtin::Color => Kind::Color,
             Builtin::List => Kind::List(Box::new(Kind::Unknown)),
             Builtin::Plains => Kind::List(Box::new(Kind::PLAIN)),
+            Builtin::Texts => Kind::List(Box::new(Kind::Text)),
             Builtin::Element => match first {
                 Kind::List(element) => (**element).clone(),
                 _ => Kind::Unknown,
@@ -687,6 +689,7 @@ fn wanted_number(wanted: Builtin) -> Kind {
         | Builtin::Place
         | Builtin::List
         | Builtin::Plains
+        | Builtin::Texts
         | Builtin::Element
         | Builtin::Answer
         | Builtin::Function

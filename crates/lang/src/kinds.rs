@@ -184,6 +184,11 @@ impl Kind {
                 items.iter().all(|item| item.is(Builtin::Plain, first, document))
             }
             (Builtin::Plains, _) => false,
+            (Builtin::Texts, Self::List(element)) => element.is(Builtin::Text, first, document),
+            (Builtin::Texts, Self::Tuple(items)) => {
+                items.iter().all(|item| item.is(Builtin::Text, first, document))
+            }
+            (Builtin::Texts, _) => false,
             (Builtin::Numbers, Self::List(element)) => element.is(Builtin::Same, first, document),
             (Builtin::Numbers, _) => self.is(Builtin::Same, first, document),
             (Builtin::Function, _) => *self == Self::Function,
@@ -215,6 +220,7 @@ pub(crate) fn wanted_in_words(wanted: Builtin, first: &Kind, document: &Document
         Builtin::Place => "a place, (x, y)".into(),
         Builtin::List => "a list".into(),
         Builtin::Plains => "a list of plain numbers".into(),
+        Builtin::Texts => "a list of texts".into(),
         Builtin::Function => "a function, `x => …`".into(),
         Builtin::Picture | Builtin::Pictures => "a picture".into(),
         Builtin::Element | Builtin::Answer | Builtin::Any => "something".into(),

@@ -262,6 +262,8 @@ impl<'a> Opening<'a> {
                     self.fold(Binary::Or, &truths)
                 }
             }
+            // a text is read one way only
+            ("join", with) => Ok(self.opaque(items.iter().chain(with))),
             ("zip", [other]) => {
                 let others = self.items(other)?;
                 Ok(pairs(&items, &others))

@@ -5,7 +5,7 @@ use crate::state::State;
 use crate::view::CompletionView;
 use crate::vocabulary;
 use base::{FileId, Name};
-use kernel::{ClassId, ClassKind, Document, Step};
+use kernel::{ClassId, ClassKind, Document, Primitive, Step};
 use syntax::ast::{self, AstNode};
 use syntax::{SyntaxKind, SyntaxNode};
 
@@ -138,7 +138,7 @@ fn after_dot(state: &State, bodies: &[ClassId], owner: &str) -> Vec<CompletionVi
         { path.as_ref()?.0.iter() }.try_fold(body, |class, step| part_class(document, class, step))
     };
     if let Some(class) = bodies.iter().find_map(leads) {
-        return members(state, class).collect();
+        return members(state, class).chain(known_to_all(document, class)).collect();
     }
     let of_choice: Vec<CompletionView> = options(state)
         .filter(|(choice, _)| ***choice == *owner)
@@ -197,6 +197,25 @@ fn members(state: &State, class: ClassId) -> impl Iterator<Item = CompletionView
         known.push(word.label.clone());
         is_new
     })
+}
+
+/// Returns what every text, number or list knows.
+fn known_to_all(document: &Document, class: ClassId) -> Vec<CompletionView> {
+    let words = match &document.classes[class].kind {
+        ClassKind::Primitive(Primitive::Text) => vocabulary::messages_of_texts(),
+        ClassKind::Primitive(Primitive::Real(_) | Primitive::Integer) => {
+            vocabulary::messages_of_numbers()
+        }
+        ClassKind::List(_) | ClassKind::Set(_) => vocabulary::messages_of_lists(),
+        ClassKind::Primitive(Primitive::Bool | Primitive::Choice(_) | Primitive::Color)
+        | ClassKind::Composite
+        | ClassKind::Reference(_) => Vec::new(),
+    };
+    let word = |w: vocabulary::FunctionWord| match w.call.strip_prefix(w.name) {
+        Some("") | None => one(w.name, "property", w.answers),
+        Some(takes) => one(w.name, "method", takes),
+    };
+    words.into_iter().map(word).collect()
 }
 
 /// Returns what a class itself answers.

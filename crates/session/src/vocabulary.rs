@@ -2,7 +2,9 @@
 
 use expr::Dimension;
 use expr::units::{NAMED_UNITS, PREFIXES};
-use kernel::builtin::{FUNCTIONS, Given, Kind};
+use kernel::builtin::{
+    Builtin, FUNCTIONS, Given, Kind, LIST_MESSAGES, NUMBER_MESSAGES, TEXT_MESSAGES,
+};
 use kernel::quantity::of_si;
 use serde::Serialize;
 
@@ -44,27 +46,48 @@ pub struct UnitWord {
 /// assert_eq!((log10.call.as_str(), log10.domain), ("log10(x)", "x > 0"));
 /// ```
 pub fn functions() -> Vec<FunctionWord> {
-    let word = |b: &kernel::builtin::Builtin<kernel::builtin::Function>| {
-        let label = |p: &kernel::builtin::BuiltinParameter| match p.given {
-            Given::Many => format!("{}, …", p.label),
-            Given::Once | Given::Perhaps => p.label.to_string(),
-        };
-        let labels: Vec<String> = b.parameters.iter().map(label).collect();
-        let mut takes: Vec<&str> = b.parameters.iter().map(|p| in_words(p.kind)).collect();
-        takes.dedup();
-        FunctionWord {
-            name: b.name,
-            call: match labels.is_empty() {
-                true => b.name.to_string(),
-                false => format!("{}({})", b.name, labels.join(", ")),
-            },
-            takes: takes.join(", "),
-            answers: in_words(b.result),
-            domain: b.domain.words().unwrap_or_default(),
-            doc: b.doc,
-        }
-    };
     FUNCTIONS.iter().map(word).collect()
+}
+
+/// Returns every message that numbers know.
+pub fn messages_of_numbers() -> Vec<FunctionWord> {
+    NUMBER_MESSAGES.iter().map(word).collect()
+}
+
+/// Returns every message that texts know.
+///
+/// ```
+/// let all = session::vocabulary::messages_of_texts();
+/// assert!(all.iter().any(|m| m.call == "padded(to, with)"));
+/// ```
+pub fn messages_of_texts() -> Vec<FunctionWord> {
+    TEXT_MESSAGES.iter().map(word).collect()
+}
+
+/// Returns every message that lists and sets know.
+pub fn messages_of_lists() -> Vec<FunctionWord> {
+    LIST_MESSAGES.iter().map(word).collect()
+}
+
+fn word<F>(b: &Builtin<F>) -> FunctionWord {
+    let label = |p: &kernel::builtin::BuiltinParameter| match p.given {
+        Given::Many => format!("{}, …", p.label),
+        Given::Once | Given::Perhaps => p.label.to_string(),
+    };
+    let labels: Vec<String> = b.parameters.iter().map(label).collect();
+    let mut takes: Vec<&str> = b.parameters.iter().map(|p| in_words(p.kind)).collect();
+    takes.dedup();
+    FunctionWord {
+        name: b.name,
+        call: match labels.is_empty() {
+            true => b.name.to_string(),
+            false => format!("{}({})", b.name, labels.join(", ")),
+        },
+        takes: takes.join(", "),
+        answers: in_words(b.result),
+        domain: b.domain.words().unwrap_or_default(),
+        doc: b.doc,
+    }
 }
 
 /// Returns every unit without a prefix, by quantity.
@@ -119,6 +142,7 @@ fn in_words(kind: Kind) -> &'static str {
         Kind::Place => "a place",
         Kind::List => "a list",
         Kind::Plains => "a list of plain numbers",
+        Kind::Texts => "a list of texts",
         Kind::Numbers => "numbers of one quantity, or a list of these",
         Kind::Element => "an element",
         Kind::Answer => "an answer",

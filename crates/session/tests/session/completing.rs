@@ -18,6 +18,15 @@ fn after_a_dot_the_parts_of_what_stands_before_it_are_offered() {
 }
 
 #[test]
+fn after_a_text_and_a_list_what_all_of_these_know_is_offered() {
+    let text = "name: Text\nages: List of 3 Real\n";
+    let desk = Desk::of(text);
+    let has = |of: &str, word: &str| labels(&desk, &format!("{text}a => {of}.")).contains(&word.into());
+    assert!(has("name", "upper") && has("ages", "mean") && has("ages[0]", "round"));
+    assert!(!has("name", "mean"));
+}
+
+#[test]
 fn in_the_body_of_a_class_its_own_parts_and_those_that_it_inherits_are_offered() {
     let text =
         "use geometry\nclass Strut is Line {\n    middle: Point\n    constraint \n}\nout: Real\n";
