@@ -599,6 +599,9 @@ impl Lowerer<'_> {
                 self.refer(Place { file: scope.file, span: label.span() }, &name, class);
             }
         }
+        for (name, value) in &given {
+            self.has_elements(scope, (class, word), name, value)?;
+        }
         let what = with_article(word.text());
         let arguments = self.bound(scope, &what, &fields, args)?;
         Some((Term::Make { class, arguments }, Kind::of_class(&self.document, class)))
@@ -606,6 +609,23 @@ impl Lowerer<'_> {
 }
 
 impl Lowerer<'_> {
+    /// Reports a list that is written out for a part of a new thing, and has not as many elements as such a thing.
+    fn has_elements(
+        &mut self,
+        scope: &Scope,
+        (class, word): (ClassId, &ast::Word),
+        name: &Name,
+        value: &Expr,
+    ) -> Option<()> {
+        let Expr::List(list) = value else { return Some(()) };
+        let (has, given) = (self.count_of_part(class, name), list.elements().count());
+        let Some(has) = has.filter(|&has| has as usize != given) else { return Some(()) };
+        let what = with_article(word.text());
+        let message = format!("{name} of {what} has {has} elements, and is given {given}");
+        self.error("value-of-wrong-class", scope.file, value.span(), message);
+        None
+    }
+
     /// Returns the names of what things of a class are made of, in order.
     pub(crate) fn field_names(&self, class: ClassId) -> Vec<Name> {
         let fields = self.document.layout(class).into_iter();

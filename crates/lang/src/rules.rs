@@ -285,12 +285,17 @@ impl Lowerer<'_> {
             {
                 format!("{path} is a whole number, and is given {x}")
             }
+            (Some(ClassKind::List(element)), _) if *element == self.object => {
+                let message =
+                    format!("{path} holds things without parts, and keeps nothing of what it is given");
+                let place = Place { file: scope.file, span: value.span() };
+                let written = value.syntax().text();
+                let d = Diagnostic::error("value-of-wrong-class", place, message);
+                self.report(d.hint(format!("`{path} => {written}` lists what there is")));
+                return true;
+            }
             (Some(ClassKind::List(_)), Term::List(items)) => {
-                let count = match path.0.as_slice() {
-                    [Step::Part(name)] => self.count_of_part(scope.class(), name),
-                    _ => None,
-                };
-                match count.filter(|&n| n as usize != items.len()) {
+                match self.count_at(scope, path).filter(|&n| n as usize != items.len()) {
                     Some(n) => format!("{path} has {n} elements, and is given {}", items.len()),
                     None => return false,
                 }

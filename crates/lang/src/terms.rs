@@ -430,11 +430,16 @@ impl Lowerer<'_> {
     ) -> Lowered {
         let mut items: Vec<(Term, Kind)> = Vec::new();
         let (mut element, mut is_mixed) = (Kind::Unknown, false);
-        let wanted = if let Kind::List(each) = wanted { each } else { &Kind::Unknown };
+        let wanted = if let Kind::List(each) = wanted { &**each } else { &Kind::Unknown };
         for item in list.elements() {
             let (term, kind) = self.expr_wanting(scope, &item, wanted)?;
             element = match (kind.fits(&element, &self.document), &element, &kind) {
                 (true, ..) => element.joined(kind.clone()),
+                // whatever is an object
+                (false, ..) if *wanted == Kind::Thing(self.object) => {
+                    is_mixed = true;
+                    wanted.clone()
+                }
                 // a line and a circle are curves; which one each is is known when it is looked at
                 (false, Kind::Thing(_), Kind::Thing(_)) => {
                     is_mixed = true;
