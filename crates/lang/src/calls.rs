@@ -135,7 +135,12 @@ impl Lowerer<'_> {
         to: &Term,
     ) -> Option<(Vec<Argument>, Kind)> {
         let name = word.name();
-        if name == "owner" || *receiver == Kind::Unknown || *to == Term::Owner {
+        let outwards = owners_in(to);
+        if name == "owner" && outwards > 0 && args.is_empty() {
+            let class = scope.classes.get(outwards + 1);
+            return Some((Vec::new(), class.map_or(Kind::Unknown, |&class| Kind::Thing(class))));
+        }
+        if name == "owner" || *receiver == Kind::Unknown || outwards > 0 {
             let known = match receiver {
                 Kind::Thing(class) => {
                     self.refer(Place { file: scope.file, span: word.span() }, &name, *class);
@@ -630,6 +635,20 @@ impl Lowerer<'_> {
     pub(crate) fn field_names(&self, class: ClassId) -> Vec<Name> {
         let fields = self.document.layout(class).into_iter();
         fields.map(|f| self.document.field_name(f).clone()).collect()
+    }
+}
+
+/// Returns how far out a term leads: twice for `owner.owner`.
+fn owners_in(term: &Term) -> usize {
+    match term {
+        Term::Owner => 1,
+        Term::Send { to, name, arguments, .. } if *name == *"owner" && arguments.is_empty() => {
+            match owners_in(to) {
+                0 => 0,
+                n => n + 1,
+            }
+        }
+        _ => 0,
     }
 }
 

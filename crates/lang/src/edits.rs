@@ -5,6 +5,7 @@
 //! all its things; that of a thing makes the thing a class of one.
 
 mod carry;
+mod caught;
 mod connect;
 mod counts;
 mod delete;

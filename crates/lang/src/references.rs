@@ -81,10 +81,15 @@ impl Lowerer<'_> {
 impl Lowered {
     /// Finds what speaks of members, in the text as it is in force.
     pub(crate) fn references(&self) -> References {
+        self.references_in(&self.effective)
+    }
+
+    /// Finds what speaks of members in another text, among the same files.
+    pub(crate) fn references_in(&self, text: &str) -> References {
         let load = |name: &str| {
             let file = self.files.iter().find(|(id, f)| *id != OWN && f.name == name);
             file.map(|(_, f)| f.text.to_string())
         };
-        crate::lower::references(&self.effective, &load)
+        crate::lower::references(text, &load)
     }
 }

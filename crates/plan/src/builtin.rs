@@ -92,6 +92,9 @@ impl<'a> Opening<'a> {
         name: &Name,
         arguments: &[Meaning<'a>],
     ) -> Answer<'a> {
+        if *name == *"owner" && arguments.is_empty() {
+            return self.owner(to);
+        }
         let unknown = || {
             let message = format!("a rule cannot use `{name}` of a thing");
             Err(Trouble::new(FaultKind::UnknownName, message))

@@ -290,7 +290,7 @@ impl<'a> Opening<'a> {
         Meaning::Number(self.arena.constant(value))
     }
 
-    fn owner(&mut self, me: &Meaning<'a>) -> Answer<'a> {
+    pub(crate) fn owner(&mut self, me: &Meaning<'a>) -> Answer<'a> {
         match me {
             Meaning::Thing(t) => match self.reach.owner(*t) {
                 Some(owner) => Ok(Meaning::Thing(owner)),

@@ -22,11 +22,13 @@ impl Text<'_> {
         self.must_be_free(&home, to)?;
         let symbol = self.symbol(&home, &word);
         let mut edits = vec![edit::rename(&word.token, to)];
-        for (span, spoken) in self.lowered.references().words {
-            if spoken == symbol && span != word.span() {
-                edits.push(TextEdit { span, insert: to.to_string() });
+        let references = self.lowered.references();
+        for (span, spoken) in &references.words {
+            if *spoken == symbol && *span != word.span() {
+                edits.push(TextEdit { span: *span, insert: to.to_string() });
             }
         }
+        let mut edits = self.meaning_the_same(edits, (&symbol, &to.into()), &references)?;
         if let Member::Constraint(_) = member {
             edits.extend(self.expected(word.text(), to));
         }
