@@ -10,8 +10,6 @@ use session::Session;
 use session::view::FamilyRow;
 use std::fs;
 
-/// Families whose programs are left to the interpreter: what joins edges into a contour is not noted.
-const INTERPRETED: [&str; 1] = ["Din471"];
 /// So many rows of each family are drawn.
 const ROWS: usize = 6;
 /// So many times each: the second run is noted, and the third goes by that; then with other values, of which some
@@ -79,7 +77,6 @@ fn rows_are_drawn_again_as_the_interpreter_draws_them() {
             let rows = session.family_rows(id, &family.name, table.as_deref()).expect("rows").rows;
             let class = model.document.class_named(&family.program).expect("the program");
             let known = Known::default();
-            let is_interpreted = INTERPRETED.contains(&&*family.name);
             let every = rows.len().div_ceil(ROWS);
             let (mut drawn, mut ended, mut dice) = (0, 0, Dice::new(7));
             for (time, row) in
@@ -95,15 +92,12 @@ fn rows_are_drawn_again_as_the_interpreter_draws_them() {
                 });
                 assert!(same_run(&a, &b), "{} {}: {a:?} {b:?}", family.name, row.name);
                 let why = again.why_interpreted(class);
-                assert!(is_interpreted || why.is_none(), "{}: {why:?}", family.name);
+                assert!(why.is_none(), "{}: {why:?}", family.name);
                 drawn += 1;
                 ended += u32::from(a.ended.is_some());
             }
             let (asked, replayed) = known.replays();
-            assert!(
-                asked == drawn && (is_interpreted || 4 * replayed >= asked),
-                "{replayed} of {asked}"
-            );
+            assert!(asked == drawn && 4 * replayed >= asked, "{replayed} of {asked}");
             all_ended += ended;
             families += 1;
         }

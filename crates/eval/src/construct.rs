@@ -6,8 +6,7 @@ use crate::fault::Fault;
 use base::Name;
 use expr::dimension::Dimension;
 use geometry::{
-    Bend, Combination, Construction, Figure, Made, Side, Source, Surface, combine, contour,
-    edges_from, offset,
+    Bend, Combination, Construction, Figure, Made, Side, Source, Surface, edges_from,
 };
 use kernel::builtin::Making;
 use kernel::{ClassId, ClassKind, ThingId};
@@ -27,7 +26,7 @@ impl<'a> Evaluator<'a> {
                 let covered = |of| self.covered(of, class, nearest);
                 let (first, second) = (covered(first)?, covered(second)?);
                 self.burn_for(first.iter().chain(&second))?;
-                combine(how, &first, &second).map_err(|why| self.no_such(class, why.words()))
+                self.region_of_two(how, [&first, &second]).map_err(|why| self.no_such(class, why.words()))
             }
             _ => Err(Fault::wrong("a region is made of two")),
         };
@@ -35,7 +34,7 @@ impl<'a> Evaluator<'a> {
             [region, distance] => {
                 let region = self.covered(region, class, nearest)?;
                 self.burn_for(&region)?;
-                offset(&region, self.number(distance)?.0)
+                self.widened(&region, self.operand(distance)?.0)
                     .map_err(|why| self.no_such(class, why.words()))
             }
             _ => Err(Fault::wrong("an offset has a region and a distance")),
@@ -165,7 +164,7 @@ impl<'a> Evaluator<'a> {
         }
         let edges = sides.len() as u64;
         self.burn_several(1 + edges.saturating_mul(edges) / 16)?;
-        let ring = contour(&sides).map_err(|why| self.no_such(class, &why.words()))?;
+        let ring = self.joined(&sides).map_err(|why| self.no_such(class, &why.words()))?;
         self.made_ring(&ring, class, nearest)
     }
 
@@ -193,10 +192,8 @@ impl<'a> Evaluator<'a> {
         }
         let corner = self.bent(&self.part_of(of, "corner", nearest)?)?;
         let end = self.part_of(of, if is_arc { "end" } else { "p2" }, nearest)?;
-        let [x, y, bulge] = [corner.at.x, corner.at.y, corner.bulge].map(Answer::plain);
-        let number = |x: &Answer<'a>| self.number(x).map(|(x, _)| x);
-        let from = [number(&x)?, number(&y)?];
-        Ok(Some(Side { from, to: self.xy(&end, nearest)?, bulge: number(&bulge)? }))
+        let from = [corner.at.x, corner.at.y];
+        Ok(Some(Side { from, to: self.xy(&end, nearest)?, bulge: corner.bulge }))
     }
 
     fn is_of(&self, of: &Answer<'a>, name: &str) -> bool {
@@ -212,6 +209,9 @@ impl<'a> Evaluator<'a> {
         };
         let surfaces = self.covered(region, class, nearest)?;
         self.burn_for(&surfaces)?;
+        if self.is_recording() {
+            return Err(Fault::wrong("an edge of a region is not noted"));
+        }
         let source = match (self.as_side(from, nearest)?, self.figure(from, nearest)?) {
             (Some(side), _) if side.bulge != 0.0 => Source::Arc(side),
             (Some(side), _) => Source::Line(side.from, side.to),
@@ -274,7 +274,7 @@ impl<'a> Evaluator<'a> {
                 continue;
             }
             self.burn_for(all.iter().chain(&more))?;
-            let joined = combine(Combination::Union, &all, &more);
+            let joined = self.region_of_two(Combination::Union, [&all, &more]);
             all = joined.map_err(|why| self.no_such(class, why.words()))?;
         }
         Ok(all)
@@ -309,9 +309,7 @@ impl<'a> Evaluator<'a> {
     fn ring(&self, corners: &Answer<'a>) -> Result<geometry::Ring> {
         let bend = |corner: &Answer<'a>| {
             let corner = self.bent(corner)?;
-            let [x, y, bulge] = [corner.at.x, corner.at.y, corner.bulge].map(Answer::plain);
-            let number = |x: &Answer<'a>| self.number(x).map(|(x, _)| x);
-            Ok(Bend { at: [number(&x)?, number(&y)?], bulge: number(&bulge)? })
+            Ok(Bend { at: [corner.at.x, corner.at.y], bulge: corner.bulge })
         };
         self.items(corners)?.iter().map(bend).collect()
     }

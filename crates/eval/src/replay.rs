@@ -7,13 +7,14 @@
 //! before, or a number is none, the interpreter runs; so it is the interpreter that says what fails, and why.
 //!
 //! Messages, calls, sets and classes come to nothing but operations on numbers, since the interpreter went through them.
-//! A run counts as much fuel, and as many things, as it did when it was noted. What makes texts of numbers or regions
-//! is not noted; [`Evaluator::why_interpreted`] says so.
+//! A run counts as much fuel, and as many things, as it did when it was noted. What makes texts of numbers, or looks for
+//! an edge of a region, is not noted; [`Evaluator::why_interpreted`] says so.
 //!
-//! Reading order: `op`, `routine`, `record`, `form`.
+//! Reading order: `op`, `outline`, `routine`, `record`, `form`.
 
 mod form;
 mod op;
+mod outline;
 mod record;
 mod routine;
 
@@ -24,7 +25,9 @@ use crate::evaluator::{Evaluator, Result};
 use crate::fault::Fault;
 use expr::dimension::Dimension;
 use form::Form;
-use geometry::{Construction, Figure, NoConstruction};
+use geometry::{
+    Combination, Construction, Figure, NoConstruction, NoContour, NoRegion, Ring, Side, Surface,
+};
 use kernel::{ClassId, SlotId, ThingId};
 use record::{Recorder, place_of};
 use routine::{Outcome, Question, Routine};
@@ -282,6 +285,32 @@ impl<'a> Evaluator<'a> {
     ) -> std::result::Result<Figure<f64>, NoConstruction> {
         let noted = self.recorder(|r| r.recorder.construct(what, of, numbers));
         noted.unwrap_or_else(|| geometry::construct(what, of, numbers))
+    }
+
+    /// Makes a contour of edges whose numbers may be marked.
+    pub(crate) fn joined(&self, sides: &[Side]) -> std::result::Result<Ring, NoContour> {
+        let noted = self.recorder(|r| r.recorder.contour(sides));
+        noted.unwrap_or_else(|| geometry::contour(sides))
+    }
+
+    /// Combines regions whose numbers may be marked.
+    pub(crate) fn region_of_two(
+        &self,
+        how: Combination,
+        of: [&[Surface]; 2],
+    ) -> std::result::Result<Vec<Surface>, NoRegion> {
+        let noted = self.recorder(|r| r.recorder.combine(how, of));
+        noted.unwrap_or_else(|| geometry::combine(how, of[0], of[1]))
+    }
+
+    /// Widens a region whose numbers may be marked.
+    pub(crate) fn widened(
+        &self,
+        of: &[Surface],
+        by: f64,
+    ) -> std::result::Result<Vec<Surface>, NoRegion> {
+        let noted = self.recorder(|r| r.recorder.offset(of, by));
+        noted.unwrap_or_else(|| geometry::offset(of, by))
     }
 
     /// Compares numbers that may be marked, exactly; answers are finite, so that the order is total up to the sign of

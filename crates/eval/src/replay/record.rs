@@ -45,7 +45,7 @@ impl Recorder {
     }
 
     /// Returns the register of a number.
-    fn place(&mut self, x: f64) -> u32 {
+    pub(super) fn place(&mut self, x: f64) -> u32 {
         match place_of(x) {
             Some(place) => place,
             None => self.note(Op::Constant(x.to_bits()), x),
@@ -121,18 +121,26 @@ impl Recorder {
         let built = construct(what, &plain, &numbers)?;
         let construct = Constructed { what, figures: figures.into(), of: places.into() };
         let op = Op::Construct(Box::new(construct));
-        let first = match self.known.get(&op) {
-            Some(&first) => first,
-            None => {
-                let first = self.registers.len() as u32;
-                push_numbers(&built, &mut self.registers);
-                self.known.insert(op.clone(), first);
-                self.notes.push(Note::Op(op));
-                first
-            }
-        };
+        let first = self.several(op, |registers| push_numbers(&built, registers));
         let mut next = first..;
         Ok(built.map(|_| next.next().map_or(f64::NAN, mark)))
+    }
+
+    /// Notes what makes several numbers, where that was not done before; returns the register of the first.
+    pub(super) fn several(&mut self, op: Op, push: impl FnOnce(&mut Vec<f64>)) -> u32 {
+        if let Some(&known) = self.known.get(&op) {
+            return known;
+        }
+        let first = self.registers.len() as u32;
+        push(&mut self.registers);
+        self.known.insert(op.clone(), first);
+        self.notes.push(Note::Op(op));
+        first
+    }
+
+    /// Returns the mark of what stands in a register.
+    pub(super) fn marked(place: u32) -> f64 {
+        mark(place)
     }
 
     /// Answers a question of two numbers, and notes the answer.
@@ -149,7 +157,7 @@ impl Recorder {
         }
     }
 
-    fn answer(&mut self, question: Question) -> u64 {
+    pub(super) fn answer(&mut self, question: Question) -> u64 {
         if let Some(&known) = self.decided.get(&question) {
             return known;
         }

@@ -4,6 +4,7 @@
 //! these runs did, the registers of that run and its outcome. Runs that begin alike share the pieces that they share.
 
 use super::op::{Binary, Constructed, Unary};
+use super::outline::Outlined;
 use base::number::close;
 use geometry::Figure;
 use kernel::SlotId;
@@ -22,6 +23,8 @@ pub(crate) enum Op {
     Unary(Unary, u32),
     Binary(Binary, [u32; 2]),
     Construct(Box<Constructed>),
+    /// Writes how many numbers its form has, the form, and the numbers that it is of.
+    Outline(Box<Outlined>),
 }
 
 /// What is asked of numbers, so that what comes next depends on the answer.
@@ -193,6 +196,10 @@ impl Routine {
                     Op::Unary(op, a) => op.apply(at(*a)),
                     Op::Construct(construct) => {
                         push_numbers(&construct.compute(registers)?, registers);
+                        continue;
+                    }
+                    Op::Outline(outlined) => {
+                        outlined.compute(registers)?.push(registers);
                         continue;
                     }
                 };
