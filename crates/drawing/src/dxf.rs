@@ -8,6 +8,7 @@
 
 mod blocks;
 mod dimension;
+mod doubles;
 
 use crate::bounds::bounds;
 use crate::element::{
@@ -62,7 +63,8 @@ pub fn write(drawing: &Drawing, options: &DxfOptions) -> String {
     write_in_blocks(drawing, options, &|_| None)
 }
 
-/// Writes a drawing as a DXF text; elements of tags with the same group are a block, which is inserted once.
+/// Writes a drawing as a DXF text; elements of tags with the same group are a block, which is inserted once. What is an
+/// edge of a ring that is drawn alike is written once, with the ring.
 ///
 /// Dimensions in a group are dimensions of the drawing.
 pub fn write_in_blocks(
@@ -92,6 +94,7 @@ pub fn write_in_blocks(
     dxf.end();
     let mut elements: Vec<&Element> = drawing.elements.iter().collect();
     elements.sort_by_key(|e| e.layer);
+    let elements = doubles::without_doubles(elements, group);
     let mut blocks = blocks::gathered(&elements, group);
     dxf.tables(&named, &mut blocks);
     dxf.blocks(&blocks);

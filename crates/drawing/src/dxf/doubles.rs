@@ -1,0 +1,139 @@
+//! What is drawn twice: a line, an arc or a circle that is an edge of a ring beside it, drawn in the same way.
+//!
+//! In: elements in order. Out: those without the doubles. The ring stays, since it says more: its edges hang together.
+
+use super::layer_of;
+use crate::element::{Corner, Element, Line, Point, Shape, Tag};
+use base::number::{cos, sin};
+use std::f64::consts::TAU;
+
+/// Within what part of the extent of an edge places are one.
+const NEAR: f64 = 1e-9;
+
+/// An edge, by its ends and what lies half-way between; of a circle all three are its centre, its right, and its centre.
+struct Edge {
+    ends: [Point; 2],
+    middle: Point,
+}
+
+/// How something is drawn: only what is drawn alike is drawn twice.
+type Way = (Option<String>, String, Line);
+
+/// Returns the elements without those that are an edge of a ring.
+pub(super) fn without_doubles<'e>(
+    elements: Vec<&'e Element>,
+    group: &dyn Fn(Tag) -> Option<String>,
+) -> Vec<&'e Element> {
+    let way = |e: &Element| (group(e.tag), layer_of(e), e.style.line);
+    let mut edges: Vec<(Way, Edge)> = Vec::new();
+    for element in &elements {
+        if let Shape::Region(rings) = &element.shape {
+            edges.extend(rings.iter().flat_map(|ring| of_ring(ring)).map(|e| (way(element), e)));
+        }
+    }
+    edges.sort_by(|(_, a), (_, b)| a.middle.x.total_cmp(&b.middle.x));
+    let is_double = |element: &Element| {
+        let Some(own) = of_shape(&element.shape).filter(|_| element.style.dimension.is_none())
+        else {
+            return false;
+        };
+        let reach = NEAR * own.extent();
+        let from = edges.partition_point(|(_, e)| e.middle.x < own.middle.x - reach);
+        let near = edges[from..].iter().take_while(|(_, e)| e.middle.x <= own.middle.x + reach);
+        let own_way = way(element);
+        { near }.any(|(way, edge)| *way == own_way && edge.is_one_with(&own, reach))
+    };
+    elements.into_iter().filter(|e| !is_double(e)).collect()
+}
+
+impl Edge {
+    fn extent(&self) -> f64 {
+        let [p, q] = self.ends;
+        distance(p, q).max(distance(p, self.middle))
+    }
+    /// Whether another is the same edge, whichever way it runs.
+    fn is_one_with(&self, other: &Self, reach: f64) -> bool {
+        let meets = |p, q| distance(p, q) <= reach;
+        let [[p, q], [r, s]] = [self.ends, other.ends];
+        meets(self.middle, other.middle)
+            && (meets(p, r) && meets(q, s) || meets(p, s) && meets(q, r))
+    }
+}
+
+fn of_shape(shape: &Shape) -> Option<Edge> {
+    match *shape {
+        Shape::Segment(p, q) => Some(Edge { ends: [p, q], middle: between(p, q) }),
+        Shape::Arc { center, radius, start, sweep } if sweep.abs() < TAU => {
+            let at = |angle: f64| Point {
+                x: center.x + radius * cos(angle),
+                y: center.y + radius * sin(angle),
+            };
+            Some(Edge { ends: [at(start), at(start + sweep)], middle: at(start + sweep / 2.0) })
+        }
+        Shape::Circle { center, radius } => Some(whole(center, radius)),
+        _ => None,
+    }
+}
+
+fn whole(center: Point, radius: f64) -> Edge {
+    Edge { ends: [center, Point { x: center.x + radius, y: center.y }], middle: center }
+}
+
+/// Returns the edges of a ring; the one circle that two half turns are.
+fn of_ring(ring: &[Corner]) -> Vec<Edge> {
+    if let [a, b] = ring
+        && a.bulge.abs() == 1.0
+        && a.bulge == b.bulge
+    {
+        return vec![whole(between(a.at, b.at), distance(a.at, b.at) / 2.0)];
+    }
+    let next = ring.iter().cycle().skip(1);
+    ring.iter().zip(next).map(|(a, b)| Edge { ends: [a.at, b.at], middle: half_way(a, b.at) }).collect()
+}
+
+/// Returns what lies half-way along an edge that leaves a corner.
+fn half_way(from: &Corner, to: Point) -> Point {
+    let p = from.at;
+    let middle = between(p, to);
+    // the sagitta is the bulge times half the chord, to the right of the chord where the arc turns left
+    let rise = from.bulge / 2.0;
+    Point { x: middle.x + rise * (to.y - p.y), y: middle.y - rise * (to.x - p.x) }
+}
+
+fn between(p: Point, q: Point) -> Point {
+    Point { x: f64::midpoint(p.x, q.x), y: f64::midpoint(p.y, q.y) }
+}
+
+fn distance(p: Point, q: Point) -> f64 {
+    base::number::sqrt((p.x - q.x) * (p.x - q.x) + (p.y - q.y) * (p.y - q.y))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_an_edge_of_a_ring_is_drawn_once() {
+        let at = |x, y| Point { x, y };
+        let corner = |x, y, bulge| Corner { at: at(x, y), bulge };
+        // a half disc, and a hole of two half turns
+        let ring = vec![corner(-5.0, 0.0, 0.0), corner(5.0, 0.0, 1.0)];
+        let hole = vec![corner(1.0, 2.0, 1.0), corner(-1.0, 2.0, 1.0)];
+        let all = [
+            Shape::Region(vec![ring, hole]),
+            Shape::Segment(at(5.0, 0.0), at(-5.0, 0.0)),
+            Shape::Arc { center: at(0.0, 0.0), radius: 5.0, start: 0.0, sweep: TAU / 2.0 },
+            Shape::Circle { center: at(0.0, 2.0), radius: 1.0 },
+            // the other half, and a part of an edge
+            Shape::Arc { center: at(0.0, 0.0), radius: 5.0, start: 0.0, sweep: -TAU / 2.0 },
+            Shape::Segment(at(0.0, 0.0), at(5.0, 0.0)),
+        ];
+        let mut all: Vec<Element> = all.into_iter().map(Element::new).collect();
+        let mut dashed = all[1].clone();
+        dashed.style.line = Line::Dashed;
+        all.push(dashed);
+        let left = without_doubles(all.iter().collect(), &|_| None);
+        let wanted: Vec<&Element> = [0, 4, 5, 6].map(|i| &all[i]).into();
+        assert_eq!(left, wanted);
+    }
+}
