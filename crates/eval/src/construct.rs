@@ -3,6 +3,7 @@
 use crate::answer::Answer;
 use crate::evaluator::{Evaluator, Given, Result};
 use crate::fault::Fault;
+use crate::replay::{Binary, Unary};
 use base::Name;
 use expr::dimension::Dimension;
 use geometry::{
@@ -302,8 +303,23 @@ impl<'a> Evaluator<'a> {
             let all = part("surfaces")?;
             return self.surfaces(&Answer::List(self.items(&all)?), nearest);
         }
+        if self.is_of(of, "Circle") {
+            return Ok(vec![Surface { outer: self.disc(of, nearest)?, holes: Vec::new() }]);
+        }
         let kind = self.kind(of);
         Err(Fault::wrong(format!("{kind} where a contour, a surface or a region is wanted")))
+    }
+
+    /// Returns the ring around what a circle covers: two half turns, to the left.
+    fn disc(&self, circle: &Answer<'a>, nearest: ThingId) -> Result<geometry::Ring> {
+        let center = self.xy(&self.ask_of(circle, &self.tables.center, nearest)?, nearest)?;
+        let (radius, _) = self.operand(&self.ask_of(circle, &self.tables.radius, nearest)?)?;
+        let radius = self.unary_number(Unary::Abs, radius);
+        let side = |of| Bend {
+            at: [self.binary_number(of, center[0], radius), center[1]],
+            bulge: 1.0,
+        };
+        Ok(vec![side(Binary::Add), side(Binary::Subtract)])
     }
 
     fn ring(&self, corners: &Answer<'a>) -> Result<geometry::Ring> {

@@ -131,7 +131,8 @@ impl Kind {
                 items.iter().all(|item| item.fits(element, document))
             }
             (Self::Thing(a), Self::Thing(b)) => {
-                are_alike(document, *a, *b) || covers(document, *b) && is_drawn(document, *a)
+                let may_cover = || is_drawn(document, *a) || is_disc(document, *a);
+                are_alike(document, *a, *b) || covers(document, *b) && may_cover()
             }
             (Self::List(element), Self::Thing(class)) if covers(document, *class) => {
                 element.fits(wanted, document)
@@ -284,6 +285,11 @@ pub(crate) fn measured(document: &Document, term: Term, kind: &Kind, wanted: &Ki
 /// Returns true for a class whose things cover a part of the plane: several cover one together.
 fn covers(document: &Document, class: ClassId) -> bool {
     document.find_message(class, "covered", None).is_some()
+}
+
+/// Returns true for circles: one covers its disc.
+fn is_disc(document: &Document, class: ClassId) -> bool {
+    document.class_named("Circle").is_some_and(|circle| document.is_a(class, circle))
 }
 
 /// Returns true for a program, and for the turns of a block of one: what they draw may cover something.

@@ -304,6 +304,11 @@ impl Lowerer<'_> {
         let (of, kind) = self.expr(scope, &list)?;
         let element = match kind {
             Kind::List(element) => *element,
+            // a row of a list of rows
+            Kind::Tuple(items) => {
+                let at = self.constant(scope, &at).and_then(|at| usize::try_from(at).ok());
+                at.and_then(|at| items.get(at).cloned()).unwrap_or(Kind::Unknown)
+            }
             Kind::Unknown => Kind::Unknown,
             other => {
                 let message = format!("{} has no elements", other.words(&self.document));
@@ -449,6 +454,9 @@ impl Lowerer<'_> {
                 (false, known, found) if holds == Holds::Sets => {
                     is_mixed = true;
                     match (known.inmost(), found.inmost()) {
+                        // what a turn draws is known when it is looked at
+                        (Kind::Thing(turn), thing) if self.draws(*turn) => thing.clone(),
+                        (thing, Kind::Thing(turn)) if self.draws(*turn) => thing.clone(),
                         (known @ Kind::Thing(_), found @ Kind::Thing(_)) => {
                             self.general(known.clone(), found.clone())
                         }
