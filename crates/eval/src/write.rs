@@ -4,9 +4,15 @@ use crate::answer::{Answer, Frame};
 use crate::evaluator::{Evaluator, Given, Result};
 use crate::fault::Fault;
 use crate::measure;
+use base::Name;
+use expr::units;
 use kernel::{
-    BinaryOperator, ClassKind, ConstraintInstance, GivenIn, Primitive, SlotId, Term, ThingId, Value,
+    BinaryOperator, ClassKind, ConstraintInstance, GivenIn, Primitive, SlotId, Term, ThingId,
+    UnaryOperator, Value,
 };
+
+/// Percentages are looked for so deep in an expression.
+const DEEPEST_UNIT: u32 = 16;
 
 /// A side of an equation.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -151,16 +157,45 @@ impl<'a> Evaluator<'a> {
     /// Lets a number that is shown in a text be shown in the unit in which it is given, where it is a part that is.
     #[inline(never)]
     pub(crate) fn say_unit(&self, of: &'a Term, frame: &Frame<'a>, arguments: &mut Vec<Given<'a>>) {
-        if !matches!(of, Term::Send { .. } | Term::Index(..)) {
-            return;
-        }
-        let slot = self.target(of, frame).ok().and_then(|part| self.structure.slot_of(part));
-        let given = slot.and_then(|slot| self.structure.given(slot));
-        let Some(unit) = given.and_then(|g| self.document.units.get(&g.origin)) else { return };
+        let Some(unit) = self.unit_written(of, frame, DEEPEST_UNIT) else { return };
         if arguments.is_empty() {
             arguments.push((None, Answer::text("")));
         }
         arguments.push((None, Answer::text(unit)));
+    }
+
+    /// Returns the unit that a number was written in: that of a part; that of a percentage, too, where it is so many
+    /// times a percentage, or percentages are added.
+    fn unit_written(&self, of: &'a Term, frame: &Frame<'a>, depth: u32) -> Option<&'a Name> {
+        let depth = depth.checked_sub(1)?;
+        let part_of = |of: &'a Term| {
+            let unit = self.unit_written(of, frame, depth)?;
+            units::unit(unit).filter(|u| u.dimension.is_none()).map(|_| unit)
+        };
+        let is_factor = |of: &Term| matches!(of, Term::Number { bare: true, .. });
+        match of {
+            Term::Send { .. } | Term::Index(..) => {
+                let part = self.target(of, frame).ok()?;
+                let given = self.structure.given(self.structure.slot_of(part)?)?;
+                self.document.units.get(&given.origin)
+            }
+            Term::Unary(UnaryOperator::Negate, of) => part_of(of),
+            Term::Binary(BinaryOperator::Multiply, a, b) if is_factor(a) => part_of(b),
+            Term::Binary(BinaryOperator::Multiply | BinaryOperator::Divide, a, b)
+                if is_factor(b) =>
+            {
+                part_of(a)
+            }
+            Term::Binary(BinaryOperator::Add | BinaryOperator::Subtract, a, b) => {
+                match (part_of(a), part_of(b)) {
+                    (Some(a), Some(b)) => (a == b).then_some(a),
+                    (Some(unit), None) => b.is_part().then_some(unit),
+                    (None, Some(unit)) => a.is_part().then_some(unit),
+                    (None, None) => None,
+                }
+            }
+            _ => None,
+        }
     }
 
     /// Finds the part that a term names, stored and not computed.

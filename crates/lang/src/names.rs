@@ -343,6 +343,8 @@ impl Lowerer<'_> {
             names
                 .extend(c.messages.iter().filter(|m| !m.is_of_class()).map(|m| m.name.to_string()));
         }
+        let mut known = std::collections::BTreeSet::new();
+        names.retain(|name| known.insert(name.clone()));
         names
     }
 
