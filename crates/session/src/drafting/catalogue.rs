@@ -9,7 +9,7 @@ use super::{Home, synonyms, text};
 use crate::recognise;
 use crate::state::State;
 use base::{Name, Span};
-use kernel::{Class, ClassId, ClassKind, Document, Message, Term};
+use kernel::{Class, ClassId, ClassKind, Document, Message, Primitive, Term};
 use syntax::ast::{AstNode, Expr, span_without_doc};
 
 /// A construction, as a tool.
@@ -184,6 +184,8 @@ pub(crate) struct Slot {
     also: Vec<Name>,
     /// What can fill it.
     pub(crate) kind: SlotKind,
+    /// The options of the choice that it is one of.
+    pub(crate) options: Vec<String>,
     /// What a program asks of it.
     pub(crate) asks: Option<Asks>,
 }
@@ -218,13 +220,28 @@ impl Slot {
             ClassKind::Composite => SlotKind::Curve,
             _ => SlotKind::Value,
         };
+        let options = match found.kind {
+            ClassKind::Primitive(Primitive::Choice(of)) => document.classes[of].options.as_slice(),
+            _ => &[],
+        };
         Self {
             name: name.into(),
             label,
             class: found.name.clone(),
             also: Vec::new(),
             kind,
+            options: options.iter().map(Name::to_string).collect(),
             asks: None,
+        }
+    }
+
+    /// The values that are allowed, where they are few.
+    pub(crate) fn choices(&self) -> Vec<String> {
+        let allowed = self.asks.as_ref().map_or_else(Vec::new, Asks::choices);
+        match *self.class == *"Bool" {
+            _ if !allowed.is_empty() => allowed,
+            true => vec!["yes".into(), "no".into()],
+            false => self.options.clone(),
         }
     }
 

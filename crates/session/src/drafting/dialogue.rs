@@ -101,6 +101,9 @@ impl Dialogue {
                     n => format!("{n} edges; pick the next, Enter ends it"),
                 },
                 SlotKind::Value if *slot.class == *"Bool" => "type `yes` or `no`".to_string(),
+                SlotKind::Value if !slot.options.is_empty() => {
+                    format!("take one of {}", slot.options.join(", "))
+                }
                 SlotKind::Value => "type a value, pick a parameter or what has it".to_string(),
             };
             let Some(asks) = &slot.asks else { return format!("{}: {wanted}", slot.name) };
@@ -130,6 +133,7 @@ impl Dialogue {
             words,
             operands: operands.map(|(i, slot)| (slot.name.clone(), given(i))).collect(),
             is_value: slot.is_some_and(|slot| slot.kind == SlotKind::Value),
+            choices: slot.map_or_else(Vec::new, Slot::choices),
             takes_sets: slot
                 .is_some_and(|slot| matches!(slot.kind, SlotKind::Set | SlotKind::Edges)),
             goes_wider: slot.is_some_and(|slot| {

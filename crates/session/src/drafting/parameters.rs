@@ -197,6 +197,14 @@ pub(crate) fn asked(state: &State, program: &str) -> Vec<(String, Asks)> {
 }
 
 impl Asks {
+    /// The values of the table of those that are allowed.
+    pub(crate) fn choices(&self) -> Vec<String> {
+        match &self.range {
+            Some(Allowed::OneOf(values)) => values.clone(),
+            Some(Allowed::Range { .. }) | None => Vec::new(),
+        }
+    }
+
     /// Checks that a value is allowed.
     ///
     /// # Errors

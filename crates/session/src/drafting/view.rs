@@ -32,6 +32,8 @@ pub struct Prompt {
     pub operands: Vec<(String, Option<String>)>,
     /// Whether a value is wanted, so that what is picked is a measure.
     pub is_value: bool,
+    /// The values that are allowed, each as it is typed, where they are few: of a table, the options of a choice, yes and no.
+    pub choices: Vec<String>,
     /// Whether a pick may mean the turn of what is picked, or the whole loop.
     pub takes_sets: bool,
     /// Whether there is more that a pick may mean: what it is in, or the edge that comes from it.

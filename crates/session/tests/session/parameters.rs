@@ -208,6 +208,32 @@ program Hole(d: Length in 1..20 = 11 \"Diameter?\", deep: Length = 2 * d) {
     assert!(desk.text().contains("d = 11"), "{}", desk.text());
 }
 
+#[test]
+fn few_allowed_values_can_be_chosen_where_a_program_asks() {
+    let mut desk = Desk::of(
+        "use geometry
+unit mm
+choice Head { hexagon, socket }
+program Screw(d: Length in [3, 4, 5] = 4, head: Head, long: Bool = true, grip: Length in 1..9 = 2) {
+    circle = Circle(center: Point(0, 0), radius: if head = socket then d else 2 * d)
+}
+",
+    );
+    let mut wanted = desk.session.begin(desk.id, "Screw").expect("it is a tool");
+    let mut asked = Vec::new();
+    for answer in ["5", "socket", "no", ""] {
+        asked.push(wanted.choices.join(" "));
+        wanted = match desk.session.enter(desk.id, answer).expect("it is allowed") {
+            Turn::Wants(prompt) => prompt,
+            Turn::Made { .. } => panic!("it waits for its place"),
+        };
+    }
+    asked.push(wanted.choices.join(" "));
+    assert_eq!(asked, ["3 4 5", "hexagon socket", "yes no", "", ""]);
+    enter(&mut desk, "40, 0");
+    assert!(desk.text().contains("head = socket"), "{}", desk.text());
+}
+
 /// A parameter said anew.
 fn anew(name: &str, (class, range, example): (&str, &str, &str), prompt: &str) -> NewParameter {
     NewParameter {

@@ -119,7 +119,7 @@ fn Operands(lab: Lab) -> impl IntoView {
     }
 }
 
-/// The parameters that may be the value that is wanted.
+/// The values that are allowed, where they are few, and the parameters that may be the value that is wanted.
 #[component]
 fn Parameters(lab: Lab) -> impl IntoView {
     let parameters = Memo::new(move |_| {
@@ -127,6 +127,9 @@ fn Parameters(lab: Lab) -> impl IntoView {
         let is_value = lab.drafting.prompt.with(|p| p.as_ref().is_some_and(|p| p.is_value));
         let names = || lab.ask_of_shown(session::Session::parameters).unwrap_or_default();
         if is_value { names() } else { Vec::new() }
+    });
+    let choices = Memo::new(move |_| {
+        lab.drafting.prompt.with(|p| p.as_ref().map_or_else(Vec::new, |p| p.choices.clone()))
     });
     let parameter = move |name: String| {
         let own = StoredValue::new(name.clone());
@@ -136,7 +139,17 @@ fn Parameters(lab: Lab) -> impl IntoView {
                 on:click=move |_| lab.draft_parameter(&own.get_value())><code>{name.clone()}</code></button>
         }
     };
-    move || parameters.get().into_iter().map(parameter).collect_view()
+    let choice = move |value: String| {
+        let own = StoredValue::new(value.clone());
+        view! {
+            <button type="button" class="value" data-choice=value.clone()
+                on:click=move |_| lab.draft_parameter(&own.get_value())>{value.clone()}</button>
+        }
+    };
+    view! {
+        {move || choices.get().into_iter().map(choice).collect_view()}
+        {move || parameters.get().into_iter().map(parameter).collect_view()}
+    }
 }
 
 /// The buttons that answer what is asked.
