@@ -232,7 +232,9 @@ fn mistakes_of_beginners_are_told_as_a_teacher_would() {
 
 /// The tables of the language's own words, as the manual shows them.
 fn tables_of_words() -> String {
-    use session::vocabulary::{functions, messages_of_lists, messages_of_numbers, messages_of_texts};
+    use session::vocabulary::{
+        functions, messages_of_lists, messages_of_numbers, messages_of_texts,
+    };
     use session::vocabulary::{prefixes, quantities, units};
     let mut out = String::from("| function | of | where | |\n|---|---|---|---|\n");
     for f in functions().iter().filter(|f| !f.answers.contains("picture")) {

@@ -4,7 +4,7 @@ use crate::answer::Answer;
 use crate::evaluator::{Evaluator, Given, Result};
 use crate::fault::{Fault, FaultKind};
 use crate::measure;
-use crate::numerals::{number_text, read_number};
+use crate::numerals::number_text;
 use crate::operate::finite;
 use crate::replay::{Binary, Unary};
 use base::Name;
@@ -12,8 +12,7 @@ use base::number::{joined, shortest};
 use expr::dimension::Dimension;
 use kernel::builtin::{
     Builtin, Domain, FUNCTIONS, Function, LIST_MESSAGES, ListMessage, NUMBER_MESSAGES,
-    NumberMessage, PICTURE_MESSAGES, TEXT_MESSAGES, THING_MESSAGES, ThingMessage,
-    find,
+    NumberMessage, PICTURE_MESSAGES, TEXT_MESSAGES, THING_MESSAGES, ThingMessage, find,
 };
 use kernel::{ClassKind, Quantity, ThingId};
 

@@ -6,9 +6,7 @@ use crate::fault::Fault;
 use crate::replay::{Binary, Unary};
 use base::Name;
 use expr::dimension::Dimension;
-use geometry::{
-    Bend, Combination, Construction, Figure, Made, Side, Source, Surface, edges_from,
-};
+use geometry::{Bend, Combination, Construction, Figure, Made, Side, Source, Surface, edges_from};
 use kernel::builtin::Making;
 use kernel::{ClassId, ClassKind, ThingId};
 use std::rc::Rc;
@@ -27,7 +25,8 @@ impl<'a> Evaluator<'a> {
                 let covered = |of| self.covered(of, class, nearest);
                 let (first, second) = (covered(first)?, covered(second)?);
                 self.burn_for(first.iter().chain(&second))?;
-                self.region_of_two(how, [&first, &second]).map_err(|why| self.no_such(class, why.words()))
+                self.region_of_two(how, [&first, &second])
+                    .map_err(|why| self.no_such(class, why.words()))
             }
             _ => Err(Fault::wrong("a region is made of two")),
         };
@@ -315,10 +314,8 @@ impl<'a> Evaluator<'a> {
         let center = self.xy(&self.ask_of(circle, &self.tables.center, nearest)?, nearest)?;
         let (radius, _) = self.operand(&self.ask_of(circle, &self.tables.radius, nearest)?)?;
         let radius = self.unary_number(Unary::Abs, radius);
-        let side = |of| Bend {
-            at: [self.binary_number(of, center[0], radius), center[1]],
-            bulge: 1.0,
-        };
+        let side =
+            |of| Bend { at: [self.binary_number(of, center[0], radius), center[1]], bulge: 1.0 };
         Ok(vec![side(Binary::Add), side(Binary::Subtract)])
     }
 

@@ -1,9 +1,9 @@
 //! Texts: what they know, and lists of them joined.
 
 use crate::answer::Answer;
-use crate::builtin::read_number;
 use crate::evaluator::{Evaluator, Result};
 use crate::fault::Fault;
+use crate::numerals::read_number;
 use crate::operate::finite;
 use drawing::metrics;
 use kernel::builtin::TextMessage;
@@ -53,7 +53,9 @@ impl<'a> Evaluator<'a> {
                 self.burn_for_letters(text.len().saturating_add(times.saturating_mul(new.len())))?;
                 Ok(Answer::text(&text.replace(old, new)))
             }
-            TextMessage::Padded => Ok(Answer::text(&format!("{text}{}", self.pad(text, arguments)?))),
+            TextMessage::Padded => {
+                Ok(Answer::text(&format!("{text}{}", self.pad(text, arguments)?)))
+            }
             TextMessage::RightAligned => {
                 Ok(Answer::text(&format!("{}{text}", self.pad(text, arguments)?)))
             }

@@ -286,8 +286,9 @@ impl Lowerer<'_> {
                 format!("{path} is a whole number, and is given {x}")
             }
             (Some(ClassKind::List(element)), _) if *element == self.object => {
-                let message =
-                    format!("{path} holds things without parts, and keeps nothing of what it is given");
+                let message = format!(
+                    "{path} holds things without parts, and keeps nothing of what it is given"
+                );
                 let place = Place { file: scope.file, span: value.span() };
                 let written = value.syntax().text();
                 let d = Diagnostic::error("value-of-wrong-class", place, message);

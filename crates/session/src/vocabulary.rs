@@ -61,13 +61,24 @@ pub fn messages_of_numbers() -> Vec<FunctionWord> {
 /// assert!(all.iter().any(|m| m.call == "padded(to, with)"));
 /// ```
 pub fn messages_of_texts() -> Vec<FunctionWord> {
-    TEXT_MESSAGES.iter().map(word).collect()
+    let measured = |w: FunctionWord| match w.answers {
+        SAME => FunctionWord { answers: in_words(Kind::Length), ..w },
+        _ => w,
+    };
+    TEXT_MESSAGES.iter().map(word).map(measured).collect()
 }
 
 /// Returns every message that lists and sets know.
 pub fn messages_of_lists() -> Vec<FunctionWord> {
-    LIST_MESSAGES.iter().map(word).collect()
+    let listed = |w: FunctionWord| match w.answers {
+        SAME => FunctionWord { answers: in_words(Kind::List), ..w },
+        _ => w,
+    };
+    LIST_MESSAGES.iter().map(word).map(listed).collect()
 }
+
+/// What numbers answer that measure what they are sent to.
+const SAME: &str = "the same quantity";
 
 fn word<F>(b: &Builtin<F>) -> FunctionWord {
     let label = |p: &kernel::builtin::BuiltinParameter| match p.given {
@@ -133,7 +144,7 @@ fn in_words(kind: Kind) -> &'static str {
     match kind {
         Kind::Plain => "a plain number",
         Kind::Number => "a number",
-        Kind::Same => "the same quantity",
+        Kind::Same => SAME,
         Kind::Root => "the root of the quantity",
         Kind::Length => "a length",
         Kind::Bool => "a truth value",

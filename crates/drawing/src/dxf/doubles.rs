@@ -88,7 +88,10 @@ fn of_ring(ring: &[Corner]) -> Vec<Edge> {
         return vec![whole(between(a.at, b.at), distance(a.at, b.at) / 2.0)];
     }
     let next = ring.iter().cycle().skip(1);
-    ring.iter().zip(next).map(|(a, b)| Edge { ends: [a.at, b.at], middle: half_way(a, b.at) }).collect()
+    ring.iter()
+        .zip(next)
+        .map(|(a, b)| Edge { ends: [a.at, b.at], middle: half_way(a, b.at) })
+        .collect()
 }
 
 /// Returns what lies half-way along an edge that leaves a corner.

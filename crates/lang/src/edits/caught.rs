@@ -80,7 +80,8 @@ impl Text<'_> {
             Some(span) => Place { file: crate::lower::OWN, span },
             None => Place { file: crate::lower::OWN, span: Span::default() },
         };
-        Diagnostic::error("duplicate-name", place, message).hint("choose a name that nothing else has")
+        Diagnostic::error("duplicate-name", place, message)
+            .hint("choose a name that nothing else has")
     }
 }
 

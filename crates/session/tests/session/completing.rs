@@ -21,7 +21,8 @@ fn after_a_dot_the_parts_of_what_stands_before_it_are_offered() {
 fn after_a_text_and_a_list_what_all_of_these_know_is_offered() {
     let text = "name: Text\nages: List of 3 Real\n";
     let desk = Desk::of(text);
-    let has = |of: &str, word: &str| labels(&desk, &format!("{text}a => {of}.")).contains(&word.into());
+    let has =
+        |of: &str, word: &str| labels(&desk, &format!("{text}a => {of}.")).contains(&word.into());
     assert!(has("name", "upper") && has("ages", "mean") && has("ages[0]", "round"));
     assert!(!has("name", "mean"));
 }
