@@ -287,6 +287,12 @@ fn covers(document: &Document, class: ClassId) -> bool {
     document.find_message(class, "covered", None).is_some()
 }
 
+/// Returns true for what covers a part of the plane beside a circle, in whichever order.
+pub(crate) fn cover_together(document: &Document, a: ClassId, b: ClassId) -> bool {
+    let is_one = |a, b| covers(document, a) && is_disc(document, b);
+    is_one(a, b) || is_one(b, a)
+}
+
 /// Returns true for circles: one covers its disc.
 fn is_disc(document: &Document, class: ClassId) -> bool {
     document.class_named("Circle").is_some_and(|circle| document.is_a(class, circle))

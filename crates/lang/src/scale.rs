@@ -85,7 +85,10 @@ fn usual(parse: &Parse, stated: &[NumberExpr]) -> BTreeMap<(Dimension, Option<Na
         let found = usual.entry(key.clone());
         let units = &mut found.or_insert(Usual { units: Vec::new(), least: LEAST }).units;
         if is_of_si(unit.text()) {
-            of_si.push(key);
+            // nothing is nothing in every unit
+            if number.value() != Some(0.0) {
+                of_si.push(key);
+            }
         } else if !units.iter().any(|u| **u == *unit.text()) {
             units.push(unit.text().into());
         }

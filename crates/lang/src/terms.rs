@@ -445,6 +445,13 @@ impl Lowerer<'_> {
                     is_mixed = true;
                     wanted.clone()
                 }
+                // a contour and a circle cover something together
+                (false, Kind::Thing(a), Kind::Thing(b))
+                    if crate::kinds::cover_together(&self.document, *a, *b) =>
+                {
+                    is_mixed = true;
+                    element.clone()
+                }
                 // a line and a circle are curves; which one each is is known when it is looked at
                 (false, Kind::Thing(_), Kind::Thing(_)) => {
                     is_mixed = true;

@@ -511,9 +511,17 @@ fn token_fault(file: FileId, text: &str, span: Span, fault: Fault) -> Diagnostic
         }
         Fault::UnterminatedValue => {
             let place = Place { file, span: Span::new(span.start, span.start + 1) };
-            Diagnostic::error("unterminated-value", place, "found `{` without `}` in a text").hint(
-                "a value in a text stands in braces, `\"R = {r.resistance}\"`; a brace itself is doubled: `{{`",
-            )
+            let d = Diagnostic::error("unterminated-value", place, "found `{` without `}` in a text");
+            let rest = text.get(span.start as usize..).unwrap_or_default();
+            let line = rest.lines().next().unwrap_or_default();
+            // the text has ended at a quote, and the brace is closed behind it
+            let is_quoted = line.find('}').is_some_and(|end| line[..end].contains('"'));
+            d.hint(match is_quoted {
+                true => "no text stands in a value of a text: give it a name, `zero => \"0\"`, and say that",
+                false => {
+                    "a value in a text stands in braces, `\"R = {r.resistance}\"`; a brace itself is doubled: `{{`"
+                }
+            })
         }
         Fault::UnterminatedComment => {
             let place = Place { file, span: Span::new(span.start, span.start + 2) };
