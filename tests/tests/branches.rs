@@ -135,7 +135,7 @@ fn out_and_back(bars: [f64; 4], from: f64, to: f64, count: &mut Count, wrong: &m
 
 #[test]
 fn large_changes_end_where_small_steps_do_and_come_back() {
-    let pairs = if std::env::var_os("THINGLAB_LONG").is_some() { 400 } else { 24 };
+    let pairs = if std::env::var_os("THINGLAB_LONG").is_some() { 400 } else { 16 };
     let (mut count, mut wrong) = (Count::default(), Vec::new());
     for bars in LINKAGES {
         for i in 0..pairs {

@@ -147,7 +147,7 @@ fn compared(case: &Case, rules: &str, joint: usize, to: [f64; 2], same: f64) -> 
 }
 
 fn seeds() -> u64 {
-    if std::env::var_os("THINGLAB_LONG").is_some() { 400 } else { 14 }
+    if std::env::var_os("THINGLAB_LONG").is_some() { 400 } else { 9 }
 }
 
 #[test]

@@ -337,14 +337,16 @@ fn outcome(path: &Path, text: &str) -> Vec<String> {
     values.chain(checks.map(|c| format!("{} {}", c.title, c.passed))).collect()
 }
 
+/// One in three documents comes out again; all of them with `THINGLAB_LONG`.
 #[test]
 fn laying_a_text_out_changes_neither_values_nor_checks() {
+    let one_in = if std::env::var_os("THINGLAB_LONG").is_some() { 1 } else { 3 };
     for folder in ["gallery", "library", "tests/suite"] {
-        for path in documents(folder) {
+        for (n, path) in documents(folder).into_iter().enumerate() {
             let text = read(&path);
             let formatted = session::format(&text);
             assert_eq!(session::format(&formatted), formatted, "{}: twice", path.display());
-            if formatted != text {
+            if formatted != text && n % one_in == 0 {
                 assert_eq!(outcome(&path, &formatted), outcome(&path, &text), "{}", path.display());
             }
         }

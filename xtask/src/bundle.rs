@@ -79,8 +79,11 @@ pub(crate) fn module(
             tools::lint(&mut bindgen).env("CLIPPY_ARGS", "--deny__CLIPPY_HACKERY__warnings");
         }
         bindgen.arg(target()).arg("--");
-        if effort != Effort::Full {
-            bindgen.arg("--quick");
+        match effort {
+            Effort::Full => {}
+            // a smaller module is read sooner, for each page anew
+            Effort::Tests => _ = bindgen.arg("--quick"),
+            Effort::Quick => _ = bindgen.args(["--quick", "--named"]),
         }
         bindgen.arg(&made).arg(&module).args(&compressed);
         run("the page's module was not made", quiet(&mut bindgen))?;

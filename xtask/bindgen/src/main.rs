@@ -1,6 +1,6 @@
-//! `bindgen [--quick] PAGE.wasm FOLDER [FILE…]`: writes the module `PAGE.js` and its `PAGE_bg.wasm` into the
+//! `bindgen [--quick] [--named] PAGE.wasm FOLDER [FILE…]`: writes the module `PAGE.js` and its `PAGE_bg.wasm` into the
 //! folder, and beside them, compressed by brotli as `NAME.br`, these two and further files. `--quick` compresses
-//! them little, and keeps the names of functions for whoever looks where time goes.
+//! them little; `--named` keeps the names of functions for whoever looks where time goes, a sixth of the module.
 
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
@@ -15,8 +15,9 @@ fn main() -> ExitCode {
         Some(_) => QUICK,
         None => QUALITY,
     };
+    let is_named = arguments.next_if(|first| first == "--named").is_some();
     let (Some(page), Some(folder)) = (arguments.next(), arguments.next()) else {
-        let _ = writeln!(io::stderr(), "bindgen [--quick] PAGE.wasm FOLDER [FILE…]");
+        let _ = writeln!(io::stderr(), "bindgen [--quick] [--named] PAGE.wasm FOLDER [FILE…]");
         return ExitCode::from(2);
     };
     let name = Path::new(&page).file_stem().map(|stem| stem.to_string_lossy().into_owned());
@@ -26,7 +27,7 @@ fn main() -> ExitCode {
         .input_path(&page)
         .out_name(&name.unwrap_or_default())
         .typescript(false)
-        .remove_name_section(quality != QUICK)
+        .remove_name_section(!is_named)
         .remove_producers_section(true)
         .omit_default_module_path(false)
         .web(true)
