@@ -511,7 +511,8 @@ fn token_fault(file: FileId, text: &str, span: Span, fault: Fault) -> Diagnostic
         }
         Fault::UnterminatedValue => {
             let place = Place { file, span: Span::new(span.start, span.start + 1) };
-            let d = Diagnostic::error("unterminated-value", place, "found `{` without `}` in a text");
+            let d =
+                Diagnostic::error("unterminated-value", place, "found `{` without `}` in a text");
             let rest = text.get(span.start as usize..).unwrap_or_default();
             let line = rest.lines().next().unwrap_or_default();
             // the text has ended at a quote, and the brace is closed behind it
