@@ -166,6 +166,21 @@ fn names_and_lines_are_tidy() {
     assert_none(&complaints);
 }
 
+/// A complaint about tests in the room that is compiled for the browser alone: nothing would run them.
+fn check_place_of_tests(path: &str, text: &str) -> Option<String> {
+    let is_lost = path.starts_with("crates/web/src/") && text.contains("#[test]");
+    is_lost.then(|| format!("{path}: tests that nothing runs; their place is crates/presentation"))
+}
+
+#[test]
+fn tests_are_where_they_are_run() {
+    let read = |place: &PathBuf| fs::read_to_string(place).expect("text");
+    let all = files().into_iter();
+    let complaints: Vec<String> =
+        all.filter_map(|(path, place)| check_place_of_tests(&path, &read(&place))).collect();
+    assert_none(&complaints);
+}
+
 #[test]
 fn planted_faults_are_seen() {
     let table = "| floor | room |\n| 3 | `crates/plan` | x |\n| 2 | `crates/solve` | y |";
@@ -186,4 +201,6 @@ fn planted_faults_are_seen() {
     assert!(check_paths("planned: `a/b.rs`", |_| false).is_empty());
     assert!(check_name("crates/base/src/utils.rs").is_some());
     assert_eq!(check_spaces("a.md", "x \ny"), ["a.md:1: a space at the end"]);
+    assert!(check_place_of_tests("crates/web/src/lab.rs", "#[test]\nfn a() {}").is_some());
+    assert!(check_place_of_tests("crates/presentation/src/rows.rs", "#[test]").is_none());
 }
