@@ -43,6 +43,7 @@ mod operate;
 mod picture;
 pub mod programs;
 mod replay;
+mod rings;
 mod scene;
 mod send;
 mod shapes;

@@ -4,6 +4,7 @@ use crate::answer::Answer;
 use crate::evaluator::{Evaluator, Result};
 use crate::fault::Fault;
 use crate::replay::Unary;
+use crate::rings;
 use base::Name;
 use drawing::{
     Anchoring, Color, Corner, Dimension, DimensionKind, Element, Layer, Line, Placement, Point,
@@ -11,6 +12,7 @@ use drawing::{
 };
 use kernel::builtin::{Function, PictureMessage};
 use kernel::{ClassKind, ThingId};
+use std::collections::BTreeSet;
 use std::f64::consts::TAU;
 use std::rc::Rc;
 use std::sync::Arc;
@@ -298,7 +300,12 @@ impl<'a> Evaluator<'a> {
         };
         let color = color.map(|a| self.color(a)).transpose()?;
         let mut elements = Vec::clone(elements);
-        for element in &mut elements {
+        let rings = match message {
+            PictureMessage::Filled => self.surrounded(&elements)?,
+            _ => Vec::new(),
+        };
+        let in_rings: BTreeSet<usize> = rings.iter().flat_map(|(_, pieces)| pieces).copied().collect();
+        for (i, element) in elements.iter_mut().enumerate() {
             let style = &mut element.style;
             match message {
                 PictureMessage::Dotted => style.line = Line::Dotted,
@@ -310,6 +317,8 @@ impl<'a> Evaluator<'a> {
                 PictureMessage::Accent => style.color = Color::Accent,
                 PictureMessage::Thick => style.width = THICK_PIXELS,
                 PictureMessage::Colored => style.color = color.clone().unwrap_or_default(),
+                // the surface that it surrounds is filled, and it stays a line
+                PictureMessage::Filled if in_rings.contains(&i) => {}
                 PictureMessage::Filled => {
                     style.fill = Some(color.clone().unwrap_or(Color::Faint));
                     if element.layer == Layer::Lines {
@@ -329,7 +338,30 @@ impl<'a> Evaluator<'a> {
                 }
             }
         }
+        let surfaces = rings.into_iter().map(|(mut surface, _)| {
+            surface.style.fill = Some(color.clone().unwrap_or(Color::Faint));
+            surface
+        });
+        elements.splice(0..0, surfaces);
         Ok(Answer::Picture(Rc::new(elements)))
+    }
+
+    /// Finds what segments and arcs of a picture surround; what is decided so is not drawn again by rote.
+    fn surrounded(&self, elements: &[Element]) -> Result<Vec<(Element, Vec<usize>)>> {
+        let mut pieces: Vec<Element> =
+            elements.iter().filter(|e| rings::is_piece(e)).cloned().collect();
+        if pieces.len() < 2 {
+            return Ok(Vec::new());
+        }
+        let mut read = Ok(());
+        for piece in &mut pieces {
+            piece.shape.each_number(&mut |x| {
+                if let Err(fault) = self.number(&Answer::plain(*x)) {
+                    read = Err(fault);
+                }
+            });
+        }
+        read.map(|()| rings::rings(elements))
     }
 
     /// Reads what a dimension of a drawing measures.

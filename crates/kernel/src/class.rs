@@ -144,6 +144,8 @@ pub struct Class {
     pub sides: Vec<Side>,
     /// Parts that stick to others when a thing of this class is placed, in order.
     pub attachers: Vec<Path>,
+    /// Places of its things by which a hand changes them, in order.
+    pub handles: Vec<Handle>,
     /// What it sets of constraints of its things and their parts, in order.
     pub switches: Vec<Switch>,
     /// Names of constraints and merges of the primary superclasses that do not apply here.
@@ -183,6 +185,7 @@ impl Class {
             stays: Vec::new(),
             sides: Vec::new(),
             attachers: Vec::new(),
+            handles: Vec::new(),
             switches: Vec::new(),
             without: Vec::new(),
             refined: Vec::new(),
@@ -190,6 +193,15 @@ impl Class {
             origin,
         }
     }
+}
+
+/// A place by which a hand changes things of a class: while it is dragged, others stay where they are.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Handle {
+    /// The place that is dragged, stored or computed.
+    pub place: Path,
+    /// The places that stay meanwhile, if they can.
+    pub keeps: Vec<Path>,
 }
 
 /// A superclass; all but the first are parts of the thing, reached by their name.

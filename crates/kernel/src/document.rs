@@ -1,6 +1,6 @@
 //! A document: classes, the last word of which is the document's own.
 
-use crate::class::{Class, ClassId, ClassKind, Message, Part};
+use crate::class::{Class, ClassId, ClassKind, Handle, Message, Part};
 use crate::path::Path;
 use crate::program::Program;
 use crate::term::{OriginId, Search};
@@ -381,6 +381,17 @@ impl Document {
     pub fn place_in(&self, class: ClassId) -> Option<usize> {
         let places = self.primary_line(class).into_iter().find(|&c| self.is_place(c));
         places.map(|c| self.layout(c).len())
+    }
+    /// Returns the handles of a class's things: its own, and of those above it the ones for other places.
+    pub fn handles(&self, class: ClassId) -> Vec<&Handle> {
+        let all = self.lineage(class).into_iter().filter_map(|c| self.classes.get(c));
+        let mut handles: Vec<&Handle> = Vec::new();
+        for handle in all.flat_map(|class| &class.handles) {
+            if handles.iter().all(|known| known.place != handle.place) {
+                handles.push(handle);
+            }
+        }
+        handles
     }
     /// Returns true if things of the class are a *place*: two or three stored parts, all real
     /// numbers, no constraints. A place yields as one. A document is none, whatever it consists of.

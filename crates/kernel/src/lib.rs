@@ -26,7 +26,7 @@ pub mod term;
 pub mod values;
 
 pub use class::{
-    Binding, Class, ClassId, ClassKind, Constraint, Count, Given, Insert, Merge, Message, Method,
+    Binding, Class, ClassId, ClassKind, Constraint, Count, Given, Handle, Insert, Merge, Message, Method,
     Parameter, Part, Primitive, Setting, Stay, Strength, Superclass, Switch, form,
 };
 pub use command::{Command, Literal};

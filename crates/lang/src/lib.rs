@@ -39,6 +39,7 @@ mod edits;
 mod ends;
 mod families;
 mod files;
+mod handles;
 mod hints;
 mod kept;
 mod kin;

@@ -107,7 +107,8 @@ impl Lowerer<'_> {
                 | Member::Insert(_)
                 | Member::Without(_)
                 | Member::Replace(_)
-                | Member::Attachers(_) => {
+                | Member::Attachers(_)
+                | Member::Handle(_) => {
                     self.pending.push(Pending::Member(shared(), member.clone()));
                 }
                 Member::Unit(_) | Member::Y(_) | Member::Use(_) | Member::Error(_) => {}

@@ -336,6 +336,7 @@ impl Lowerer<'_> {
         class.switches.extend(from.switches);
         class.without.extend(from.without);
         class.attachers.extend(from.attachers);
+        class.handles.extend(from.handles);
     }
 
     /// Puts another rule in the place of an inherited one: its name and strength stay.

@@ -388,6 +388,7 @@ impl Lowerer<'_> {
                 let paths = self.paths(scope, attachers.paths());
                 self.document.classes[class].attachers.extend(paths);
             }
+            Member::Handle(handle) => self.define_handle(scope, handle),
             _ => {}
         }
     }

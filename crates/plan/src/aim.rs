@@ -32,10 +32,10 @@ pub(crate) struct Aim {
 }
 
 impl Planner {
-    /// Returns true if every wish is met and every set slot has its value.
+    /// Returns true if every wish is met and every set slot has its value; what only stays if it can is no wish.
     pub(crate) fn reached(&self, aim: &Aim, values: &Values) -> bool {
         let met = |(wish, wanted): (&Wish, &Vec<f64>)| {
-            wish.formulas.iter().zip(wanted).all(|(f, &w)| {
+            wish.level == Level::MediumStay || wish.formulas.iter().zip(wanted).all(|(f, &w)| {
                 let is = f.value(self.plans.patterns(), &values.numbers);
                 base::number::close(is, w)
             })
@@ -126,6 +126,26 @@ impl Planner {
         Ok(aim)
     }
 
+    /// Finds what is moved from where it is at `values`, and what stays there meanwhile if it can.
+    pub(crate) fn aim_keeping(
+        &mut self,
+        model: Model<'_>,
+        (values, on): (&Values, &Values),
+        targets: &[Target<'_>],
+        kept: &[Target<'_>],
+    ) -> Result<Aim, RefusalReason> {
+        let wanted = with_present_values(self, model, values, targets)?;
+        let mut aim = self.aim(model, (values, on), EditKind::Move, &wanted)?;
+        let stays = with_present_values(self, model, values, kept)?;
+        let stays = self.aim(model, (values, on), EditKind::Move, &stays)?;
+        for (wish, wanted) in stays.wishes.into_iter().zip(stays.wanted) {
+            aim.wishes.push(Wish { level: Level::MediumStay, ..wish });
+            aim.wanted.push(wanted);
+        }
+        aim.guards.extend(stays.guards);
+        Ok(aim)
+    }
+
     /// Returns a slot as an expression.
     fn itself(&mut self, slot: SlotId) -> Formula<SlotId> {
         let mut arena = Arena::new();
@@ -190,7 +210,7 @@ impl Aim {
 }
 
 /// Gives every target the values that it has.
-pub(crate) fn with_present_values<'t>(
+fn with_present_values<'t>(
     planner: &mut Planner,
     model: Model<'_>,
     values: &Values,

@@ -3,9 +3,9 @@
 mod back;
 mod course;
 
-use crate::aim::{Aim, with_present_values};
+use crate::aim::Aim;
 use crate::component::{Component, rules_of};
-use crate::edit::{EditKind, EditReport, NotDecided, RefusalReason, Target, note};
+use crate::edit::{EditReport, NotDecided, RefusalReason, Target, note};
 use crate::host::Host;
 use crate::modal::{Acting, ModalDrag, ModeChange};
 use crate::planner::{Latest, Model, Planner, is_any_new};
@@ -127,11 +127,25 @@ impl Planner {
         values: &Values,
         targets: &[Target<'_>],
     ) -> Result<Press, RefusalReason> {
+        self.press_keeping(model, values, targets, &[])
+    }
+
+    /// Presses on targets, to move them together, while others stay where they are wished: below the move, as a
+    /// `medium stay` does. The numbers of those follow the targets' in every wish.
+    ///
+    /// # Errors
+    /// Why they cannot be moved at all.
+    pub fn press_keeping(
+        &mut self,
+        model: Model<'_>,
+        values: &Values,
+        targets: &[Target<'_>],
+        kept: &[Target<'_>],
+    ) -> Result<Press, RefusalReason> {
         self.take_course(model, values);
-        let wanted = with_present_values(self, model, values, targets)?;
-        let aim = self.aim(model, (values, values), EditKind::Move, &wanted)?;
+        let aim = self.aim_keeping(model, (values, values), targets, kept)?;
         let mut press = self.press_aim(model, values, aim);
-        press.courses = self.courses(&press.aim, targets, values);
+        press.courses = self.courses(&press.aim, (targets, kept), values);
         Ok(press)
     }
 

@@ -7,8 +7,6 @@ use session::view::BinEntry;
 pub struct Shelf {
     /// The toolbox, or else the library; none for the document's own.
     pub name: String,
-    /// The number of its first tile.
-    pub first: usize,
     /// The tiles.
     pub entries: Vec<BinEntry>,
     /// Whether it is open at first: what a library has beside its toolbox is seldom wanted.
@@ -16,10 +14,10 @@ pub struct Shelf {
 }
 
 impl Shelf {
-    /// What tells it from others: its name, where it begins, what lies on it, whether it is open.
-    pub fn key(&self) -> (String, usize, Vec<String>, bool) {
+    /// What tells it from others: its name, what lies on it, whether it is open.
+    pub fn key(&self) -> (String, Vec<String>, bool) {
         let classes = self.entries.iter().map(|entry| entry.class.clone()).collect();
-        (self.name.clone(), self.first, classes, self.is_open)
+        (self.name.clone(), classes, self.is_open)
     }
 }
 
@@ -42,14 +40,11 @@ pub fn shelved(found: &[BinEntry], is_filtered: bool) -> Vec<Shelf> {
     }
     shelves.reverse();
     shelves.sort_by_key(|((rank, _), _)| *rank);
-    let mut before = 0;
-    let numbered = shelves.into_iter().map(|((rank, name), entries)| {
-        let first = before;
-        before += entries.len();
+    let shelf = |((rank, name), entries): ((u8, String), Vec<BinEntry>)| {
         let is_open = is_filtered || rank < 2 || !boxed(&name);
-        Shelf { name, first, entries, is_open }
-    });
-    numbered.collect()
+        Shelf { name, entries, is_open }
+    };
+    shelves.into_iter().map(shelf).collect()
 }
 
 #[cfg(test)]
@@ -87,11 +82,10 @@ mod tests {
         ];
         let names = |is_filtered| {
             let shelves = shelved(&found, is_filtered).into_iter();
-            shelves.map(|s| (s.name, s.first, s.is_open)).collect::<Vec<_>>()
+            shelves.map(|s| (s.name, s.is_open)).collect::<Vec<_>>()
         };
-        let wanted =
-            [("", 0, true), ("Circuits", 1, true), ("circuits", 2, false), ("geometry", 3, true)];
-        assert_eq!(names(false), wanted.map(|(n, at, open)| (String::from(n), at, open)));
+        let wanted = [("", true), ("Circuits", true), ("circuits", false), ("geometry", true)];
+        assert_eq!(names(false), wanted.map(|(n, open)| (String::from(n), open)));
         assert!(names(true).iter().all(|(_, _, is_open)| *is_open));
     }
 }

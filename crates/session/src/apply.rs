@@ -85,6 +85,11 @@ fn edit(
     targets: &[(Path, Literal)],
 ) -> Result<Change, Refusal> {
     let state = open.state.clone();
+    if let (EditKind::Move, [(path, Literal::Tuple(_))]) = (kind, targets)
+        && drag::is_handle(&state, path)
+    {
+        return drag::at_once(open, host, path, &targets[0].1);
+    }
     let label = label(kind, &state, targets);
     let mut aims: Vec<(Aim, Vec<Value>)> = Vec::new();
     let parts: Vec<(Path, Literal)> = targets.iter().flat_map(|t| in_parts(&state, t)).collect();
@@ -406,10 +411,9 @@ pub(crate) fn keep(
 
 /// Takes a text as it was typed. It may be wrong: what was right before stays in force.
 fn take_text(open: &mut Open, host: &dyn Host, text: &str) -> Change {
-    let label = "edit text".to_string();
     let before = open.state.clone();
     if before.text == text {
-        return Change { label, ..Change::default() };
+        return Change { label: "edit text".into(), ..Change::default() };
     }
     let held = open.status.satisfied;
     let plans = open.planner.take_plans();
@@ -418,7 +422,23 @@ fn take_text(open: &mut Open, host: &dyn Host, text: &str) -> Change {
         opened = following::follow(&before, opened, host);
     }
     let (state, planner) = opened;
-    step_to(open, label, state, planner)
+    step_to(open, label_of_text(&before, &state), state, planner)
+}
+
+/// Says what an edit of the text did, where all that it did is that things came or went.
+fn label_of_text(before: &State, after: &State) -> String {
+    let names = |state: &State| -> Vec<String> {
+        let document = &state.lowered.document;
+        document.classes[document.root].parts.iter().map(|part| part.name.to_string()).collect()
+    };
+    let (was, is) = (names(before), names(after));
+    let gone: Vec<String> = was.iter().filter(|name| !is.contains(name)).cloned().collect();
+    let come: Vec<String> = is.iter().filter(|name| !was.contains(name)).cloned().collect();
+    match (gone.as_slice(), come.as_slice()) {
+        ([], [_, ..]) => format!("add {}", words::listed(&come)),
+        ([_, ..], []) => format!("delete {}", words::listed(&gone)),
+        _ => "edit text".into(),
+    }
 }
 
 fn travel(open: &mut Open, host: &dyn Host, direction: Direction) -> Result<Change, Refusal> {

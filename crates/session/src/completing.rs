@@ -10,7 +10,7 @@ use syntax::ast::{self, AstNode};
 use syntax::{SyntaxKind, SyntaxNode};
 
 /// The words that a member of the document, a class or a part can begin with.
-const STATEMENTS: [&str; 20] = [
+const STATEMENTS: [&str; 21] = [
     "anchor",
     "attachers",
     "check",
@@ -20,6 +20,7 @@ const STATEMENTS: [&str; 20] = [
     "constraint",
     "family",
     "for",
+    "handle",
     "lesson",
     "merge",
     "modify",

@@ -4,6 +4,7 @@ use crate::apply::{self, Aim};
 use crate::by_hand::class_at;
 use crate::document::Open;
 use crate::general;
+use crate::handles::{self, Keeping};
 use crate::host::Host;
 use crate::limits;
 use crate::state::State;
@@ -12,8 +13,8 @@ use crate::view::{Change, DragState, Refusal};
 use crate::words;
 use eval::Answer;
 use expr::Dimension;
-use kernel::{Argument, BinaryOperator, DOCUMENT, Path, SlotId, Step, Structure};
-use kernel::{Term, ThingId, Values};
+use kernel::{Argument, BinaryOperator, DOCUMENT, Literal, Path, SlotId, Step, Structure};
+use kernel::{Term, ThingId, Value, Values};
 use plan::{NotDecided, Planner, Press, RefusalReason, Target};
 use std::collections::BTreeSet;
 use std::f64::consts::TAU;
@@ -46,6 +47,8 @@ pub(crate) struct Drag {
     /// Where each of its numbers was at the press.
     start: Vec<f64>,
     press: Press,
+    /// What stays meanwhile, where a handle is dragged.
+    keeping: Option<Box<Keeping>>,
     /// Where each of them was wished at the last event.
     wanted: Vec<f64>,
     /// The values as of the last event.
@@ -62,7 +65,13 @@ pub(crate) fn begin(open: &mut Open, paths: &[Path]) -> Result<(f64, f64), Refus
     let [path] = paths else { return begin_several(open, paths) };
     let state = open.state.clone();
     let aim = apply::aim(&state, path);
-    let drag = match aim.map_err(|r| words::find(&state, path).err().unwrap_or(r))? {
+    let aim = aim.map_err(|r| words::find(&state, path).err().unwrap_or(r))?;
+    if let Some(drag) = begin_handle(&state, &mut open.planner, path, &aim) {
+        let handle = drag.handle();
+        open.drag = Some(drag);
+        return Ok(handle);
+    }
+    let drag = match aim {
         // what has no place of its own is held by one that is computed
         Aim::Thing(thing) if computed_place(&state, thing).is_some() => {
             let place = computed_place(&state, thing).unwrap_or_default();
@@ -86,6 +95,50 @@ pub(crate) fn begin(open: &mut Open, paths: &[Path]) -> Result<(f64, f64), Refus
     let handle = drag.handle();
     open.drag = Some(drag);
     Ok(handle)
+}
+
+/// Begins a drag of a handle, while what it keeps stays. Nothing where it is none, or cannot be dragged so.
+fn begin_handle(
+    state: &State,
+    planner: &mut Planner,
+    path: &Path,
+    aim: &Aim,
+) -> Option<Drag> {
+    let keeping = handles::keeping(state, path, aim)?;
+    let pressed = match aim {
+        Aim::Thing(thing) => press(state, planner, &[*thing], path.clone()),
+        Aim::Term(term) => press_computed(state, planner, term.clone(), path.clone()),
+    };
+    let mut drag = pressed.ok()?;
+    drag.press = keeping.press(state, planner)?;
+    drag.keeping = Some(Box::new(keeping));
+    Some(drag)
+}
+
+/// Returns true for a place by which its class says a hand changes a thing.
+pub(crate) fn is_handle(state: &State, path: &Path) -> bool {
+    apply::aim(state, path).is_ok_and(|aim| handles::keeping(state, path, &aim).is_some())
+}
+
+/// Drags a handle to a place in one step, from press to release.
+///
+/// # Errors
+/// Why it cannot be dragged or what came of it not be kept.
+pub(crate) fn at_once(
+    open: &mut Open,
+    host: &dyn Host,
+    path: &Path,
+    to: &Literal,
+) -> Result<Change, Refusal> {
+    let wanted = apply::flat(to);
+    let [Value::Number(x), Value::Number(y)] = wanted.as_slice() else {
+        return Err(words::refuse(format!("{path} is a place: it is moved to `(x, y)`")));
+    };
+    begin(open, std::slice::from_ref(path))?;
+    let state = open.state.clone();
+    let Some(mut drag) = open.drag.take() else { return Ok(Change::default()) };
+    drag.to(&state, &mut open.planner, (*x, *y));
+    drag.release(open, host)
 }
 
 /// Begins a drag of several things, which move as one.
@@ -177,6 +230,7 @@ pub(crate) fn press(
         wanted: start.clone(),
         start,
         press,
+        keeping: None,
         values,
         wish,
     })
@@ -221,6 +275,7 @@ pub(crate) fn press_computed(
         wanted: start.clone(),
         start,
         press,
+        keeping: None,
         values,
         wish,
     })
@@ -280,7 +335,7 @@ pub(crate) fn computed_place(state: &State, thing: ThingId) -> Option<Path> {
 }
 
 /// Returns the number that an answer is, or the two of a place.
-fn numbers_of(answer: &Answer<'_>) -> Option<Vec<(f64, Dimension)>> {
+pub(crate) fn numbers_of(answer: &Answer<'_>) -> Option<Vec<(f64, Dimension)>> {
     let number = |answer: &Answer<'_>| match answer {
         Answer::Number(x, dimension) => Some((*x, *dimension)),
         Answer::Bool(_)
@@ -405,8 +460,16 @@ impl Drag {
                 .collect(),
         };
         let wished = self.turned(state, planner, &to);
-        let report =
-            planner.drag(state.model(), &mut self.press, &mut self.values, &wished, &mut texts);
+        let report = match &mut self.keeping {
+            Some(keeping) => {
+                let way = (&mut self.press, &mut self.values);
+                keeping.follow(state, planner, way, &wished, &mut texts)
+            }
+            None => {
+                let (press, values) = (&mut self.press, &mut self.values);
+                planner.drag(state.model(), press, values, &wished, &mut texts)
+            }
+        };
         self.wish = [to[0], to.get(1).copied().unwrap_or(0.0)];
         self.wanted = to;
         let changes = self.press.mode_changes(planner, state.model(), &self.values, &mut texts);
@@ -484,14 +547,24 @@ impl Drag {
         let dragged: Vec<String> =
             std::iter::once(&self.path).chain(&self.others).map(Path::to_string).collect();
         let label = format!("move {}", words::listed(&dragged));
-        let wishes = match &self.computed {
-            None => self.slots.iter().copied().zip(self.wanted).collect(),
-            Some(_) => Vec::new(),
+        // a handle speaks of the whole thing: what stays was wished as well
+        let whole = self.keeping.as_ref().map(|keeping| keeping.slots(&state));
+        let wishes = match (&self.computed, &whole) {
+            (None, None) => self.slots.iter().copied().zip(self.wanted).collect(),
+            _ => Vec::new(),
         };
+        let is_apart = whole.as_ref().is_some_and(|whole| {
+            state.values.changed(&self.values).any(|slot| !whole.contains(&slot))
+        });
+        let slots = whole.unwrap_or(self.slots);
         let steps = open.done.len();
-        let kept = apply::keep(open, host, label, self.slots, &self.values, &report.undecided)?;
+        let kept = apply::keep(open, host, label, slots, &self.values, &report.undecided)?;
         if let Some(step) = open.done.get_mut(steps) {
             step.wishes = wishes;
+            // the checker knows no stays of a drag alone: of what moved beside the thing it tests the rules
+            if is_apart {
+                step.edited.clear();
+            }
         }
         Ok(kept)
     }

@@ -10,6 +10,7 @@
 //!
 //! Reading order: [`session`](Session), `document`, `state`, `apply`, `drag`, `write_back`,
 //! `complaints`, `check`, `views`, [`view`], `host`.
+mod handles;
 mod host;
 pub mod view;
 

@@ -3,6 +3,7 @@
 use crate::document::Open;
 use crate::host::Host;
 use crate::state::{Planned, Solved, State, Structured};
+use lang::Lowered;
 use plan::{Planner, Plans};
 
 /// A document that is being opened.
@@ -14,6 +15,7 @@ pub struct Opening {
 /// What there is of it.
 enum Stage {
     Text(String),
+    Lowered(String, Box<Lowered>),
     Structured(Box<Structured>),
     Planned(Box<Planned>),
     Solved(Box<Solved>),
@@ -39,6 +41,23 @@ impl Opening {
         &self.name
     }
 
+    /// How many stages there are.
+    pub const STAGES: usize = 7;
+
+    /// Returns how many stages are done.
+    pub fn done(&self) -> usize {
+        match self.stage {
+            Stage::Text(_) => 0,
+            Stage::Lowered(..) => 1,
+            Stage::Structured(_) => 2,
+            Stage::Planned(_) => 3,
+            Stage::Solved(_) => 4,
+            Stage::Told(_) => 5,
+            Stage::Open(_) => 6,
+            Stage::Drawn(_) => Self::STAGES,
+        }
+    }
+
     /// Returns true if nothing is left to do.
     pub fn is_over(&self) -> bool {
         matches!(self.stage, Stage::Drawn(_))
@@ -50,7 +69,10 @@ impl Opening {
         let stage = match stage {
             Stage::Text(text) => {
                 let lowered = lang::lower(&text, &|name: &str| host.read(name), None);
-                Stage::Structured(Box::new(Structured::of(text, lowered, None)))
+                Stage::Lowered(text, Box::new(lowered))
+            }
+            Stage::Lowered(text, of) => {
+                Stage::Structured(Box::new(Structured::of(text, *of, None)))
             }
             Stage::Structured(of) => Stage::Planned(Box::new(of.planned(Plans::default()))),
             Stage::Planned(of) => Stage::Solved(Box::new(of.solved())),

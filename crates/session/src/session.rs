@@ -608,6 +608,11 @@ impl Session {
         let open = self.document(id);
         views::structure::rows(&open.state, open.values(), &open.status)
     }
+    /// Returns the rows of what a thing computes at a path, live while dragging: such things are not in the structure.
+    pub fn computed_rows(&self, id: DocumentId, path: &Path) -> Vec<StructureRow> {
+        let open = self.document(id);
+        views::structure::drawn::computed(&open.state, open.values(), &open.status, path)
+    }
     /// Returns the values, live while dragging.
     pub fn values(&self, id: DocumentId) -> Vec<ValueRow> {
         let open = self.document(id);

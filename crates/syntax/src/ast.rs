@@ -16,7 +16,7 @@ pub use expressions::{
     UnaryExpr, UnaryOp,
 };
 pub use members::{
-    Assign, Attachers, Choice, Class, Domain, DottedName, Message, Modify, Param, ParamList, Part,
+    Assign, Attachers, Choice, Class, Domain, DottedName, Handle, Message, Modify, Param, ParamList, Part,
     Ref, Superclass, Toolbox, Type, TypeShape, UnitLine, Use, View, YLine,
 };
 pub use programs::{
@@ -270,6 +270,8 @@ ast_enum! {
         Ref(Ref),
         /// `attachers p1, p2`
         Attachers(Attachers),
+        /// `handle far keeps corner`
+        Handle(Handle),
         /// `view "Force" => …`
         View(View),
         /// `side lower: right`

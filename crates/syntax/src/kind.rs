@@ -201,6 +201,8 @@ kinds! {
     Ref,
     /// `attachers p1, p2`
     Attachers,
+    /// `handle far keeps corner`
+    Handle,
     /// `erase line`
     Erase,
     /// `view "name" => e`

@@ -26,6 +26,12 @@ export function showCrash(title, advice, reload, details) {
 // Ends the task, so that the page has its turn, and goes on.
 export const pause = () => globalThis.scheduler?.yield?.() ?? new Promise((resolve) => setTimeout(resolve))
 
+// After the next frame is painted; a tab that is not seen paints none, and does not wait.
+export const painted = () => new Promise((resolve) => {
+  requestAnimationFrame(() => setTimeout(resolve))
+  setTimeout(resolve, 100)
+})
+
 // Hands the user a file.
 export function download(name, text) {
   const link = document.createElement("a")

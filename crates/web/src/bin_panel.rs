@@ -6,12 +6,14 @@ use crate::lab::Lab;
 use crate::paint::{Part, display_list};
 use crate::picture::{new_painter, paint};
 use crate::sheet::{fit, with_words};
-use crate::{icons, words};
+use crate::{icons, keyboard, words};
 use leptos::html::Canvas;
 use leptos::prelude::*;
 use presentation::shelves::{Shelf, shelved};
 use session::view::{BinEntry, PictureView};
-use wasm_bindgen::JsCast;
+
+/// What of the bin is one stop of Tab.
+const LIST: &str = ".bin .scroll";
 
 /// The classes in use, with a field that finds them, and the libraries that could be used besides.
 #[component]
@@ -50,6 +52,13 @@ pub fn Bin(
             let _ = lab.fetch_list().await;
         });
     });
+    // one stop of Tab: arrows lead from tile to tile
+    Effect::new(move |_| {
+        shelves.track();
+        libraries.track();
+        beside.track();
+        keyboard::one_stop(LIST);
+    });
     // Enter: the library or document of that name, else the class that is called so, or begins so, or is found alone
     let take = move || {
         let typed = wanted.get_untracked().trim().to_lowercase();
@@ -81,28 +90,20 @@ pub fn Bin(
                     on:keydown=move |e| {
                         match e.key().as_str() {
                             "Enter" => take(),
-                            "ArrowDown" => focus_tile(|_| 0),
+                            "ArrowDown" => keyboard::enter_list_at(LIST, ".tile"),
                             _ => return,
                         }
                         e.prevent_default();
                         e.stop_propagation();
                     } />
             </div>
-            <div class="scroll" on:keydown=move |e| {
-                match e.key().as_str() {
-                    "ArrowDown" | "ArrowRight" => focus_tile(|at| at + 1),
-                    "ArrowUp" | "ArrowLeft" => focus_tile(|at| at.saturating_sub(1)),
-                    _ => return,
-                }
-                e.prevent_default();
-                e.stop_propagation();
-            }>
+            <div class="scroll" on:keydown=|e| keyboard::go_in(LIST, &e)>
                 <For each=move || shelves.get() key=Shelf::key let(shelf)>
-                    <details open=shelf.is_open>
+                    <details open=shelf.is_open on:toggle=|_| keyboard::one_stop(LIST)>
                         <summary>{if shelf.name.is_empty() { String::from(words::OWN_CLASSES) } else { shelf.name.clone() }}</summary>
                         <ul class="tiles">
-                            {(shelf.first..).zip(shelf.entries).map(|(number, entry)| view! {
-                                <Tile lab=lab entry=entry number=number />
+                            {shelf.entries.into_iter().map(|entry| view! {
+                                <Tile lab=lab entry=entry />
                             }).collect_view()}
                         </ul>
                     </details>
@@ -112,7 +113,7 @@ pub fn Bin(
                     <Uses names=libraries take=move |name: String| lab.use_library(&name) />
                 </Show>
                 <Show when=move || !beside.with(Vec::is_empty)>
-                    <details class="beside">
+                    <details class="beside" on:toggle=|_| keyboard::one_stop(LIST)>
                         <summary>{words::DOCUMENTS_BESIDE}</summary>
                         <Uses names=beside take=move |name| lab.use_document(name) />
                     </details>
@@ -142,7 +143,7 @@ fn Uses(names: Memo<Vec<String>>, take: impl Fn(String) + Copy + Send + 'static)
 
 /// A tile: a click takes the tool that places such a thing, Enter inserts one where there is room.
 #[component]
-fn Tile(lab: Lab, entry: BinEntry, number: usize) -> impl IntoView {
+fn Tile(lab: Lab, entry: BinEntry) -> impl IntoView {
     let canvas = NodeRef::<Canvas>::new();
     let size = RwSignal::new((0.0, 0.0));
     let painter = StoredValue::new_local(None::<Painter>);
@@ -173,14 +174,7 @@ fn Tile(lab: Lab, entry: BinEntry, number: usize) -> impl IntoView {
     let by_finger = StoredValue::new(false);
     view! {
         <li>
-            {is_own.then(|| {
-                let label = words::edit_class(&entry.class);
-                view! {
-                    <button class="bare edit" title=label.clone() aria-label=label
-                        on:click=move |_| lab.edit_class(&class.get_value())>{icons::edit()}</button>
-                }
-            })}
-            <button class="tile" title=entry.doc data-tile=number.to_string() data-class=entry.class.clone()
+            <button class="tile" title=entry.doc data-class=entry.class.clone()
                 aria-pressed=move || held.get().to_string()
                 on:pointerdown=move |e| {
                     by_finger.set_value(e.pointer_type() == "touch");
@@ -208,19 +202,14 @@ fn Tile(lab: Lab, entry: BinEntry, number: usize) -> impl IntoView {
                 {is_drawn.then(|| view! { <canvas node_ref=canvas aria-hidden="true"></canvas> })}
                 <span>{humps(&name).into_iter().map(|hump| view! { {hump}<wbr /> }).collect_view()}</span>
             </button>
+            {is_own.then(|| {
+                let label = words::edit_class(&entry.class);
+                view! {
+                    <button class="bare edit" title=label.clone() aria-label=label
+                        on:click=move |_| lab.edit_class(&class.get_value())>{icons::edit()}</button>
+                }
+            })}
         </li>
-    }
-}
-
-/// Gives the keyboard to a tile: to the one whose number is told from that of the present one.
-fn focus_tile(which: impl Fn(usize) -> usize) {
-    let active = document().active_element();
-    let now = active.and_then(|tile| tile.get_attribute("data-tile")?.parse().ok());
-    let wanted = format!(".bin [data-tile='{}']", which(now.unwrap_or_default()));
-    let tile = document().query_selector(&wanted).ok().flatten();
-    if let Some(tile) = tile.and_then(|tile| tile.dyn_into::<web_sys::HtmlElement>().ok()) {
-        // It stands in the page.
-        let _ = tile.focus();
     }
 }
 

@@ -7,8 +7,11 @@ use crate::plot::PlotPane;
 use crate::splitter::{Splitter, Way};
 use crate::text::Text;
 use crate::values::Values;
-use crate::{theme, words};
+use crate::{keyboard, theme, words};
 use leptos::prelude::*;
+
+/// The tabs of the dock.
+const TABS: &str = ".dock .tabs";
 
 const DOCK_KEY: &str = "thinglab/dock";
 
@@ -97,12 +100,16 @@ pub fn Dock(
             </button>
         }
     };
+    Effect::new(move |_| {
+        lab.dock.track();
+        keyboard::one_stop(TABS);
+    });
     view! {
         <Show when=move || lab.dock.get().is_some()>
             <Splitter name="dock" way=Way::Up least=120.0 most=800.0 />
         </Show>
         <div class="dock" class:open=move || lab.dock.get().is_some()>
-            <div class="tabs" role="tablist" aria-label=words::DOCK>{ALL.map(tab).into_iter().collect_view()}</div>
+            <div class="tabs" role="tablist" aria-label=words::DOCK on:keydown=|e| keyboard::go_in(TABS, &e)>{ALL.map(tab).into_iter().collect_view()}</div>
             <div class="shelf" id="dock" role="tabpanel" aria-label=words::DOCK>
                 {move || match lab.dock.get() {
                     Some(Tab::Text) => view! { <Text lab=lab /> }.into_any(),

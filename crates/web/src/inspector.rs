@@ -24,7 +24,8 @@ pub fn Inspector(
 ) -> impl IntoView {
     let row = Memo::new(move |_| {
         let path = lab.selected.get()?;
-        lab.structure.with(|rows| rows.iter().find(|row| row.path == path).cloned())
+        let found = lab.structure.with(|rows| rows.iter().find(|row| row.path == path).cloned());
+        found.or_else(|| computed_rows(lab, &path).into_iter().next())
     });
     let title = move || {
         let name = row.with(|row| row.as_ref().map(|row| row.path.clone()));
@@ -89,21 +90,46 @@ fn written(lab: Lab, row: &StructureRow) -> Option<String> {
     lab.text.with(|text| text.source.get(start as usize..end as usize).map(String::from))
 }
 
+/// The rows of what a thing computes, as the corner of a rectangle: the tree has none of it.
+fn computed_rows(lab: Lab, path: &str) -> Vec<StructureRow> {
+    // live while dragging
+    lab.picture.track();
+    let found = lab.id().zip(session::parse_path(path));
+    found.map(|(id, path)| lab.ask(|s| s.computed_rows(id, &path))).unwrap_or_default()
+}
+
+/// The selection; of what a thing computes, that thing: its are the values and constraints.
+fn inspected(lab: Lab) -> Option<String> {
+    let path = lab.selected.get()?;
+    lab.structure.with(|rows| {
+        let is_there = |path: &str| rows.iter().any(|row| row.path == path);
+        let mut whole = path.as_str();
+        while !is_there(whole) {
+            let Some(end) = whole.rfind(['.', '[']) else { return Some(path.clone()) };
+            whole = &whole[..end];
+        }
+        Some(String::from(whole))
+    })
+}
+
 /// The values of what is selected that is computed: it has none of its own.
 #[component]
 fn Made(lab: Lab) -> impl IntoView {
     let found = Memo::new(move |_| {
         let path = lab.selected.get()?;
-        lab.structure.with(|rows| {
-            let at = rows.iter().position(|r| r.path == path && r.kind == RowKind::Virtual)?;
-            let all = &rows[at..=(at + rows[at].descendants as usize).min(rows.len() - 1)];
-            let value = |row: &StructureRow| {
-                let name = row.path.get(path.len()..)?.trim_start_matches('.');
-                let name = if name.is_empty() { words::VALUE } else { name };
-                Some((String::from(name), row.value.clone()?))
-            };
-            Some(all.iter().filter_map(value).take(MOST).collect::<Vec<_>>())
-        })
+        let value = |row: &StructureRow| {
+            let name = row.path.get(path.len()..)?.trim_start_matches('.');
+            let name = if name.is_empty() { words::VALUE } else { name };
+            Some((String::from(name), row.value.clone()?))
+        };
+        let values = |rows: &[StructureRow]| rows.iter().filter_map(value).take(MOST).collect();
+        let known: Option<Vec<_>> = lab.structure.with(|rows| {
+            let at = rows.iter().position(|r| r.path == path)?;
+            let end = (at + rows[at].descendants as usize).min(rows.len() - 1);
+            let is_made = rows[at].kind == RowKind::Virtual;
+            Some(if is_made { values(&rows[at..=end]) } else { Vec::new() })
+        });
+        Some(known.unwrap_or_else(|| values(&computed_rows(lab, &path))))
     });
     let rows = move || found.get().unwrap_or_default();
     view! {
@@ -120,13 +146,12 @@ fn Made(lab: Lab) -> impl IntoView {
 #[component]
 fn Numbers(lab: Lab) -> impl IntoView {
     let within = Memo::new(move |_| {
-        lab.structure.track();
-        let path = lab.selected.get().and_then(|path| session::parse_path(&path));
+        let path = inspected(lab).and_then(|path| session::parse_path(&path));
         let found = lab.id().zip(path);
         found.map(|(id, path)| lab.ask(|s| s.values_within(id, &path))).unwrap_or_default()
     });
     let found = Memo::new(move |_| {
-        let selected = lab.selected.get();
+        let selected = inspected(lab);
         lab.value_rows.track();
         let of = |rows: &Vec<ValueRow>| {
             within.with(|within| shown_values(rows, selected.as_deref(), within))
@@ -179,7 +204,7 @@ fn asked(lab: Lab, at: usize) -> impl Fn() -> Option<AnyView> {
 #[component]
 fn Rules(lab: Lab) -> impl IntoView {
     let found = Memo::new(move |_| {
-        let selected = lab.selected.get();
+        let selected = inspected(lab);
         lab.structure.with(|rows| shown_rules(rows, selected.as_deref()))
     });
     view! {

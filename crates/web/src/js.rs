@@ -134,6 +134,9 @@ extern "C" {
     /// Lets the page have its turn.
     pub async fn pause();
 
+    /// Waits until what is to be seen is painted.
+    pub async fn painted();
+
     /// The name of this tab among those of the address.
     #[wasm_bindgen(js_name = tabName)]
     pub fn tab_name() -> String;

@@ -38,22 +38,26 @@ pub fn rest_at(selector: &'static str) {
     });
 }
 
-/// The buttons of a list, in order.
+/// The buttons of a list, and the heads of its shelves, in order: those that no shut shelf hides.
 fn buttons(list: &str) -> Vec<HtmlElement> {
     let Ok(Some(list)) = document().query_selector(list) else { return Vec::new() };
-    let found = list.get_elements_by_tag_name("button");
-    (0..found.length()).filter_map(|i| found.item(i)?.dyn_into().ok()).collect()
+    let Ok(found) = list.query_selector_all("button, summary") else { return Vec::new() };
+    let all = (0..found.length()).filter_map(|i| found.item(i)?.dyn_into::<HtmlElement>().ok());
+    all.filter(|button| button.offset_parent().is_some()).collect()
 }
 
-/// With the next frame, makes the buttons of a list one stop of Tab: that which was it last, or the first. To be said
-/// again where its rows are others.
+/// With the next frame, makes the buttons of a list one stop of Tab: the one that is chosen, or was it last, or the
+/// first. To be said again where its rows are others.
 pub fn one_stop(list: &'static str) {
     request_animation_frame(move || {
         let all = buttons(list);
         let held = holder();
         let is_held =
             |b: &HtmlElement| held.as_ref().is_some_and(|held| b.is_same_node(Some(held)));
-        let at = all.iter().position(is_held).unwrap_or(0);
+        let was = || all.iter().position(|button| button.tab_index() == 0);
+        let is_chosen = |b: &HtmlElement| b.matches("[aria-selected='true']").unwrap_or(false);
+        let chosen = || all.iter().position(is_chosen);
+        let at = all.iter().position(is_held).or_else(chosen).or_else(was).unwrap_or(0);
         stop_at(&all, at);
     });
 }
@@ -99,11 +103,18 @@ pub fn go_in(list: &str, e: &web_sys::KeyboardEvent) {
 
 /// Gives the keyboard to the first button of a list that is one stop.
 pub fn enter_list(list: &str) {
+    enter_list_at(list, "button");
+}
+
+/// Gives the keyboard to the first button of a list that is one stop, of those that a selector finds.
+pub fn enter_list_at(list: &str, selector: &str) {
     let all = buttons(list);
-    if let Some(first) = all.first() {
-        stop_at(&all, 0);
-        focus_element(first);
-    }
+    let Some(first) = all.iter().position(|button| button.matches(selector).unwrap_or(false))
+    else {
+        return;
+    };
+    stop_at(&all, first);
+    focus_element(&all[first]);
 }
 
 fn focus_element(element: &Element) {

@@ -199,6 +199,8 @@ pub struct Lab {
     pub menu: RwSignal<Option<Menu>>,
     /// While a class is made of the selection, the points by which its things are placed.
     pub attachers: RwSignal<Option<Vec<String>>>,
+    /// How many stages of a long opening are done, while there is one.
+    pub opening: RwSignal<Option<usize>>,
     /// The class whose prototype is shown instead of the document.
     pub prototype: RwSignal<Option<Shown>>,
     /// What a person is asked to type.
@@ -336,6 +338,7 @@ impl Lab {
             editing: RwSignal::new(None),
             menu: RwSignal::new(None),
             attachers: RwSignal::new(None),
+            opening: RwSignal::new(None),
             prototype: RwSignal::new(None),
             wish: RwSignal::new(None),
             grid: RwSignal::new(theme::keep(GRID_KEY).is_none_or(|kept| kept != "off")),

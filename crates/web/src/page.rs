@@ -22,7 +22,7 @@ use crate::status::{Asked, Recognition, Refused, StatusLine};
 use crate::strip::Strip;
 use crate::structure::Structure;
 use crate::why::Why;
-use crate::{bench, icons, probe, route, words};
+use crate::{bench, icons, keyboard, probe, route, words};
 use leptos::ev;
 use leptos::prelude::*;
 
@@ -81,10 +81,26 @@ pub fn Page() -> impl IntoView {
                     <Gallery lab=lab />
                 }.into_any(),
             }}
+            <Opening lab=lab />
             <Palette lab=lab />
             <MenuView lab=lab />
             <Dialog lab=lab />
         </div>
+    }
+}
+
+/// Says how far a long opening is.
+#[component]
+fn Opening(lab: Lab) -> impl IntoView {
+    view! {
+        <Show when=move || lab.opening.with(Option::is_some)>
+            <div class="notice opening" role="status">
+                <p class="words">{words::OPENING}
+                    <progress aria-label=words::OPENING max=session::Opening::STAGES.to_string()
+                        value=move || lab.opening.get().unwrap_or_default().to_string()></progress></p>
+                <button on:click=move |_| lab.opening.set(None)>{words::CANCEL}</button>
+            </div>
+        </Show>
     }
 }
 
@@ -219,6 +235,9 @@ fn Document(lab: Lab) -> impl IntoView {
     }
 }
 
+/// The tabs of the left drawer.
+const DRAWERS: &str = ".drawer .tabs";
+
 /// The left drawer: the structure, the bin, the history.
 #[component]
 fn Drawer(lab: Lab) -> impl IntoView {
@@ -229,9 +248,14 @@ fn Drawer(lab: Lab) -> impl IntoView {
                 on:click=move |_| lab.drawer.set(shown)>{label}</button>
         }
     };
+    Effect::new(move |_| {
+        lab.drawer.track();
+        keyboard::one_stop(DRAWERS);
+    });
     view! {
         <div class="drawer">
-            <div class="tabs" role="tablist" aria-label=words::VIEWS>
+            <div class="tabs" role="tablist" aria-label=words::VIEWS
+                on:keydown=|e| keyboard::go_in(DRAWERS, &e)>
                 {tab(words::STRUCTURE, Drawer::Structure)}
                 {tab(words::DRAW, Drawer::Draw)}
                 {tab(words::BIN, Drawer::Bin)}

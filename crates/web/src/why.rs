@@ -108,9 +108,6 @@ pub fn Why(
                     <h3 class="conflicting">{words::UNMET}</h3>
                     <ul>{unmet.get().into_iter().map(|u| view! { <UnmetRow lab=lab unmet=u /> }).collect_view()}</ul>
                 })}
-                <p>{move || explanation.with(|e| e.summary.clone())}</p>
-                {move || explanation.with(|e| e.warnings.clone()).into_iter()
-                    .map(|warning| view! { <p class="quiet">{warning}</p> }).collect_view()}
                 {move || held.get().map(|held| view! { <Held lab=lab held=held /> })}
                 {move || (!elsewhere.with(Vec::is_empty)).then(|| view! {
                     <h3>{words::ELSEWHERE}</h3>
@@ -126,6 +123,9 @@ pub fn Why(
                     }.into_any(),
                 }}
                 {move || view! { <Analysed lab=lab analysis=analysis.get() about=lab.selected.get() /> }}
+                <p>{move || explanation.with(|e| e.summary.clone())}</p>
+                {move || explanation.with(|e| e.warnings.clone()).into_iter()
+                    .map(|warning| view! { <p class="quiet">{warning}</p> }).collect_view()}
                 {move || (!steps.with(Vec::is_empty)).then(|| view! {
                     <h3>{words::STEPS}</h3>
                     <ol class="steps">{steps.get().into_iter().map(|s| view! { <Step lab=lab step=s /> }).collect_view()}</ol>
@@ -290,7 +290,7 @@ fn UnmetRow(lab: Lab, unmet: Unmet) -> impl IntoView {
     view! {
         <li>
             <PathButton lab=lab path=unmet.constraint />
-            <code>{unmet.rule}</code>
+            <code>{unmet.rule}</code>" "
             <span class="quiet">{unmet.strength}
                 {unmet.error.map(|error| format!(", {} {}", words::OFF_BY, words::short(error)))}</span>
         </li>

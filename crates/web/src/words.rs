@@ -21,6 +21,8 @@ pub const YOUR_DOCUMENTS: &str = "In this folder";
 pub const DOCUMENTS_BELOW: &str = "In folders below it";
 pub const NO_DOCUMENTS: &str = "There are no documents here yet.";
 pub const LOADING: &str = "Loading";
+pub const OPENING: &str = "Opening the document";
+pub const OPENING_GIVEN_UP: &str = "opening it was cancelled";
 pub const EDITOR_COMES: &str = "The editor is being fetched";
 pub const EDITOR_FAILED: &str =
     "The editor could not be fetched: start the server again, then open the text once more";

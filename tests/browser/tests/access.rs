@@ -2,7 +2,7 @@
 //! narrow window.
 
 use browser::Visit;
-use browser::hands::{chord, grip, key, point, show, state};
+use browser::hands::{begin, chord, drag, grip, key, place, point, show, state};
 use fantoccini::actions::MOUSE_BUTTON_LEFT;
 use serde_json::json;
 
@@ -57,4 +57,47 @@ async fn gallery_document_panes_and_dialogs_have_no_serious_findings_light_and_d
         accessible(&visit, &format!("{scheme}: the name dialog")).await;
         chord(&visit, &[], key::ESCAPE).await;
     }
+}
+
+#[tokio::test]
+async fn the_bin_is_one_stop_of_tab_and_arrows_lead_from_tile_to_tile() {
+    let visit = Visit::open(None).await;
+    show(&visit, "quadrilateral.thing").await;
+    visit.until("document.getElementById('picture').width > 10").await;
+    visit.script("document.getElementById('tab-bin').click()").await;
+    visit.until("document.querySelectorAll('.bin .tile').length > 20").await;
+    visit.until("document.querySelectorAll('.bin .scroll [tabindex=\"0\"]').length === 1").await;
+    visit.script("document.querySelector('.bin input').focus()").await;
+    let within = "return document.activeElement.closest('.bin .scroll') !== null";
+    chord(&visit, &[], key::TAB).await;
+    assert_eq!(visit.script(within).await, json!(true));
+    chord(&visit, &[], key::TAB).await;
+    assert_eq!(visit.script(within).await, json!(false));
+    visit.script("document.querySelector('.bin input').focus()").await;
+    chord(&visit, &[], key::DOWN).await;
+    let class = "return document.activeElement.dataset.class";
+    let first = visit.script(class).await;
+    chord(&visit, &[], key::RIGHT).await;
+    let second = visit.script(class).await;
+    assert!(first.is_string() && second.is_string() && first != second, "{first} {second}");
+}
+
+#[tokio::test]
+async fn a_corner_of_a_rectangle_dragged_by_hand_resizes_it_and_is_told_of() {
+    let visit = begin().await;
+    visit.script("document.getElementById('tab-bin').click()").await;
+    place(&visit, "Rectangle", &[(600.0, 500.0), (800.0, 300.0)]).await;
+    chord(&visit, &[], key::ESCAPE).await;
+    chord(&visit, &[], key::ESCAPE).await;
+    visit.until("window.__thinglab.state().grips.some(g => g.path === 'rectangle.far')").await;
+    let before = state(&visit).await;
+    let far = grip(&before, "rectangle.far");
+    drag(&visit, far, (far.0 + 50.0, far.1 - 40.0)).await;
+    visit.until("document.querySelector('.inspector .subject').textContent === 'rectangle.far'").await;
+    let after = state(&visit).await;
+    let near = [grip(&before, "rectangle.corner"), grip(&after, "rectangle.corner")];
+    assert!((near[0].0 - near[1].0).abs() < 1.0 && (near[0].1 - near[1].1).abs() < 1.0, "{near:?}");
+    assert_ne!(before["text"], after["text"]);
+    visit.until("document.querySelector('.inspector .made dd')").await;
+    visit.until("document.querySelector('.inspector .values').textContent.includes('width')").await;
 }

@@ -234,7 +234,8 @@ pub(super) fn is_form_kept(
         && a.sides == b.sides
         && a.switches == b.switches
         && a.without == b.without
-        && a.attachers == b.attachers;
+        && a.attachers == b.attachers
+        && a.handles == b.handles;
     let names_same = structure.references.is_empty() || Rc::ptr_eq(givens, &structure.givens);
     says_same
         && names_same

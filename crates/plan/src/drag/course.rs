@@ -2,9 +2,9 @@
 //! where neither holds what is wished, up to where it ends.
 
 use super::Press;
-use crate::aim::{Aim, with_present_values};
+use crate::aim::Aim;
 use crate::course::Guard;
-use crate::edit::{EditKind, EditReport, Target};
+use crate::edit::{EditReport, Target};
 use crate::host::Host;
 use crate::planner::{Model, Planner};
 use kernel::{Term, ThingId, Values};
@@ -19,6 +19,8 @@ const HALVINGS: usize = 40;
 pub(super) struct Courses {
     /// What is dragged.
     targets: Vec<Owned>,
+    /// What stays meanwhile.
+    kept: Vec<Owned>,
     /// The values at the press.
     start: Values,
     /// Where the targets were then.
@@ -68,7 +70,7 @@ impl Planner {
     pub(super) fn courses(
         &self,
         aim: &Aim,
-        targets: &[Target<'_>],
+        (targets, kept): (&[Target<'_>], &[Target<'_>]),
         values: &Values,
     ) -> Option<Box<Courses>> {
         if aim.guards.is_empty() && self.lowering.guards.is_empty() {
@@ -80,6 +82,7 @@ impl Planner {
         };
         Some(Box::new(Courses {
             targets: targets.iter().map(owned).collect(),
+            kept: kept.iter().map(owned).collect(),
             start: values.clone(),
             from: aim.wanted.iter().flatten().copied().collect(),
             rules: self.lowering.guards.clone(),
@@ -134,8 +137,8 @@ impl Planner {
             }
         }
         let targets: Vec<Target<'_>> = courses.targets.iter().map(Owned::target).collect();
-        let present = with_present_values(self, model, &courses.start, &targets).ok()?;
-        let aim = self.aim(model, (&courses.start, there), EditKind::Move, &present).ok()?;
+        let kept: Vec<Target<'_>> = courses.kept.iter().map(Owned::target).collect();
+        let aim = self.aim_keeping(model, (&courses.start, there), &targets, &kept).ok()?;
         if courses.others.iter().any(|other| other.aim.wishes == aim.wishes) {
             return None;
         }

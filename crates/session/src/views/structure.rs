@@ -1,6 +1,6 @@
 //! The structure view: the tree of parts, constraints, merges and sides, as rows in pre-order.
 
-mod drawn;
+pub(crate) mod drawn;
 
 use crate::state::State;
 use crate::view::{Freedom, RowKind, StructureRow};

@@ -282,3 +282,39 @@ fn an_angle_that_counts_whole_turns_is_dragged_as_far_as_it_is_wished() {
         assert!((total - wished).abs() < 1e-9, "{wished}: {total}");
     }
 }
+
+#[test]
+fn a_corner_of_a_rectangle_resizes_it_and_its_middle_moves_it() {
+    const TEXT: &str =
+        "use geometry\nbox: Rectangle { corner = (10, 10)  width = 30  height = 40 }\n";
+    let box_after = |path: &str, along: &[(f64, f64)]| {
+        let mut desk = Desk::of(TEXT);
+        desk.drag(path, along);
+        let found = ["corner.x", "corner.y", "width", "height"];
+        let found = found.map(|part| desk.number(&format!("box.{part}")));
+        desk.undo();
+        assert_eq!(desk.text(), TEXT);
+        found
+    };
+    assert_eq!(box_after("box.far", &[(50.0, 55.0), (60.0, 90.0)]), [10.0, 10.0, 50.0, 80.0]);
+    assert_eq!(box_after("box.corner", &[(20.0, 30.0)]), [20.0, 30.0, 20.0, 20.0]);
+    assert_eq!(box_after("box.corner2", &[(45.0, 0.0)]), [10.0, 0.0, 35.0, 50.0]);
+    assert_eq!(box_after("box.center", &[(35.0, 40.0)]), [20.0, 20.0, 30.0, 40.0]);
+    assert_eq!(box_after("box", &[(15.0, 15.0)]), [15.0, 15.0, 30.0, 40.0]);
+    // across one side, across both, and back again
+    assert_eq!(box_after("box.far", &[(0.0, 90.0)]), [0.0, 10.0, 10.0, 80.0]);
+    let round = [(0.0, 90.0), (-20.0, -10.0), (-20.0, 30.0), (60.0, 30.0)];
+    assert_eq!(box_after("box.far", &round[..2]), [-20.0, -10.0, 30.0, 20.0]);
+    assert_eq!(box_after("box.far", &round), [10.0, 10.0, 50.0, 20.0]);
+}
+
+#[test]
+fn a_corner_where_two_rectangles_meet_resizes_both() {
+    let mut desk = Desk::of(
+        "use geometry\na: Rectangle { corner = (0, 0)  width = 30  height = 40 }\n\
+         b: Rectangle { width = -20  height = -10 }\nmerge a.corner = b.corner\n",
+    );
+    desk.drag("a.corner", &[(-5.0, 5.0)]);
+    let sizes = ["a.width", "a.height", "b.width", "b.height"].map(|path| desk.number(path));
+    assert_eq!(sizes, [35.0, 35.0, -15.0, -15.0]);
+}

@@ -381,3 +381,26 @@ fn a_parameter_of_a_program_says_what_it_asks_and_in_which_range() {
     assert_eq!(wide.doc, "How wide?");
     assert_eq!(desk.row("disc.n").range, None);
 }
+
+#[test]
+fn a_computed_corner_says_what_and_where_it_is() {
+    let text = "use geometry\nbox: Rectangle { corner = (10, 20)  width = 30  height = 40 }\n";
+    let desk = Desk::of(text);
+    let rows = desk.session.computed_rows(desk.id, &at("box.far"));
+    assert_eq!((rows[0].path.as_str(), rows[0].detail.as_str()), ("box.far", "Point"));
+    assert_eq!(rows[0].value.as_deref(), Some("(40, 60)"));
+    assert_eq!(rows[0].doc, "The corner opposite.");
+    assert!(desk.session.computed_rows(desk.id, &at("box.nothing")).is_empty());
+}
+
+#[test]
+fn sides_and_corners_of_a_polygon_are_gripped_and_told_apart() {
+    let text = "use geometry\nhex: RegularPolygon { center = (0, 0)  corner = (20, 0) }\n";
+    let mut desk = Desk::of(text);
+    let picture = desk.session.picture(desk.id);
+    assert!(picture.grips.iter().any(|grip| grip.path == "hex.corners[3]"));
+    assert!(picture.paths.iter().any(|path| path == "hex.edges[2]"));
+    desk.drag("hex.corners[3]", &[(-40.0, 0.0)]);
+    assert_eq!([desk.number("hex.center.x"), desk.number("hex.center.y")], [0.0, 0.0]);
+    assert!((desk.number("hex.corner.x") - 40.0).abs() < 1e-9);
+}

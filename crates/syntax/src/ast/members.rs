@@ -35,6 +35,8 @@ ast_nodes! {
     Ref,
     /// `attachers p1, p2`
     Attachers,
+    /// `handle far keeps corner`
+    Handle,
     /// `view "Force" => e`
     View,
     /// `toolbox "Mechanics" { Spring, Beam }`
@@ -280,6 +282,16 @@ impl Attachers {
     /// Returns the parts that stick, in the order in which they are placed.
     pub fn paths(&self) -> impl Iterator<Item = Expr> + use<> {
         children(&self.syntax)
+    }
+}
+impl Handle {
+    /// Returns the place that is dragged.
+    pub fn place(&self) -> Option<Expr> {
+        child(&self.syntax)
+    }
+    /// Returns the places that stay meanwhile.
+    pub fn kept(&self) -> impl Iterator<Item = Expr> + use<> {
+        children(&self.syntax).skip(1)
     }
 }
 impl View {

@@ -6,7 +6,7 @@ use super::types::{class_name, domain, dotted_name, parameters, paths};
 use super::{Scope, body, mistakes, programs, statements};
 use crate::kind::SyntaxKind::{
     self, Anchor, Arrow, Assign, Attachers, Choice, Class, Colon, ColonEq, Comma, Dot, Eq, Erase,
-    FatArrow, Greater, GreaterEq, Ident, IfKw, Insert, LBrace, LBracket, LParen, Less, LessEq,
+    FatArrow, Greater, GreaterEq, Handle, Ident, IfKw, Insert, LBrace, LBracket, LParen, Less, LessEq,
     Merge, Message, Minus, Modify, NotEq, Part, Plus, Ref, Replace, Side, Slash, Star, Stay,
     Superclass, Text, Toolbox, UnitLine, Use, View, Without, YLine,
 };
@@ -47,6 +47,7 @@ pub(crate) const KEYWORDS: &[&str] = &[
     "when",
     "ref",
     "attachers",
+    "handle",
     "view",
     "side",
     "toolbox",
@@ -124,6 +125,10 @@ pub(super) fn member(p: &mut Parser<'_>) -> bool {
         "default" | "combining" | "builtin" | "static" => modified(p),
         "ref" => one(p, Ref, reference),
         "attachers" => one(p, Attachers, paths),
+        "handle" => one(p, Handle, |p| {
+            path(p);
+            into(p, "keeps", paths);
+        }),
         "guide" if p.nth(1) == Ident => one(p, Assign, assigned),
         "erase" => one(p, Erase, paths),
         "view" => one(p, View, |p| {

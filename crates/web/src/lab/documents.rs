@@ -16,6 +16,9 @@ use wasm_bindgen::closure::Closure;
 /// What a new document is called before it is saved.
 const UNTITLED: &str = "untitled";
 
+/// A text with more bytes takes long to open.
+const LONG: usize = 200_000;
+
 /// What stands in a new document.
 const NEW_TEXT: &str = "use geometry\n";
 
@@ -57,9 +60,9 @@ impl Lab {
 
     /// Opens a text in the session under a path, with the files that it uses.
     pub(super) async fn take_up(self, path: &str, stored: Stored) -> Result<Opened, String> {
-        let mut id = self.open(path, &stored.text).await;
+        let mut id = self.open(path, &stored.text).await?;
         while self.fetch_used().await {
-            id = self.open(path, &stored.text).await;
+            id = self.open(path, &stored.text).await?;
         }
         let title = self.session.with_value(|session| session.title(id));
         let opened = Opened {
@@ -76,14 +79,24 @@ impl Lab {
         Ok(opened)
     }
 
-    /// Opens a text stage by stage; the page has its turn between.
-    async fn open(self, path: &str, text: &str) -> DocumentId {
+    /// Opens a text stage by stage; the page has its turn between. Of a long one it shows how far it is, and it can be
+    /// given up.
+    async fn open(self, path: &str, text: &str) -> Result<DocumentId, String> {
+        let is_long = text.len() > LONG;
         let mut opening = self.ask(|session| session.begin_opening(path, text));
         while !opening.is_over() {
+            if is_long {
+                self.opening.set(Some(opening.done()));
+                js::painted().await;
+                if self.opening.with_untracked(Option::is_none) {
+                    return Err(String::from(words::OPENING_GIVEN_UP));
+                }
+            }
             opening = self.ask(|session| session.go_on_opening(opening));
             js::pause().await;
         }
-        self.order(|session| session.end_opening(opening))
+        self.opening.set(None);
+        Ok(self.order(|session| session.end_opening(opening)))
     }
 
     /// Fetches the files that documents were found to use; returns whether there are new ones.

@@ -1,17 +1,50 @@
 //! The rows of what is drawn and not stored: of a program its steps, their turns and entities, and the values of these;
 //! of the document what it computes, as by a construction.
 
-use super::Maker;
+use super::{Maker, Work};
+use crate::session::thing_at;
 use crate::state::State;
-use crate::view::RowKind;
+use crate::view::{RowKind, StructureRow};
 use crate::views::{drawn, values};
 use eval::{Answer, Context, Standing};
-use kernel::{ClassId, Message, OriginId, ThingId};
+use kernel::{ClassId, Message, OriginId, Path, Step, ThingId, Values};
+use std::collections::BTreeMap;
 
 /// So many rows the run of one program has; what is beyond is reached by its path.
 const MOST_ROWS: usize = 1000;
 /// So many elements of a list or turns of a loop have rows.
 const MOST_TURNS: usize = 100;
+
+/// Returns the rows of what a thing computes at a path, which the tree does not show: the corner of a rectangle. Nothing
+/// where nothing is computed there.
+pub(crate) fn computed(
+    state: &State,
+    values: &Values,
+    status: &plan::Status,
+    path: &Path,
+) -> Vec<StructureRow> {
+    let evaluator = state.evaluator(values);
+    let (Ok(answer), Some((last, whole))) = (evaluator.at(path), path.0.split_last()) else {
+        return Vec::new();
+    };
+    let mut work = Work {
+        open: Vec::new(),
+        constraints: BTreeMap::new(),
+        within: Vec::new(),
+        rows: Vec::new(),
+    };
+    let maker = &mut Maker { state, values, status, work: &mut work };
+    let whole = thing_at(state, &Path(whole.to_vec()));
+    let class = whole.map(|thing| state.structure.things[thing].class);
+    let said = match last {
+        Step::Part(name) => class.and_then(|class| maker.message(class, name)),
+        Step::Index(_) | Step::Last | Step::Owner => None,
+    };
+    let (written, name) = (path.to_string(), Path(vec![last.clone()]).to_string());
+    let place = Place { path: &written, name, depth: 0, standing: Standing::Result, said };
+    maker.entity(&answer, &place, MOST_ROWS);
+    work.rows
+}
 
 /// Something that was drawn, and where it is.
 struct Place<'p> {
@@ -40,7 +73,7 @@ impl<'m> Maker<'m> {
         let evaluator = state.evaluator(self.values);
         let class = state.structure.things[kernel::DOCUMENT].class;
         for name in evaluator.computed_figures(kernel::DOCUMENT) {
-            let path = kernel::Path(vec![kernel::Step::Part(name.clone())]);
+            let path = Path(vec![Step::Part(name.clone())]);
             let answer = evaluator.at(&path);
             // what cannot be made now has a row as well, so that it can be looked at and deleted
             let place = Place {

@@ -1,0 +1,219 @@
+//! Handles: places by which a hand changes a thing while others of it stay, as its class declares them. The corner of
+//! a rectangle resizes it, since the one opposite stays.
+//!
+//! Dragged across what stays, a thing is not turned inside out: the handle that lies there is held instead. The corner
+//! at the upper right becomes the one at the upper left, and the width is positive again.
+
+use crate::apply::Aim;
+use crate::by_hand::class_at;
+use crate::drag::{coordinates, numbers_of};
+use crate::session::thing_at;
+use crate::state::State;
+use kernel::{DOCUMENT, Path, SlotId, Step, Term, Values};
+use plan::{EditReport, Host, Planner, Press, Target};
+use std::collections::BTreeSet;
+
+/// A handle and what it keeps.
+#[derive(Clone)]
+struct Way {
+    dragged: Path,
+    keeps: Vec<Path>,
+    /// Of a handle that keeps one place, on which side of that it lies: the sign of each coordinate.
+    side: Vec<i8>,
+}
+
+/// What stays while a handle is dragged.
+pub(crate) struct Keeping {
+    /// The things whose handle it is: of merged corners several.
+    wholes: Vec<Path>,
+    /// Its handles; the first is the one that was pressed.
+    ways: Vec<Way>,
+    /// Which of them is held.
+    present: usize,
+    /// Where what stays was at the press.
+    stays: Vec<f64>,
+    /// The values at the press.
+    start: Values,
+}
+
+/// Finds out what stays while something is dragged. Nothing where it is no handle.
+pub(crate) fn keeping(state: &State, path: &Path, aim: &Aim) -> Option<Keeping> {
+    let mut names = vec![path.clone()];
+    if let Aim::Thing(thing) = aim {
+        let merged = state.structure.merged_with(*thing).into_iter();
+        names.extend(merged.map(|t| state.structure.path(&state.lowered.document, t)));
+    }
+    let mut ways: Vec<Way> = Vec::new();
+    let mut wholes: Vec<Path> = Vec::new();
+    for name in &names {
+        for (whole, way) in ways_at(state, name) {
+            if !wholes.contains(&whole) {
+                wholes.push(whole);
+                ways.push(way);
+            }
+        }
+    }
+    let (first, whole) = (ways.first()?.clone(), wholes.first()?.clone());
+    let others: Vec<Path> = ways.iter().skip(1).flat_map(|way| way.keeps.clone()).collect();
+    let ways = match others.is_empty() {
+        true => {
+            let beside = handles_of(state, &whole).filter(|way| way.dragged != first.dragged);
+            let beside: Vec<Way> = beside.filter(|way| !way.side.is_empty()).collect();
+            std::iter::once(first).chain(beside).collect()
+        }
+        false => {
+            let keeps = first.keeps.iter().cloned().chain(others).collect();
+            vec![Way { keeps, side: Vec::new(), ..first }]
+        }
+    };
+    let (stays, start) = (Vec::new(), state.values.clone());
+    let mut keeping = Keeping { wholes, ways, present: 0, stays, start };
+    let kept = &keeping.ways[0].keeps;
+    let stays: Option<Vec<Vec<f64>>> =
+        kept.iter().map(|path| place_at(state, &state.values, path)).collect();
+    keeping.stays = stays?.concat();
+    Some(keeping)
+}
+
+/// Returns the handles that a path leads to, each with the thing whose it is.
+fn ways_at(state: &State, path: &Path) -> Vec<(Path, Way)> {
+    let found = |n: usize| {
+        let whole = Path(path.0[..n].to_vec());
+        // of a list of places each is a handle
+        let list = path.0.split_last().filter(|(step, _)| matches!(step, Step::Index(_)));
+        let is_it = |way: &Way| {
+            way.dragged == *path || list.is_some_and(|(_, list)| *way.dragged.0 == *list)
+        };
+        let way = handles_of(state, &whole).find(is_it)?;
+        Some((whole, Way { dragged: path.clone(), ..way }))
+    };
+    (0..path.0.len()).filter_map(found).collect()
+}
+
+/// Returns the handles of the thing at a path.
+fn handles_of(state: &State, whole: &Path) -> impl Iterator<Item = Way> {
+    let document = &state.lowered.document;
+    let class = match thing_at(state, whole) {
+        Some(thing) => Some(state.structure.things[thing].class),
+        // only what is computed in a class that has handles is asked for
+        None if document.classes.iter().all(|(_, class)| class.handles.is_empty()) => None,
+        None => class_at(state, whole),
+    };
+    let handles = class.map(|class| document.handles(class)).unwrap_or_default();
+    let way = |handle: &kernel::Handle| {
+        let dragged = whole.join(&handle.place);
+        let keeps: Vec<Path> = handle.keeps.iter().map(|kept| whole.join(kept)).collect();
+        let side = match keeps.as_slice() {
+            [kept] => side_of(state, &state.values, (&dragged, kept)).unwrap_or_default(),
+            _ => Vec::new(),
+        };
+        Way { dragged, keeps, side }
+    };
+    handles.into_iter().map(way).collect::<Vec<_>>().into_iter()
+}
+
+/// Returns the numbers of the place at a path.
+fn place_at(state: &State, values: &Values, path: &Path) -> Option<Vec<f64>> {
+    if let Some(thing) = thing_at(state, path) {
+        let slots = coordinates(&state.structure, thing)?;
+        return Some(slots.map(|(_, slot)| values.numbers[slot]).to_vec());
+    }
+    let evaluator = state.evaluator(values);
+    let numbers = numbers_of(&evaluator.at(path).ok()?)?;
+    Some(numbers.into_iter().map(|(x, _)| x).collect())
+}
+
+/// Returns on which side of another a place lies.
+fn side_of(state: &State, values: &Values, (place, other): (&Path, &Path)) -> Option<Vec<i8>> {
+    let (place, other) = (place_at(state, values, place)?, place_at(state, values, other)?);
+    let sign = |(a, b): (&f64, &f64)| i8::from(a > b) - i8::from(a < b);
+    Some(place.iter().zip(&other).map(sign).collect())
+}
+
+impl Keeping {
+    /// Presses on the handle that is held, where it was at first.
+    pub(crate) fn press(&self, state: &State, planner: &mut Planner) -> Option<Press> {
+        let way = &self.ways[self.present];
+        let dragged = held(state, &way.dragged);
+        let kept: Vec<Held> = way.keeps.iter().flat_map(|path| held(state, path)).collect();
+        let [dragged, kept] =
+            [&dragged, &kept].map(|all| all.iter().map(Held::target).collect::<Vec<_>>());
+        planner.press_keeping(state.model(), &self.start, &dragged, &kept).ok()
+    }
+
+    /// Follows the pointer; what is dragged across what stays is held by the handle that lies there.
+    pub(crate) fn follow(
+        &mut self,
+        state: &State,
+        planner: &mut Planner,
+        (press, values): (&mut Press, &mut Values),
+        to: &[f64],
+        host: &mut dyn Host,
+    ) -> EditReport {
+        let wished: Vec<f64> = to.iter().chain(&self.stays).copied().collect();
+        let report = planner.drag(state.model(), press, values, &wished, host);
+        let Some(across) = self.other_side(state, values) else { return report };
+        let before = self.present;
+        self.present = across;
+        if let Some(mut other) = self.press(state, planner) {
+            let mut there = self.start.clone();
+            let found = planner.drag(state.model(), &mut other, &mut there, &wished, host);
+            if found.reached && self.other_side(state, &there).is_none() {
+                (*press, *values) = (other, there);
+                return found;
+            }
+        }
+        self.present = before;
+        report
+    }
+
+    /// Returns the handle that lies where the one that is held has come to, if that is another.
+    fn other_side(&self, state: &State, values: &Values) -> Option<usize> {
+        let way = &self.ways[self.present];
+        let [kept] = way.keeps.as_slice() else { return None };
+        let side = side_of(state, values, (&way.dragged, kept))?;
+        let is_turned = |(now, was): (&i8, &i8)| now * was < 0;
+        if !side.iter().zip(&way.side).any(is_turned) {
+            return None;
+        }
+        let fits = |way: &Way| side.iter().zip(&way.side).all(|pair| !is_turned(pair));
+        self.ways.iter().position(fits)
+    }
+
+    /// Returns the numbers of the things whose handle it is.
+    pub(crate) fn slots(&self, state: &State) -> Vec<SlotId> {
+        let things = self.wholes.iter().filter_map(|whole| thing_at(state, whole));
+        let all: BTreeSet<SlotId> = things.flat_map(|t| state.structure.slots_under(t)).collect();
+        all.into_iter().collect()
+    }
+}
+
+/// What an edit can hold.
+enum Held {
+    Thing(kernel::ThingId),
+    Term(Term),
+}
+
+/// Returns what is held of the place at a path: its coordinates, or what it is computed by.
+fn held(state: &State, path: &Path) -> Vec<Held> {
+    let Some(thing) = thing_at(state, path) else {
+        return vec![Held::Term(Term::at(Term::Me, path))];
+    };
+    match coordinates(&state.structure, thing) {
+        // a place yields as one
+        Some([(_, x), (_, y)]) if state.structure.slots_under(thing) == [x, y] => {
+            vec![Held::Thing(thing)]
+        }
+        Some([(x, _), (y, _)]) => vec![Held::Thing(x), Held::Thing(y)],
+        None => Vec::new(),
+    }
+}
+
+impl Held {
+    fn target(&self) -> Target<'_> {
+        match self {
+            Self::Thing(thing) => Target::Thing(*thing),
+            Self::Term(term) => Target::Term { me: DOCUMENT, term },
+        }
+    }
+}
