@@ -75,8 +75,8 @@ pub fn Inspector(
                 <p class="class quiet">{class}</p>
                 {move || law.with(|law| (!law.is_empty()).then(|| view! { <p class="law">{marked(law)}</p> }))}
                 {move || formula.get().map(|formula| view! { <p class="law"><code>{formula}</code></p> })}
-                <Numbers lab=lab />
                 <Made lab=lab />
+                <Numbers lab=lab />
                 <ViewsOf lab=lab path=Memo::new(move |_| lab.selected.get().unwrap_or_default()) />
                 <Rules lab=lab />
             </div>
@@ -167,10 +167,17 @@ fn Numbers(lab: Lab) -> impl IntoView {
         // The lab may have gone with the page.
         let _ = lab.inspected_values.try_set_value(Vec::new());
     });
+    // of the thing that computes what is selected
+    let heading = move || match inspected(lab) {
+        Some(whole) if lab.selected.get().is_some_and(|path| path != whole) => {
+            words::values_of(&whole)
+        }
+        _ => String::from(words::VALUES),
+    };
     let is_empty = Memo::new(move |_| lab.structure.with(|rows| rows.len() <= 1));
     view! {
         <Show when=move || !found.with(Vec::is_empty)>
-            <h3>{words::VALUES}</h3>
+            <h3>{heading}</h3>
         </Show>
         <Show when=move || found.with(Vec::is_empty) && lab.selected.with(Option::is_none)>
             <p class="law quiet">{move || if is_empty.get() { words::EMPTY_SHEET } else { words::NOTHING_GIVEN }}</p>

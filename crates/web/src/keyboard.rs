@@ -41,9 +41,10 @@ pub fn rest_at(selector: &'static str) {
 /// The buttons of a list, and the heads of its shelves, in order: those that no shut shelf hides.
 fn buttons(list: &str) -> Vec<HtmlElement> {
     let Ok(Some(list)) = document().query_selector(list) else { return Vec::new() };
-    let Ok(found) = list.query_selector_all("button, summary") else { return Vec::new() };
+    let found = list.get_elements_by_tag_name("*");
     let all = (0..found.length()).filter_map(|i| found.item(i)?.dyn_into::<HtmlElement>().ok());
-    all.filter(|button| button.offset_parent().is_some()).collect()
+    let is_button = |e: &HtmlElement| matches!(&*e.tag_name(), "BUTTON" | "SUMMARY");
+    all.filter(|e| is_button(e) && e.offset_parent().is_some()).collect()
 }
 
 /// With the next frame, makes the buttons of a list one stop of Tab: the one that is chosen, or was it last, or the

@@ -747,3 +747,8 @@ pub fn copied(count: usize) -> String {
         _ => format!("{count} things copied; Ctrl+V puts them down"),
     }
 }
+
+/// The values of a thing, where something that it computes is selected.
+pub fn values_of(whole: &str) -> String {
+    format!("{VALUES} of {whole}")
+}

@@ -394,13 +394,11 @@ fn a_computed_corner_says_what_and_where_it_is() {
 }
 
 #[test]
-fn sides_and_corners_of_a_polygon_are_gripped_and_told_apart() {
+fn sides_of_a_polygon_are_told_apart() {
     let text = "use geometry\nhex: RegularPolygon { center = (0, 0)  corner = (20, 0) }\n";
-    let mut desk = Desk::of(text);
+    let desk = Desk::of(text);
     let picture = desk.session.picture(desk.id);
-    assert!(picture.grips.iter().any(|grip| grip.path == "hex.corners[3]"));
     assert!(picture.paths.iter().any(|path| path == "hex.edges[2]"));
-    desk.drag("hex.corners[3]", &[(-40.0, 0.0)]);
-    assert_eq!([desk.number("hex.center.x"), desk.number("hex.center.y")], [0.0, 0.0]);
-    assert!((desk.number("hex.corner.x") - 40.0).abs() < 1e-9);
+    // a corner that no hand can move is no grip
+    assert!(picture.grips.iter().all(|grip| !grip.path.starts_with("hex.corners")));
 }
