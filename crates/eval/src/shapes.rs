@@ -304,7 +304,8 @@ impl<'a> Evaluator<'a> {
             PictureMessage::Filled => self.surrounded(&elements)?,
             _ => Vec::new(),
         };
-        let in_rings: BTreeSet<usize> = rings.iter().flat_map(|(_, pieces)| pieces).copied().collect();
+        let in_rings: BTreeSet<usize> =
+            rings.iter().flat_map(|(_, pieces)| pieces).copied().collect();
         for (i, element) in elements.iter_mut().enumerate() {
             let style = &mut element.style;
             match message {

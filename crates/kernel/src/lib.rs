@@ -26,8 +26,8 @@ pub mod term;
 pub mod values;
 
 pub use class::{
-    Binding, Class, ClassId, ClassKind, Constraint, Count, Given, Handle, Insert, Merge, Message, Method,
-    Parameter, Part, Primitive, Setting, Stay, Strength, Superclass, Switch, form,
+    Binding, Class, ClassId, ClassKind, Constraint, Count, Given, Handle, Insert, Merge, Message,
+    Method, Parameter, Part, Primitive, Setting, Stay, Strength, Superclass, Switch, form,
 };
 pub use command::{Command, Literal};
 pub use document::{Document, PartRef, PartRole, Side, SideWay, Usual, Vertical, Voices};

@@ -27,7 +27,9 @@ impl Lowerer<'_> {
             let message = format!("{place} is a handle already");
             let place = Place { file: scope.file, span: expr.span() };
             let d = Diagnostic::error("handle-twice", place, message);
-            self.report(d.hint("name all that stays in one line: `handle far keeps corner, side.p1`"));
+            self.report(
+                d.hint("name all that stays in one line: `handle far keeps corner, side.p1`"),
+            );
             return;
         }
         handles.push(Handle { place, keeps });

@@ -35,10 +35,11 @@ impl Planner {
     /// Returns true if every wish is met and every set slot has its value; what only stays if it can is no wish.
     pub(crate) fn reached(&self, aim: &Aim, values: &Values) -> bool {
         let met = |(wish, wanted): (&Wish, &Vec<f64>)| {
-            wish.level == Level::MediumStay || wish.formulas.iter().zip(wanted).all(|(f, &w)| {
-                let is = f.value(self.plans.patterns(), &values.numbers);
-                base::number::close(is, w)
-            })
+            wish.level == Level::MediumStay
+                || wish.formulas.iter().zip(wanted).all(|(f, &w)| {
+                    let is = f.value(self.plans.patterns(), &values.numbers);
+                    base::number::close(is, w)
+                })
         };
         aim.wishes.iter().zip(&aim.wanted).all(met)
             && aim.fixed.iter().all(|(&s, v)| values.get(s).same_bits(v))

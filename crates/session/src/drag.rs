@@ -98,12 +98,7 @@ pub(crate) fn begin(open: &mut Open, paths: &[Path]) -> Result<(f64, f64), Refus
 }
 
 /// Begins a drag of a handle, while what it keeps stays. Nothing where it is none, or cannot be dragged so.
-fn begin_handle(
-    state: &State,
-    planner: &mut Planner,
-    path: &Path,
-    aim: &Aim,
-) -> Option<Drag> {
+fn begin_handle(state: &State, planner: &mut Planner, path: &Path, aim: &Aim) -> Option<Drag> {
     let keeping = handles::keeping(state, path, aim)?;
     let pressed = match aim {
         Aim::Thing(thing) => press(state, planner, &[*thing], path.clone()),

@@ -16,8 +16,8 @@ pub use expressions::{
     UnaryExpr, UnaryOp,
 };
 pub use members::{
-    Assign, Attachers, Choice, Class, Domain, DottedName, Handle, Message, Modify, Param, ParamList, Part,
-    Ref, Superclass, Toolbox, Type, TypeShape, UnitLine, Use, View, YLine,
+    Assign, Attachers, Choice, Class, Domain, DottedName, Handle, Message, Modify, Param,
+    ParamList, Part, Ref, Superclass, Toolbox, Type, TypeShape, UnitLine, Use, View, YLine,
 };
 pub use programs::{
     Check, Else, Erase, Family, For, If, Lesson, Next, Program, Repeat, Rows, Table, Value, While,

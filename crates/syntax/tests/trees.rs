@@ -142,7 +142,10 @@ fn messages_have_labelled_parameters() {
         r#"(View view "Force" => (CallExpr plot (ArgList ( (Arg (NameExpr force)) , (Arg over : (NameExpr length)) ))))"#,
     );
     check("attachers p1, p2", "(Attachers attachers (NameExpr p1) , (NameExpr p2))");
-    check("handle far keeps a, b.c", "(Handle handle (NameExpr far) keeps (NameExpr a) , (FieldExpr (NameExpr b) . c))");
+    check(
+        "handle far keeps a, b.c",
+        "(Handle handle (NameExpr far) keeps (NameExpr a) , (FieldExpr (NameExpr b) . c))",
+    );
 }
 #[test]
 fn explorers() {

@@ -174,13 +174,14 @@ fn Numbers(lab: Lab) -> impl IntoView {
         }
         _ => String::from(words::VALUES),
     };
-    let is_empty = Memo::new(move |_| lab.structure.with(|rows| rows.len() <= 1));
+    // before its rows are made nothing is said of a sheet
+    let rows = Memo::new(move |_| lab.structure.with(|rows| rows.len().min(2)));
     view! {
         <Show when=move || !found.with(Vec::is_empty)>
             <h3>{heading}</h3>
         </Show>
         <Show when=move || found.with(Vec::is_empty) && lab.selected.with(Option::is_none)>
-            <p class="law quiet">{move || if is_empty.get() { words::EMPTY_SHEET } else { words::NOTHING_GIVEN }}</p>
+            <p class="law quiet">{move || match rows.get() { 0 => "", 1 => words::EMPTY_SHEET, _ => words::NOTHING_GIVEN }}</p>
         </Show>
         <div class="values">
             <table>

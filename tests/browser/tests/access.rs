@@ -93,7 +93,9 @@ async fn a_corner_of_a_rectangle_dragged_by_hand_resizes_it_and_is_told_of() {
     let before = state(&visit).await;
     let far = grip(&before, "rectangle.far");
     drag(&visit, far, (far.0 + 50.0, far.1 - 40.0)).await;
-    visit.until("document.querySelector('.inspector .subject').textContent === 'rectangle.far'").await;
+    visit
+        .until("document.querySelector('.inspector .subject').textContent === 'rectangle.far'")
+        .await;
     let after = state(&visit).await;
     let near = [grip(&before, "rectangle.corner"), grip(&after, "rectangle.corner")];
     assert!((near[0].0 - near[1].0).abs() < 1.0 && (near[0].1 - near[1].1).abs() < 1.0, "{near:?}");

@@ -174,7 +174,8 @@ fn what_is_added_is_undone_by_its_name() {
 #[test]
 fn several_that_are_deleted_are_undone_by_their_names() {
     let mut desk = Desk::of("use geometry\na: Point = (1, 2)\nb: Point = (3, 4)\nc: Point\n");
-    let (command, _) = desk.session.deletion(desk.id, &[at("a"), at("b")]).expect("nothing needs them");
+    let (command, _) =
+        desk.session.deletion(desk.id, &[at("a"), at("b")]).expect("nothing needs them");
     desk.apply(&command).expect("they can go");
     assert_eq!(desk.undo_label().as_deref(), Some("delete a, b"));
 }

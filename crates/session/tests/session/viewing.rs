@@ -1,6 +1,6 @@
 //! Views: every row once.
 
-use crate::desk::{Desk, gallery};
+use crate::desk::{Desk, at, gallery};
 use session::view::{MovedView, RowKind};
 use std::collections::BTreeSet;
 

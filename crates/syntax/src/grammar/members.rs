@@ -6,9 +6,9 @@ use super::types::{class_name, domain, dotted_name, parameters, paths};
 use super::{Scope, body, mistakes, programs, statements};
 use crate::kind::SyntaxKind::{
     self, Anchor, Arrow, Assign, Attachers, Choice, Class, Colon, ColonEq, Comma, Dot, Eq, Erase,
-    FatArrow, Greater, GreaterEq, Handle, Ident, IfKw, Insert, LBrace, LBracket, LParen, Less, LessEq,
-    Merge, Message, Minus, Modify, NotEq, Part, Plus, Ref, Replace, Side, Slash, Star, Stay,
-    Superclass, Text, Toolbox, UnitLine, Use, View, Without, YLine,
+    FatArrow, Greater, GreaterEq, Handle, Ident, IfKw, Insert, LBrace, LBracket, LParen, Less,
+    LessEq, Merge, Message, Minus, Modify, NotEq, Part, Plus, Ref, Replace, Side, Slash, Star,
+    Stay, Superclass, Text, Toolbox, UnitLine, Use, View, Without, YLine,
 };
 use crate::parser::Parser;
 
