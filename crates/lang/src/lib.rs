@@ -84,6 +84,7 @@ pub use files::File;
 pub use lessons::{Goal, Lesson, LessonStep, Task};
 pub use lower::{Lowered, lower, lower_asking, lower_written, mentions};
 pub use mentions::{Meant, Mention};
+pub use mixed::is_unit_of_sheet;
 pub use numbers::{Wanted, read_literal, show_limit};
 pub use origins::Origins;
 pub use placed::PLACED;

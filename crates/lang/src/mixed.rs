@@ -12,7 +12,24 @@ use syntax::ast::{AstNode, NumberExpr};
 /// The code of the warning.
 const CODE: &str = "mixed-lengths";
 
+/// Returns true for a unit of length that may be that of a sheet, but for the metre.
+pub fn is_unit_of_sheet(unit: &str) -> bool {
+    let one = expr::units::read_quantity("1", unit);
+    one.is_some_and(|(metres, dimension)| dimension == Dimension::LENGTH && metres != 1.0)
+}
+
 impl Lowered {
+    /// Returns true where the text states a quantity that is made of lengths: `2 m`, `9.81 m/s^2`, `4 N`.
+    ///
+    /// Cost: a look at every node of the text.
+    pub fn measures_lengths(&self) -> bool {
+        let stated = crate::scale::stated(&self.effective_parse);
+        stated
+            .iter()
+            .filter_map(crate::scale::quantity)
+            .any(|(_, Dimension([length, ..]))| length != 0)
+    }
+
     /// Returns a warning where the text gives bare lengths, others with a unit that is not the metre, and names no
     /// unit of its sheet.
     ///

@@ -288,7 +288,7 @@ pub(crate) fn stated(parse: &Parse) -> Vec<NumberExpr> {
 }
 
 /// Returns the size of a number with a unit, and what it measures.
-fn quantity(number: &NumberExpr) -> Option<(f64, Dimension)> {
+pub(crate) fn quantity(number: &NumberExpr) -> Option<(f64, Dimension)> {
     let (digits, unit) = (number.digits()?, number.unit()?);
     let (si, dimension) = expr::units::read_quantity(digits.text(), unit.text())?;
     let measures = dimension.0.iter().any(|&d| d != 0);

@@ -72,6 +72,19 @@ impl View {
         [5.0, 2.0].into_iter().map(|k| k * step).find(|&k| k <= most).unwrap_or(step)
     }
 
+    /// Whether a box of the sheet is lost to who looks: outside of a canvas of that size, or less than a few pixels. A
+    /// place alone is no smaller than it is elsewhere.
+    pub fn loses(&self, drawn: Bounds, (width, height): (f64, f64)) -> bool {
+        let ((ax, ay), (bx, by)) =
+            (self.screen_from_sheet(drawn.least), self.screen_from_sheet(drawn.most));
+        let is_outside = f64::max(ax, bx) < 0.0
+            || f64::max(ay, by) < 0.0
+            || f64::min(ax, bx) > width
+            || f64::min(ay, by) > height;
+        let size = f64::max((ax - bx).abs(), (ay - by).abs());
+        is_outside || size > 0.0 && size < SMALLEST
+    }
+
     /// Returns how many decimals a position has that a pointer can tell apart: a pixel or less.
     pub fn decimals(&self) -> usize {
         let (mut step, mut decimals) = (1.0, 0);
@@ -95,6 +108,9 @@ impl View {
         [step / 5.0, step / 2.0].into_iter().find(|s| *s >= least).unwrap_or(step)
     }
 }
+
+/// What is smaller as a whole is not seen as what it is, in pixels.
+const SMALLEST: f64 = 12.0;
 
 /// Returns the view that shows all of a drawing in the middle of a canvas of that size.
 pub fn fit(drawing: &Drawing, size: (f64, f64), margin: f64) -> View {
@@ -221,6 +237,18 @@ mod tests {
             tag: Tag(0),
         };
         Drawing { elements: points.iter().map(element).collect(), vertical }
+    }
+
+    #[test]
+    fn a_drawing_of_a_few_pixels_is_lost_and_one_place_is_not() {
+        let view = View { scale: 1.0, x: 0.0, y: 0.0, vertical: Vertical::Down };
+        let lost = |points: &[(f64, f64)]| {
+            view.loses(super::bounds(&dots(points, Vertical::Down)), (400.0, 300.0))
+        };
+        assert!(lost(&[(100.0, 100.0), (103.0, 101.0)]));
+        assert!(lost(&[(500.0, 100.0), (700.0, 200.0)]));
+        assert!(!lost(&[(100.0, 100.0), (100.0, 160.0)]));
+        assert!(!lost(&[(100.0, 100.0)]));
     }
 
     #[test]

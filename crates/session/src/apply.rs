@@ -10,6 +10,7 @@ use crate::limits;
 use crate::parting;
 use crate::placing::place_new_parts;
 use crate::prototype;
+use crate::sheet;
 use crate::state::State;
 use crate::texts::Texts;
 use crate::view::{Change, Choice, DragState, Limit, Question, Refusal};
@@ -461,6 +462,15 @@ fn travel(open: &mut Open, host: &dyn Host, direction: Direction) -> Result<Chan
 
 /// Applies a command that changes structure: the smallest edit of the text that says so.
 fn restructure(open: &mut Open, host: &dyn Host, command: &Command) -> Result<Change, Refusal> {
+    if let Command::Edit { members, .. } = command
+        && let Some(unit) = sheet::unit_from(&open.state, members)
+    {
+        return sheet::with_unit(open, host, unit, |open| restructured(open, host, command));
+    }
+    restructured(open, host, command)
+}
+
+fn restructured(open: &mut Open, host: &dyn Host, command: &Command) -> Result<Change, Refusal> {
     let before = open.state.clone();
     let done = restructuring(&before, command)?;
     let mut edits = done.edits;
@@ -729,7 +739,7 @@ fn counts(state: &State) -> Vec<(ThingId, &(base::Name, i64))> {
 }
 
 /// Says what is different between two states.
-fn change(label: String, before: &State, after: &State) -> Change {
+pub(crate) fn change(label: String, before: &State, after: &State) -> Change {
     let structure = before.structure.slots.len() != after.structure.slots.len()
         || before.structure.constraints != after.structure.constraints
         || before.structure.merged != after.structure.merged

@@ -35,7 +35,7 @@ pub(crate) fn add_uses(text: &str, diagnostics: &mut [Diagnostic], host: &dyn Ho
         });
         // what was used already would have been found
         for (name, _) in libraries.iter().filter(|(_, library)| declares(library, word)) {
-            let (at, insert) = use_line(text, name);
+            let (at, insert) = line_at_head(text, &format!("use {name}"));
             let title = format!("use {name}");
             let place = Place { file: own, span: at };
             *diagnostic = diagnostic.clone().hint(format!("{name} has it: `use {name}`"));
@@ -53,8 +53,8 @@ fn declares(text: &str, class: &str) -> bool {
         })
 }
 
-/// Returns where a `use` goes, and its line.
-fn use_line(text: &str, name: &str) -> (Span, String) {
+/// Returns where a line goes that stands behind what is used, and before all else.
+pub(crate) fn line_at_head(text: &str, line: &str) -> (Span, String) {
     let file = syntax::parse(FileId(0), text).file();
     let members: Vec<Member> = file.members().collect();
     let last = members.iter().rfind(|m| matches!(m, Member::Use(_)));
@@ -63,6 +63,6 @@ fn use_line(text: &str, name: &str) -> (Span, String) {
         (None, Some(first)) => Spot::Before(first.syntax().clone()),
         (None, None) => Spot::EndOf(file.syntax().clone()),
     };
-    let edit = insert_member(&spot, &format!("use {name}"));
+    let edit = insert_member(&spot, line);
     (edit.span, edit.insert)
 }

@@ -49,6 +49,7 @@ pub mod plotting;
 mod prototype;
 mod recognise;
 mod session;
+mod sheet;
 mod state;
 mod texts;
 mod tools;

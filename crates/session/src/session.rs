@@ -190,6 +190,9 @@ impl Session {
         typed: &str,
     ) -> Result<Change, Refusal> {
         let path = parse_path(path).ok_or_else(|| words::refuse(format!("{path} is no path")))?;
+        if let Some(change) = self.set_with_unit(id, &path, typed) {
+            return change;
+        }
         let state = &self.document(id).state;
         let literal = words::read_typed(state, &path, typed)?;
         let target = crate::by_hand::anchored_whole(state, &path, &literal);

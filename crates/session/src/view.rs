@@ -48,6 +48,8 @@ pub struct Change {
     pub documents: Vec<Affected>,
     /// What acts otherwise than before: inequalities, conditions, alternatives.
     pub modes: Vec<ModeView>,
+    /// The unit of lengths without one, where the sheet took it over from what was typed: `mm`.
+    pub unit: Option<String>,
 }
 
 /// A constraint that acts otherwise than before an edit, or than at the press of a drag.

@@ -247,11 +247,13 @@ impl Lab {
                 self.show_prompt(Some(prompt));
             }
             Some(Ok(Turn::Made { change, name, text, next })) => {
+                let unit = change.unit.clone();
                 self.settle(Some(Ok(*change)));
                 self.drafting.calculator.set(false);
                 self.show_prompt(next);
                 self.drafting.turned.update(|n| *n += 1);
                 let said = if text.is_empty() { name } else { format!("{name}: {text}") };
+                let said = words::also(said, unit.as_deref());
                 self.notice.set((!said.is_empty()).then_some(Notice::Said(said)));
             }
             Some(Err(refusal)) => {
@@ -408,7 +410,9 @@ impl Lab {
     /// Defines a parameter, or says it anew; says of which class it is, where its example told.
     fn define_parameter(self) {
         let new = self.drafting.parameter.get_untracked();
-        if !self.settle(self.tell(|session, id| session.define_parameter(id, &new))) {
+        let defined = self.tell(|session, id| session.define_parameter(id, &new));
+        let unit = defined.as_ref().and_then(|defined| defined.as_ref().ok()?.unit.clone());
+        if !self.settle(defined) {
             return;
         }
         self.drafting.parameter.set(NewParameter::default());
@@ -417,7 +421,8 @@ impl Lab {
         let rows = steps.map(|steps| steps.parameters).unwrap_or_default();
         if let Some(row) = rows.into_iter().find(|row| row.name == new.name.trim()) {
             let ParameterRow { name, class, value, example, .. } = &row;
-            self.notice.set(Some(Notice::Said(words::defined(name, class, value, example))));
+            let defined = words::defined(name, class, value, example);
+            self.notice.set(Some(Notice::Said(words::also(defined, unit.as_deref()))));
         }
         // the keyboard goes on with the next one
         request_animation_frame(|| keyboard::focus("input[name='parameter']"));

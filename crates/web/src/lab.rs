@@ -252,6 +252,8 @@ pub struct InPlace {
 pub enum Zoom {
     /// Everything in sight.
     Fit,
+    /// Everything in sight, if it lies outside or is too small to see.
+    Seen,
     /// A box of the sheet in sight, unless it is.
     Over(drawing::Bounds),
     /// Larger or smaller by this factor.

@@ -308,25 +308,38 @@ fn zoom_as_asked(lab: Lab, size: (f64, f64)) {
         }
         Zoom::Fit => {
             lab.fits.set_value(true);
-            // what is to be traced is in sight as well
-            let all = lab.traced.with_untracked(|traced| {
-                let boxes = lab.picture.with_untracked(|p| {
-                    let drawn = [&p.drawing, traced].into_iter().filter(|d| !d.elements.is_empty());
-                    drawn.map(bounds).collect::<Vec<_>>()
-                });
-                boxes.into_iter().reduce(|a, b| a.with(b.least).with(b.most))
-            });
-            let vertical = lab.picture.with_untracked(|p| p.drawing.vertical);
-            let all = all.unwrap_or_else(|| bounds(&Drawing::default()));
-            let fitting = fit_box(all, vertical, (size.0, room), margin);
-            let view = lab.picture.with_untracked(|p| with_words(&p.drawing, fitting, size));
-            lab.view.set(view);
+            show_all(lab, size, (room, margin));
+        }
+        Zoom::Seen => {
+            let drawn = lab
+                .picture
+                .with_untracked(|p| (!p.drawing.elements.is_empty()).then(|| bounds(&p.drawing)));
+            let view = lab.view.get_untracked();
+            if drawn.is_some_and(|drawn| view.loses(drawn, size)) {
+                show_all(lab, size, (room, margin));
+            }
         }
         Zoom::By(factor) => {
             // about the middle of what is fitted, so that this stays in sight
             lab.look_at(|view| view.zoomed(factor, (size.0 / 2.0, room / 2.0)));
         }
     }
+}
+
+/// Brings all that is drawn into sight, and what is to be traced; `room` is the height that nothing lies over.
+fn show_all(lab: Lab, size: (f64, f64), (room, margin): (f64, f64)) {
+    let all = lab.traced.with_untracked(|traced| {
+        let boxes = lab.picture.with_untracked(|p| {
+            let drawn = [&p.drawing, traced].into_iter().filter(|d| !d.elements.is_empty());
+            drawn.map(bounds).collect::<Vec<_>>()
+        });
+        boxes.into_iter().reduce(|a, b| a.with(b.least).with(b.most))
+    });
+    let vertical = lab.picture.with_untracked(|p| p.drawing.vertical);
+    let all = all.unwrap_or_else(|| bounds(&Drawing::default()));
+    let fitting = fit_box(all, vertical, (size.0, room), margin);
+    let view = lab.picture.with_untracked(|p| with_words(&p.drawing, fitting, size));
+    lab.view.set(view);
 }
 
 fn wheel(lab: Lab, canvas: NodeRef<Canvas>, e: &WheelEvent) {

@@ -316,11 +316,27 @@ pub fn done(change: &session::view::Change) -> Option<String> {
     if !change.unsatisfied.is_empty() {
         return Some(format!("Cannot be satisfied now: {}", listed(&change.unsatisfied)));
     }
+    if let Some(unit) = &change.unit {
+        return Some(in_unit(unit));
+    }
     if !change.along.is_empty() {
         return Some(format!("Gone along: {}", listed(&change.along)));
     }
     let modes: Vec<String> = change.modes.iter().map(|mode| mode.message.clone()).collect();
     (!modes.is_empty()).then(|| listed(&modes))
+}
+
+/// What a sheet that took over a unit counts in.
+pub fn in_unit(unit: &str) -> String {
+    format!("Lengths without a unit are in {unit} from now on")
+}
+
+/// What was said, and the unit that the sheet took over with it.
+pub fn also(said: String, unit: Option<&str>) -> String {
+    match unit {
+        Some(unit) => format!("{said}. {}", in_unit(unit)),
+        None => said,
+    }
 }
 
 /// What the selection could be the parts of, in one sentence.

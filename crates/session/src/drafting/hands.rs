@@ -417,7 +417,7 @@ impl Session {
         }
     }
 
-    pub(super) fn with_reach(&mut self, id: DocumentId, mut change: Change) -> Box<Change> {
+    pub(crate) fn with_reach(&mut self, id: DocumentId, mut change: Change) -> Box<Change> {
         if !change.edits.is_empty() {
             change.documents = self.reach(id);
         }

@@ -8,6 +8,7 @@ use crate::apply;
 use crate::document::Open;
 use crate::host::Host;
 use crate::recognise;
+use crate::sheet;
 use crate::state::State;
 use crate::view::{Change, Refusal};
 use crate::words;
@@ -143,6 +144,19 @@ pub(crate) fn write(
 /// # Errors
 /// What is wrong with it.
 pub(crate) fn retext(
+    open: &mut Open,
+    host: &dyn Host,
+    text: String,
+    label: String,
+) -> Result<Change, Refusal> {
+    if let Some(unit) = sheet::unit_from_text(&open.state, &text) {
+        let text = sheet::text_with(&text, &unit);
+        return sheet::with_unit(open, host, unit, |open| retexted(open, host, text, label));
+    }
+    retexted(open, host, text, label)
+}
+
+fn retexted(
     open: &mut Open,
     host: &dyn Host,
     text: String,

@@ -32,6 +32,7 @@ mod recognising;
 mod refusing;
 mod restructuring;
 mod saving;
+mod sheets;
 mod showing;
 mod sides;
 mod undoing;

@@ -372,9 +372,8 @@ impl Lab {
                 self.fetch_missing();
                 if change.structure {
                     self.forget_gone();
-                    if self.fits.get_value() {
-                        self.zoom.set(Some(Zoom::Fit));
-                    }
+                    let zoom = if self.fits.get_value() { Zoom::Fit } else { Zoom::Seen };
+                    self.zoom.set(Some(zoom));
                 }
                 self.notice.set(words::done(&change).map(Notice::Said));
                 true
