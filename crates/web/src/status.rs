@@ -70,7 +70,9 @@ pub fn StatusLine(
             </button>
             <NowPlaying lab=lab />
             <Busy lab=lab />
-            <span class="said" aria-live="polite" title=heard>{heard}</span>
+            <span class="said" aria-live="polite" title=move || heard.get().map(|said| said.replace('`', ""))>
+                {move || heard.get().map(|said| marked(&said))}
+            </span>
         </footer>
     }
 }
