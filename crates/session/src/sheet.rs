@@ -76,8 +76,11 @@ fn first_unit(text: &str) -> Option<String> {
     numbers.find_map(|number| {
         let behind = text.get(syntax::span_of_token(&number).end as usize..)?;
         let behind = behind.trim_start_matches(' ');
-        let unit = &behind[..syntax::units::unit_length(behind)];
-        lang::is_unit_of_sheet(unit).then(|| unit.to_string())
+        let (unit, next) = behind.split_at(syntax::units::unit_length(behind));
+        // `let far = d > 5 in if far …`: no inch where an operand follows
+        let begins = |c: char| c.is_alphanumeric() || "_([{\"-".contains(c);
+        let is_word = unit == "in" && next.trim_start().starts_with(begins);
+        (!is_word && lang::is_unit_of_sheet(unit)).then(|| unit.to_string())
     })
 }
 
@@ -132,6 +135,7 @@ mod tests {
         assert_eq!(unit("0,0"), None);
         assert_eq!(unit("12, 30 mm<45 deg").as_deref(), Some("mm"));
         assert_eq!(unit("2 m"), None);
+        assert_eq!(unit("let far = d > 5 in if far then 1 else 2"), None);
         assert_eq!(unit("30 mm^2"), None);
         assert_eq!(unit("t: Text = \"Pipe 5 mm\""), None);
         assert_eq!(unit("unit in\nx: Length = 3 mm"), None);
