@@ -166,18 +166,66 @@ fn names_and_lines_are_tidy() {
     assert_none(&complaints);
 }
 
-/// A complaint about tests in the room that is compiled for the browser alone: nothing would run them.
-fn check_place_of_tests(path: &str, text: &str) -> Option<String> {
-    let is_lost = path.starts_with("crates/web/src/") && text.contains("#[test]");
-    is_lost.then(|| format!("{path}: tests that nothing runs; their place is crates/presentation"))
+/// Whether a text has a test: an attribute whose name ends so.
+fn has_tests(text: &str) -> bool {
+    let is_test = |line: &str| {
+        let name =
+            line.trim_start().strip_prefix("#[").and_then(|rest| rest.split(['(', ']']).next());
+        name.is_some_and(|name| name.ends_with("test"))
+    };
+    text.lines().any(is_test)
+}
+
+/// Whether a manifest says that no tests are compiled with the library.
+fn leaves_tests_out(manifest: &str) -> bool {
+    let sections = manifest.split("\n[").filter_map(|section| section.split_once(']'));
+    sections
+        .filter(|(name, _)| name.trim_start_matches('[') == "lib")
+        .flat_map(|(_, section)| section.lines())
+        .any(|line| line.split_whitespace().collect::<String>() == "test=false")
+}
+
+/// The files that a test program compiles beside its own: their paths from the room's folder.
+fn compiled_beside(text: &str) -> impl Iterator<Item = &str> {
+    let paths = text.lines().filter_map(|line| line.trim_start().strip_prefix("#[path = \""));
+    paths.filter_map(|path| path.split('"').next()).map(|path| path.trim_start_matches("../"))
+}
+
+/// Complaints about the tests beside a room's sources that nothing runs. Its files come by their paths from its folder.
+fn check_place_of_tests(room: &str, manifest: &str, files: &[(&str, &str)]) -> Vec<String> {
+    let place = match room {
+        // it is compiled for the browser alone
+        "web" => "their place is crates/presentation",
+        _ if leaves_tests_out(manifest) => "no `#[path]` in the room's tests names them",
+        _ => return Vec::new(),
+    };
+    let (tests, sources): (Vec<_>, Vec<_>) =
+        files.iter().partition(|(path, _)| path.starts_with("tests/"));
+    let run: Vec<&str> = tests.into_iter().flat_map(|(_, text)| compiled_beside(text)).collect();
+    let is_lost = |(path, text): &(&str, &str)| has_tests(text) && !run.contains(path);
+    let lost = sources.into_iter().filter(is_lost);
+    lost.map(|(path, _)| format!("crates/{room}/{path}: tests that nothing runs; {place}"))
+        .collect()
 }
 
 #[test]
 fn tests_are_where_they_are_run() {
-    let read = |place: &PathBuf| fs::read_to_string(place).expect("text");
-    let all = files().into_iter();
-    let complaints: Vec<String> =
-        all.filter_map(|(path, place)| check_place_of_tests(&path, &read(&place))).collect();
+    let mut rooms: BTreeMap<String, Vec<(String, String)>> = BTreeMap::new();
+    for (path, place) in files() {
+        let in_room = path.strip_prefix("crates/").and_then(|path| path.split_once('/'));
+        if let Some((room, path)) = in_room {
+            let text = fs::read_to_string(place).expect("text");
+            rooms.entry(room.into()).or_default().push((path.into(), text));
+        }
+    }
+    assert!(rooms.len() >= 10, "only {} rooms found", rooms.len());
+    let mut complaints = Vec::new();
+    for (room, files) in &rooms {
+        let texts: BTreeMap<&str, &str> = files.iter().map(|(p, t)| (&**p, &**t)).collect();
+        let manifest = texts.get("Cargo.toml").copied().unwrap_or_default();
+        let sources: Vec<_> = texts.into_iter().filter(|(path, _)| path.ends_with(".rs")).collect();
+        complaints.extend(check_place_of_tests(room, manifest, &sources));
+    }
     assert_none(&complaints);
 }
 
@@ -201,6 +249,27 @@ fn planted_faults_are_seen() {
     assert!(check_paths("planned: `a/b.rs`", |_| false).is_empty());
     assert!(check_name("crates/base/src/utils.rs").is_some());
     assert_eq!(check_spaces("a.md", "x \ny"), ["a.md:1: a space at the end"]);
-    assert!(check_place_of_tests("crates/web/src/lab.rs", "#[test]\nfn a() {}").is_some());
-    assert!(check_place_of_tests("crates/presentation/src/rows.rs", "#[test]").is_none());
+}
+
+#[test]
+fn planted_tests_that_nothing_runs_are_seen() {
+    let (sources, tests) = ("src/a/b.rs", "tests/suite/main.rs");
+    let left_out = "[package]\nname = \"eval\"\n\n[lib]\ntest = false\n";
+    let check = |room, manifest, source, tests_say| {
+        check_place_of_tests(room, manifest, &[(sources, source), (tests, tests_say)])
+    };
+    for test in
+        ["#[test]\nfn a() {}", "    #[tokio::test(start_paused = true)]", "#[wasm_bindgen_test]"]
+    {
+        let lost = check("eval", left_out, test, "mod a;");
+        assert_eq!(lost.len(), 1, "{test}");
+        assert!(lost[0].starts_with("crates/eval/src/a/b.rs: tests that nothing runs"));
+        assert!(check("eval", left_out, test, "#[path = \"../../src/a/b.rs\"]\nmod b;").is_empty());
+        assert!(
+            check("eval", "[lib]\ndoctest = false\n[[bin]]\ntest = false", test, "").is_empty()
+        );
+        assert_eq!(check("web", "", test, "").len(), 1);
+    }
+    assert!(check("eval", left_out, "#[cfg(test)]\nmod tests;", "").is_empty());
+    assert!(check("web", "", "let it = [path, row.shortest];", "").is_empty());
 }

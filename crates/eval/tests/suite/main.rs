@@ -8,6 +8,8 @@ mod blocks;
 mod measure;
 #[path = "../../src/numerals.rs"]
 mod numerals;
+#[path = "../../src/rings.rs"]
+mod rings;
 
 /// What these files know of the room.
 mod fault {
