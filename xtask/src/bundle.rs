@@ -35,11 +35,11 @@ impl Effort {
     }
 }
 
-/// Builds `dist/`; gives what the compiler made of it, as [`module`] does.
+/// Builds `dist/`; gives what was taken down of its making, as [`module`] does.
 ///
 /// # Errors
 /// A sentence that says which step failed; the step's own messages are on the terminal.
-pub(crate) fn build(compiler: &WasmCompiler, effort: Effort) -> Result<Made, String> {
+pub(crate) fn build(compiler: &WasmCompiler, effort: Effort) -> Result<Option<Made>, String> {
     let (module, made) = module("web", compiler, effort)?;
     let files = page_files(&module).and_then(|files| synchronise(&top().join("dist"), &files));
     let size = files.map_err(|error| format!("dist/ could not be written: {error}"))?;
@@ -51,7 +51,8 @@ pub(crate) fn build(compiler: &WasmCompiler, effort: Effort) -> Result<Made, Str
 const COMPRESSED: [&str; 2] = ["codemirror.js", "style.css"];
 
 /// Compiles a package's program of the same name for the browser; gives the folder of its module: `NAME.js`, and
-/// `NAME_bg.wasm` that it loads. For the tests the package is linted, and it is taken down what was made.
+/// `NAME_bg.wasm` that it loads. For the tests it is taken down what was made, and the package is linted where the
+/// toolchain has a linter.
 ///
 /// # Errors
 /// As [`build`].
@@ -59,7 +60,7 @@ pub(crate) fn module(
     package: &str,
     compiler: &WasmCompiler,
     effort: Effort,
-) -> Result<(PathBuf, Made), String> {
+) -> Result<(PathBuf, Option<Made>), String> {
     say!("page: compiling {package} (minutes the first time)");
     let profile = effort.page_profile();
     let made = target().join("wasm32-unknown-unknown").join(profile).join(package);
@@ -91,18 +92,18 @@ pub(crate) fn module(
     Ok((module, wasm))
 }
 
-fn compile(package: &str, compiler: &WasmCompiler, effort: Effort) -> Result<Made, String> {
+fn compile(package: &str, compiler: &WasmCompiler, effort: Effort) -> Result<Option<Made>, String> {
     let failure = "the page did not compile";
     let mut command = compile_command(package, compiler, effort);
     if effort != Effort::Tests {
-        return run(failure, &mut command).map(|()| Made::default());
+        return run(failure, &mut command).map(|()| None);
     }
     if *compiler == WasmCompiler::Toolchain {
         // the rooms below are linted where they are compiled for this machine
         tools::lint(&mut command).env("CLIPPY_ARGS", "--no-deps__CLIPPY_HACKERY__");
     }
     let made = compiled::follow(&mut command);
-    if made.is_whole { Ok(made) } else { Err(String::from(failure)) }
+    if made.is_whole { Ok(Some(made)) } else { Err(String::from(failure)) }
 }
 
 /// Builds the command out of a selection of packages; gives its path. At full effort it carries what `dist/` holds of

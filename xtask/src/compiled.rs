@@ -62,7 +62,13 @@ pub(crate) fn follow(cargo: &mut Command) -> Made {
     // lines begin with what they are, not with a colour
     cargo.env("CARGO_TERM_COLOR", "never");
     cargo.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
-    let Ok(mut child) = cargo.spawn() else { return Made::default() };
+    let mut child = match cargo.spawn() {
+        Ok(child) => child,
+        Err(error) => {
+            say!("{} cannot be started: {error}", cargo.get_program().display());
+            return Made::default();
+        }
+    };
     let (told, said) = (child.stdout.take().expect("piped"), child.stderr.take().expect("piped"));
     let complaints = std::thread::spawn(move || {
         let mut is_clean = true;

@@ -2,8 +2,9 @@
 //!
 //! Format, lints, documentation and the page's bundle count as one each, every test as one; a step
 //! that breaks off (a test that does not compile) counts as one failure. The linter compiles what it
-//! reads, and the documentation is read beside what it made: every room is compiled once for this machine. The
-//! room `web` is compiled for the browser alone, and there linted and documented, which counts as one each.
+//! reads, and the documentation is read beside what it made: every room is compiled once for this machine.
+//! Usually `web` is compiled for the browser alone, and there linted and documented, which counts as one each; with
+//! `--no-browser`, `--long` or Debian's compiler it is linted with the other rooms.
 
 use std::io::{BufRead as _, BufReader};
 use std::path::{Path, PathBuf};
@@ -187,7 +188,7 @@ fn in_the_browser(length: Length, page: Page, programs: &Receiver<Programs>) -> 
     let built = bundle::build(&tools::wasm_compiler().expect("required above"), effort);
     let mut count = Count::one(built.is_ok());
     match &built {
-        Ok(made) if page == Page::AsItIsBuilt => {
+        Ok(Some(made)) if page == Page::AsItIsBuilt => {
             count.add(Count::one(made.is_clean));
             count.add(Count::one(documentation::write_for_the_browser("web", made)));
         }

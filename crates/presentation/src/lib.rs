@@ -1,8 +1,13 @@
-//! What the page shows and does that needs no browser: what is painted of a picture and picked in it, which rows are in
-//! sight, how numbers, sentences and paths are put, what is found by words, what drafts are kept.
+//! The page's room below the browser: what is painted of a picture and picked in it, which rows are in sight, how
+//! numbers, sentences and paths are put, what is found by words, what drafts are kept.
 //!
-//! All of it is functions from a session's views to what is shown, and is tested on this machine; the room `web` above
-//! it is compiled for the browser alone.
+//! Its nouns: a [`sheet::View`] is where the sheet lies on the screen; a [`paint::DisplayList`] is what is painted;
+//! [`marks::Marked`] is what is selected or under the pointer; a [`rows::Shown`] is a row that no shut row hides; a
+//! [`palette::Choice`] is what words find; a [`drafts::Draft`] is an unsaved text.
+//!
+//! No function here asks a session for anything: each goes from views that it is given to what is shown. So all are
+//! tested on this machine. The room `web` above is usually compiled for the browser alone; with `--no-browser`,
+//! `--long` or Debian's compiler `cargo verify` lints it with the other rooms.
 //!
 //! Reading order: [`sheet`], [`paint`], [`pick`], [`band`], [`marks`]; [`rows`], [`palette`], [`shelves`]; then the
 //! rest, each a page.
