@@ -44,7 +44,16 @@ fn buttons(list: &str) -> Vec<HtmlElement> {
     let found = list.get_elements_by_tag_name("*");
     let all = (0..found.length()).filter_map(|i| found.item(i)?.dyn_into::<HtmlElement>().ok());
     let is_button = |e: &HtmlElement| matches!(&*e.tag_name(), "BUTTON" | "SUMMARY");
-    all.filter(|e| is_button(e) && e.offset_parent().is_some()).collect()
+    all.filter(|e| is_button(e) && !is_shut_away(e)).collect()
+}
+
+/// Whether a shut shelf hides it, rather than is its head. A button that is hidden otherwise is a stop as the others.
+fn is_shut_away(e: &HtmlElement) -> bool {
+    let shut = e.closest("details:not([open])").ok().flatten();
+    shut.is_some_and(|shelf| {
+        let is_its = e.parent_element().is_some_and(|owner| owner.is_same_node(Some(&shelf)));
+        e.tag_name() != "SUMMARY" || !is_its
+    })
 }
 
 /// With the next frame, makes the buttons of a list one stop of Tab: the one that is chosen, or was it last, or the
