@@ -1,8 +1,9 @@
 //! Browsers and their drivers. One visit takes a browser after the other, since to start Chromium costs as much as
 //! most visits do.
 //!
-//! A browser is lent to one visit at a time, and shows it a tab of its own in a window of the usual size. Every
-//! visit has an address of its own, and with it a storage. Where a test fails its browser is not lent again.
+//! A browser is lent to one visit at a time, and shows it a tab of its own in a window of the usual size. A visit's
+//! address may be one that another had: what is kept under it is emptied first. The clipboard and the cache of what
+//! servers answered go on to the next visit. Where a test fails its browser is not lent again.
 
 use std::io::{BufRead as _, BufReader};
 use std::path::Path;
@@ -120,10 +121,11 @@ impl Drop for Life {
 /// Starts chromedriver and gives its port. It takes a port that is free for one kind of address and
 /// ends where another program has it for the other kind: then it is asked again.
 fn start_driver(profile: &Path) -> (Life, u16) {
-    /// Ends the driver once the input ends, and with it Chromium, which it holds by a pipe.
-    const WATCHED: &str = "exec 3<&0; chromedriver --port=0 & driver=$!; \
+    /// Ends the driver once the input ends, and with it Chromium, which it holds by a pipe: also where a key ends the
+    /// tests, which this outlives to remove the profile.
+    const WATCHED: &str = "trap '' INT; exec 3<&0; chromedriver --port=0 & driver=$!; \
         { read -r _ <&3; kill $driver; } >/dev/null 2>&1 & exec 2>/dev/null; wait $driver; \
-        sleep 1; rm -rf \"$0\"";
+        sleep 1; rm -rf \"$0\" || { sleep 2; rm -rf \"$0\"; }";
     let mark = "started successfully on port ";
     let start = || {
         let mut shell = Command::new("sh");

@@ -91,14 +91,14 @@ impl Visit {
         Visit::open_new(EMPTY).await
     }
 
-    /// Starts the server, and takes a browser to it that has kept nothing but the first minute.
+    /// Starts the server, and takes a browser to it that keeps nothing under its address but the first minute.
     async fn prepare(document: Option<&str>) -> Visit {
         let folder = copy_of_the_gallery();
         let (server, address) = serve(&folder, document);
         let (client, browser) = chromium::take().await;
         let (origin, _) = address.split_once(['?', '#']).expect("an address with its token");
         client.goto(&format!("{origin}favicon.svg")).await.expect("the server answers");
-        // another visit may have had the address; whoever comes here has had the first minute
+        // another visit may have had the address: what it kept there goes; whoever comes here has had the first minute
         let over = "localStorage.clear(); sessionStorage.clear(); \
                     localStorage.setItem('thinglab/first-minute', 'over')";
         client.execute(over, Vec::new()).await.expect("the browser keeps it");
