@@ -3,7 +3,7 @@
 use std::collections::VecDeque;
 
 /// Where drafts are kept: the tab and the document's path follow.
-pub const PLACE: &str = "thinglab/draft/";
+const PLACE: &str = "thinglab/draft/";
 
 /// An unsaved text.
 #[derive(Clone, PartialEq, Debug)]

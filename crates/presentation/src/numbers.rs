@@ -28,7 +28,7 @@ pub fn step(number: f64) -> f64 {
 }
 
 /// A bare number is meant in the unit that stands beside the field.
-pub fn with_unit(words: &str, unit: &str) -> String {
+pub fn meant_in(words: &str, unit: &str) -> String {
     let words = words.trim();
     if unit.is_empty() || words.parse::<f64>().is_err() {
         String::from(words)
@@ -48,14 +48,14 @@ pub fn to_read(value: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{slider_range, step, to_read, with_unit};
+    use super::{meant_in, slider_range, step, to_read};
 
     #[test]
     fn a_bare_number_takes_the_unit_beside_it() {
-        assert_eq!(with_unit(" 300 ", "ohm"), "300 ohm");
-        assert_eq!(with_unit("0.3 kohm", "ohm"), "0.3 kohm");
-        assert_eq!(with_unit("300", ""), "300");
-        assert_eq!(with_unit("hello", "ohm"), "hello");
+        assert_eq!(meant_in(" 300 ", "ohm"), "300 ohm");
+        assert_eq!(meant_in("0.3 kohm", "ohm"), "0.3 kohm");
+        assert_eq!(meant_in("300", ""), "300");
+        assert_eq!(meant_in("hello", "ohm"), "hello");
     }
 
     #[test]

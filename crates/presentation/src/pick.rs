@@ -48,7 +48,7 @@ pub fn pick(
 
 /// Returns what a pick chooses of what a program drew: at first the thing whose program it is; where that is chosen
 /// already, the entity; then its turn, the whole set, and so on outwards, to the thing again.
-pub fn deeper(whole: &str, entity: &str, chosen: Option<&str>) -> String {
+fn deeper(whole: &str, entity: &str, chosen: Option<&str>) -> String {
     match chosen {
         Some(chosen) if chosen == whole => entity.to_string(),
         Some(chosen) if covers(whole, chosen) && covers(chosen, entity) => {

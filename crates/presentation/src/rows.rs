@@ -38,17 +38,6 @@ pub fn shown(rows: &[StructureRow], is_open: impl Fn(&StructureRow) -> bool) -> 
     shown
 }
 
-/// The class of a row of some kind in the page's style sheet.
-pub fn kind_class(kind: RowKind) -> &'static str {
-    match kind {
-        RowKind::Part => "part",
-        RowKind::Virtual => "virtual",
-        RowKind::Constraint => "constraint",
-        RowKind::Merge => "merge",
-        RowKind::Side => "branch",
-    }
-}
-
 /// The constraints of a thing and those that speak of it; of the document its own.
 pub fn shown_rules(rows: &[StructureRow], selected: Option<&str>) -> Vec<StructureRow> {
     let rules = rows.iter().filter(|row| row.kind == RowKind::Constraint);
@@ -137,17 +126,6 @@ mod tests {
         assert_eq!(found("a"), [(0, (1, 1)), (1, (1, 2)), (3, (2, 2)), (4, (1, 1))]);
         assert_eq!(found(""), [(0, (1, 1))]);
         assert_eq!(shown(&[], |_| true), []);
-    }
-
-    #[test]
-    fn a_row_of_a_side_is_not_laid_out_as_a_panel() {
-        let style = include_str!("../../web/assets/style.css");
-        let kinds =
-            [RowKind::Part, RowKind::Virtual, RowKind::Constraint, RowKind::Merge, RowKind::Side];
-        for kind in kinds.map(super::kind_class) {
-            let alone = format!("\n.{kind} ");
-            assert!(!style.contains(&alone), "{kind} is a class of the page's layout");
-        }
     }
 
     #[test]

@@ -8,7 +8,7 @@ use leptos::attr::custom::custom_attribute;
 use leptos::ev::KeyboardEvent;
 use leptos::html::Div;
 use leptos::prelude::*;
-use presentation::rows::{Shown, kind_class, shown};
+use presentation::rows::{Shown, shown};
 use session::Command;
 use session::view::{RowKind, StructureRow};
 use std::collections::BTreeSet;
@@ -327,6 +327,50 @@ fn reveal(tree: Tree, path: &str) {
         }
         request_animation_frame(move || tree.scroll_to(at));
     }
+}
+
+/// The class of a row of some kind in the page's style sheet.
+const fn kind_class(kind: RowKind) -> &'static str {
+    match kind {
+        RowKind::Part => "part",
+        RowKind::Virtual => "virtual",
+        RowKind::Constraint => "constraint",
+        RowKind::Merge => "merge",
+        RowKind::Side => "branch",
+    }
+}
+
+/// No row is laid out as a panel: seen where the page is compiled, since no other program has its style sheet.
+const _: () = {
+    let style = include_str!("../assets/style.css");
+    let kinds =
+        [RowKind::Part, RowKind::Virtual, RowKind::Constraint, RowKind::Merge, RowKind::Side];
+    let mut at = 0;
+    while at < kinds.len() {
+        let is_laid_out = has_rule_for(style, kind_class(kinds[at]));
+        assert!(!is_laid_out, "the class of a kind of rows is a class of the page's layout");
+        at += 1;
+    }
+    assert!(has_rule_for(style, "side"), "the page's panels are not found in its style sheet");
+};
+
+/// Whether a style sheet has a rule for a class, by itself or with what is in it; told while the page is compiled.
+const fn has_rule_for(style: &str, class: &str) -> bool {
+    let (style, class) = (style.as_bytes(), class.as_bytes());
+    let mut line = 0;
+    while line + class.len() + 2 < style.len() {
+        if style[line] == b'\n' && style[line + 1] == b'.' {
+            let mut same = 0;
+            while same < class.len() && style[line + 2 + same] == class[same] {
+                same += 1;
+            }
+            if same == class.len() && style[line + 2 + same] == b' ' {
+                return true;
+            }
+        }
+        line += 1;
+    }
+    false
 }
 
 #[component]

@@ -6,7 +6,7 @@ use crate::{field, js, words};
 use leptos::ev::{KeyboardEvent, PointerEvent};
 use leptos::html::Span;
 use leptos::prelude::*;
-use presentation::numbers::{slider_range, step, with_unit};
+use presentation::numbers::{meant_in, slider_range, step};
 use presentation::paths::split;
 use session::view::ValueRow;
 use std::f64::consts::{PI, TAU};
@@ -351,7 +351,7 @@ fn Field(lab: Lab, row: Memo<Option<ValueRow>>, selects: bool) -> impl IntoView 
         let Some(words) = typed.get_untracked() else { return };
         let unit =
             row.with_untracked(|row| row.as_ref().map(|r| r.unit.clone()).unwrap_or_default());
-        match lab.set_typed(&path.get_untracked(), &with_unit(&words, &unit)) {
+        match lab.set_typed(&path.get_untracked(), &meant_in(&words, &unit)) {
             Ok(()) => {
                 typed.set(None);
                 error.set(None);
