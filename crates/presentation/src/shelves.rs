@@ -86,6 +86,6 @@ mod tests {
         };
         let wanted = [("", true), ("Circuits", true), ("circuits", false), ("geometry", true)];
         assert_eq!(names(false), wanted.map(|(n, open)| (String::from(n), open)));
-        assert!(names(true).iter().all(|(_, _, is_open)| *is_open));
+        assert!(names(true).iter().all(|(_, is_open)| *is_open));
     }
 }
