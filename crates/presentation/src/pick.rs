@@ -5,8 +5,8 @@ use crate::sheet::View;
 use drawing::{Element, Placement, Point, Shape};
 use session::view::PictureView;
 
-/// Returns the path of what lies within `reach` pixels of a place on the screen; of what a program drew, that which
-/// [`deeper`] says.
+/// Returns the path of what lies within `reach` pixels of a place on the screen; of what a program drew, at
+/// first the thing whose program it is, and by its turns what lies deeper where that is chosen already.
 pub fn pick(
     picture: &PictureView,
     view: &View,
