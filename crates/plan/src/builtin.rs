@@ -63,7 +63,7 @@ impl<'a> Opening<'a> {
         let arguments: Vec<Meaning<'a>> = arguments.iter().map(|a| a.1.clone()).collect();
         match to {
             Meaning::Number(_) => self.send_number(to, name, &arguments),
-            Meaning::Opaque(_) => Ok(self.opaque(arguments.iter().chain([to]))),
+            Meaning::Opaque(_) => self.send_opaque(to, &arguments),
             Meaning::List(_) => self.send_list(to, name, &arguments),
             Meaning::Thing(_) if self.items(to).is_ok() => self.send_list(to, name, &arguments),
             Meaning::Thing(_) | Meaning::Made(_) if find(THING_MESSAGES, name).is_some() => {
@@ -83,6 +83,22 @@ impl<'a> Opening<'a> {
             Meaning::Lambda(_) => Err(Trouble::wrong(format!("a function has no `{name}`"))),
             Meaning::Drawn(drawn) => Err(self.missing_step(drawn, name)),
         }
+    }
+
+    /// Sends a message to what only the host can compute: the answer speaks of all that the receiver and the arguments
+    /// speak of, and of what a function reads beside its elements.
+    fn send_opaque(&mut self, to: &Meaning<'a>, arguments: &[Meaning<'a>]) -> Answer<'a> {
+        let mut from = vec![to.clone()];
+        for argument in arguments {
+            from.push(match argument {
+                Meaning::Lambda(function) => {
+                    let each = vec![self.opaque([to]); function.parameters.len()];
+                    self.apply(argument, &each)?
+                }
+                other => other.clone(),
+            });
+        }
+        Ok(self.opaque(&from))
     }
 
     /// Sends what every thing knows.

@@ -202,6 +202,10 @@ impl<'a> Opening<'a> {
     /// Answers an element of a list; where the index follows from numbers, whichever it says.
     fn indexed(&mut self, list: &'a Term, index: &'a Term, frame: &Frame<'a>) -> Answer<'a> {
         let list = self.meaning(list, frame)?;
+        if let Meaning::Opaque(_) = list {
+            let at = self.meaning(index, frame)?;
+            return Ok(self.opaque([&list, &at]));
+        }
         let count = self.count(&list)?;
         let at = self.meaning(index, frame)?;
         if self.constant(&at).is_none() {
@@ -324,7 +328,11 @@ impl<'a> Opening<'a> {
     fn chosen(&mut self, list: &Meaning<'a>, count: usize, at: &Meaning<'a>) -> Answer<'a> {
         let items = (0..count).map(|i| self.item(list, i)).collect::<Result<Vec<_>, _>>()?;
         let is_plain = |item: &Meaning<'a>| matches!(item, Meaning::Number(_) | Meaning::Opaque(_));
-        if items.is_empty() || !matches!(at, Meaning::Number(_)) || !items.iter().all(is_plain) {
+        let are_plain = !items.is_empty() && items.iter().all(is_plain);
+        if let (true, Meaning::Opaque(_)) = (are_plain, at) {
+            return Ok(self.opaque(items.iter().chain([at])));
+        }
+        if !are_plain || !matches!(at, Meaning::Number(_)) {
             let message = "an index of things that depends on values is not planned yet";
             return Err(Trouble::not_yet(message));
         }

@@ -97,6 +97,9 @@ impl<'a> Opening<'a> {
     }
 
     fn is_in(&mut self, a: &Meaning<'a>, b: &Meaning<'a>) -> Answer<'a> {
+        if let Meaning::Opaque(_) = b {
+            return Ok(self.opaque([a, b]));
+        }
         let mut truth = self.number(0.0);
         for item in self.items(b)?.iter() {
             let one = match (a, item) {
