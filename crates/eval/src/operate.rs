@@ -97,10 +97,7 @@ impl<'a> Evaluator<'a> {
     /// Adds numbers, or joins texts.
     fn sum(&self, a: &Answer<'a>, b: &Answer<'a>) -> Result<Answer<'a>> {
         if let (Answer::Text(a), Answer::Text(b)) = (a, b) {
-            if a.len() + b.len() > LONGEST_TEXT {
-                let message = format!("joined, the texts have more than {LONGEST_TEXT} letters");
-                return Err(Fault::no_answer(message));
-            }
+            fits(a.len().saturating_add(b.len()))?;
             return Ok(Answer::text(&format!("{a}{b}")));
         }
         if let (Answer::Text(_), Answer::Number(..)) | (Answer::Number(..), Answer::Text(_)) =
@@ -189,6 +186,17 @@ impl<'a> Evaluator<'a> {
                 Err(Fault::wrong(format!("{} where a truth value is wanted", other.kind())))
             }
         }
+    }
+}
+
+/// Refuses to make a text of so many letters, where they are too many.
+pub(crate) fn fits(length: usize) -> Result<()> {
+    match length > LONGEST_TEXT {
+        true => {
+            let message = format!("the text would have more than {LONGEST_TEXT} letters");
+            Err(Fault::no_answer(message))
+        }
+        false => Ok(()),
     }
 }
 

@@ -4,7 +4,7 @@ use crate::answer::Answer;
 use crate::evaluator::{Evaluator, Result};
 use crate::fault::Fault;
 use crate::numerals::read_number;
-use crate::operate::finite;
+use crate::operate::{finite, fits};
 use drawing::metrics;
 use kernel::builtin::TextMessage;
 
@@ -20,6 +20,7 @@ impl<'a> Evaluator<'a> {
         arguments: &[Answer<'a>],
     ) -> Result<Answer<'a>> {
         let other = |at: usize| self.letters(&arguments[at]);
+        self.burn_for_letters(text.len())?;
         match message {
             TextMessage::Number => read_number(text)
                 .map(Answer::plain)
@@ -38,7 +39,7 @@ impl<'a> Evaluator<'a> {
             TextMessage::Lower => Ok(Answer::text(&text.to_lowercase())),
             TextMessage::Trim => Ok(Answer::text(text.trim())),
             TextMessage::Characters => {
-                self.burn_for_letters(text.len())?;
+                self.burn_several(text.chars().count() as u64)?;
                 let mut room = [0; 4];
                 let each = text.chars().map(|c| Answer::text(c.encode_utf8(&mut room)));
                 Ok(Answer::List(each.collect()))
@@ -50,7 +51,8 @@ impl<'a> Evaluator<'a> {
             TextMessage::Replaced => {
                 let (old, new) = (not_empty(other(0)?)?, other(1)?);
                 let times = text.matches(old).count();
-                self.burn_for_letters(text.len().saturating_add(times.saturating_mul(new.len())))?;
+                let added = times.saturating_mul(new.len());
+                self.room_for(added.saturating_add(text.len() - times * old.len()))?;
                 Ok(Answer::text(&text.replace(old, new)))
             }
             TextMessage::Padded => {
@@ -79,18 +81,18 @@ impl<'a> Evaluator<'a> {
     ) -> Result<Answer<'a>> {
         let with = with.map_or(Ok(""), |with| self.letters(with))?;
         let texts: Vec<&str> = items.iter().map(|i| self.letters(i)).collect::<Result<_>>()?;
-        let length = texts.iter().map(|text| text.len().saturating_add(with.len()));
-        self.burn_for_letters(length.fold(0, usize::saturating_add))?;
+        let between = with.len().saturating_mul(texts.len().saturating_sub(1));
+        self.room_for(texts.iter().map(|text| text.len()).fold(between, usize::saturating_add))?;
         Ok(Answer::text(&texts.join(with)))
     }
 
     /// What stands between the places where a text is; the words, where that is a space.
     fn split(&self, text: &str, by: &str) -> Result<Answer<'a>> {
-        self.burn_for_letters(text.len())?;
         let pieces: Vec<&str> = match by {
             " " => text.split_whitespace().collect(),
             by => text.split(not_empty(by)?).collect(),
         };
+        self.burn_several(pieces.len() as u64)?;
         Ok(Answer::List(pieces.into_iter().map(Answer::text).collect()))
     }
 
@@ -102,7 +104,7 @@ impl<'a> Evaluator<'a> {
         }
         let wanted = usize::try_from(self.whole(&arguments[0])?).unwrap_or(0);
         let lacking = wanted.saturating_sub(text.chars().count());
-        self.burn_for_letters(lacking)?;
+        self.room_for(text.len().saturating_add(lacking.saturating_mul(with.len())))?;
         Ok(with.repeat(lacking))
     }
 
@@ -111,6 +113,15 @@ impl<'a> Evaluator<'a> {
             Answer::Text(text) => Ok(text),
             other => Err(Fault::wrong(format!("{} where a text is wanted", self.kind(other)))),
         }
+    }
+
+    /// Counts the work of making a text of so many letters.
+    ///
+    /// # Errors
+    /// It is too long to be made.
+    fn room_for(&self, length: usize) -> Result<()> {
+        fits(length)?;
+        self.burn_for_letters(length)
     }
 
     fn burn_for_letters(&self, count: usize) -> Result<()> {

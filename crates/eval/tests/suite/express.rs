@@ -31,6 +31,19 @@ fn with_line() -> Build {
 }
 
 #[test]
+fn a_text_of_very_many_letters_is_refused_in_words() {
+    let b = with_line();
+    let says = "no-answer: the text would have more than 1000000 letters";
+    let wide = |to: f64| send(text("x"), "padded", vec![num(to)]);
+    assert_eq!(value(&b, &wide(6e7)), says);
+    assert_eq!(value(&b, &send(wide(1e6), "length", vec![])), "1000000");
+    let doubled = send(wide(6e5), "replaced", vec![text(" "), text("  ")]);
+    assert_eq!(value(&b, &doubled), says);
+    let many = list(vec![wide(6e5), wide(6e5)]);
+    assert_eq!(value(&b, &send(many, "join", vec![])), says);
+}
+
+#[test]
 fn what_has_no_value_says_why() {
     let b = with_line();
     let divide = |a, c| op(BinaryOperator::Divide, a, c);
