@@ -165,14 +165,17 @@ impl<'a> Evaluator<'a> {
     }
 
     /// Returns the unit that a number was written in: that of a part; that of a percentage, too, where it is so many
-    /// times a percentage, or percentages are added.
+    /// times a percentage, or percentages are added. A hundred times one is its number made by hand.
     fn unit_written(&self, of: &'a Term, frame: &Frame<'a>, depth: u32) -> Option<&'a Name> {
         let depth = depth.checked_sub(1)?;
         let part_of = |of: &'a Term| {
             let unit = self.unit_written(of, frame, depth)?;
             units::unit(unit).filter(|u| u.dimension.is_none()).map(|_| unit)
         };
-        let is_factor = |of: &Term| matches!(of, Term::Number { bare: true, .. });
+        let times = |of: &'a Term, factor: &Term, by_hand: f64| {
+            let Term::Number { value, bare: true, .. } = factor else { return None };
+            part_of(of).filter(|unit| **unit != *"%" || *value != by_hand)
+        };
         match of {
             Term::Send { .. } | Term::Index(..) => {
                 let part = self.target(of, frame).ok()?;
@@ -180,12 +183,10 @@ impl<'a> Evaluator<'a> {
                 self.document.units.get(&given.origin)
             }
             Term::Unary(UnaryOperator::Negate, of) => part_of(of),
-            Term::Binary(BinaryOperator::Multiply, a, b) if is_factor(a) => part_of(b),
-            Term::Binary(BinaryOperator::Multiply | BinaryOperator::Divide, a, b)
-                if is_factor(b) =>
-            {
-                part_of(a)
+            Term::Binary(BinaryOperator::Multiply, a, b) => {
+                times(b, a, 100.0).or_else(|| times(a, b, 100.0))
             }
+            Term::Binary(BinaryOperator::Divide, a, b) => times(a, b, 0.01),
             Term::Binary(BinaryOperator::Add | BinaryOperator::Subtract, a, b) => {
                 match (part_of(a), part_of(b)) {
                     (Some(a), Some(b)) => (a == b).then_some(a),
