@@ -392,7 +392,9 @@ impl Writer {
                 if element.style.fill.is_some() {
                     self.hatch(element, rings);
                 }
-                rings.iter().for_each(|ring| self.ring(element, ring));
+                if element.style.line != Line::None {
+                    rings.iter().for_each(|ring| self.ring(element, ring));
+                }
             }
             Shape::Text { at, text, anchoring, placement, turn } => {
                 let height = match placement {

@@ -1,6 +1,7 @@
-//! What is drawn twice: a line, an arc or a circle that is an edge of a ring beside it, drawn in the same way.
+//! What is drawn twice: a line or an arc that is an edge of a ring beside it, drawn in the same way.
 //!
 //! In: elements in order. Out: those without the doubles. The ring stays, since it says more: its edges hang together.
+//! A whole circle stays beside it, since it says more, too: it can be drilled.
 
 use super::layer_of;
 use crate::element::{Corner, Element, Line, Point, Shape, Tag};
@@ -10,7 +11,7 @@ use std::f64::consts::TAU;
 /// Within what part of the extent of an edge places are one.
 const NEAR: f64 = 1e-9;
 
-/// An edge, by its ends and what lies half-way between; of a circle all three are its centre, its right, and its centre.
+/// An edge, by its ends and what lies half-way between.
 struct Edge {
     ends: [Point; 2],
     middle: Point,
@@ -24,15 +25,18 @@ pub(super) fn without_doubles<'e>(
     elements: Vec<&'e Element>,
     group: &dyn Fn(Tag) -> Option<String>,
 ) -> Vec<&'e Element> {
-    let way = |e: &Element| (group(e.tag), layer_of(e), e.style.line);
-    let mut edges: Vec<(Way, Edge)> = Vec::new();
-    for element in &elements {
-        if let Shape::Region(rings) = &element.shape {
-            edges.extend(rings.iter().flat_map(|ring| of_ring(ring)).map(|e| (way(element), e)));
+    let way = |e: &&Element| (group(e.tag), layer_of(e), e.style.line);
+    let ways: Vec<Way> = elements.iter().map(way).collect();
+    let mut edges: Vec<(&Way, Edge)> = Vec::new();
+    for (element, way) in elements.iter().zip(&ways) {
+        // what has no line, or is shown as a dimension, draws no edge
+        let is_drawn = element.style.line != Line::None && element.style.dimension.is_none();
+        if let (Shape::Region(rings), true) = (&element.shape, is_drawn) {
+            edges.extend(rings.iter().flat_map(|ring| of_ring(ring)).map(|edge| (way, edge)));
         }
     }
     edges.sort_by(|(_, a), (_, b)| a.middle.x.total_cmp(&b.middle.x));
-    let is_double = |element: &Element| {
+    let is_double = |element: &Element, own_way: &Way| {
         let Some(own) = of_shape(&element.shape).filter(|_| element.style.dimension.is_none())
         else {
             return false;
@@ -40,10 +44,10 @@ pub(super) fn without_doubles<'e>(
         let reach = NEAR * own.extent();
         let from = edges.partition_point(|(_, e)| e.middle.x < own.middle.x - reach);
         let near = edges[from..].iter().take_while(|(_, e)| e.middle.x <= own.middle.x + reach);
-        let own_way = way(element);
         { near }.any(|(way, edge)| *way == own_way && edge.is_one_with(&own, reach))
     };
-    elements.into_iter().filter(|e| !is_double(e)).collect()
+    let all = elements.iter().zip(&ways);
+    all.filter(|(element, way)| !is_double(element, way)).map(|(element, _)| *element).collect()
 }
 
 impl Edge {
@@ -70,23 +74,12 @@ fn of_shape(shape: &Shape) -> Option<Edge> {
             };
             Some(Edge { ends: [at(start), at(start + sweep)], middle: at(start + sweep / 2.0) })
         }
-        Shape::Circle { center, radius } => Some(whole(center, radius)),
         _ => None,
     }
 }
 
-fn whole(center: Point, radius: f64) -> Edge {
-    Edge { ends: [center, Point { x: center.x + radius, y: center.y }], middle: center }
-}
-
-/// Returns the edges of a ring; the one circle that two half turns are.
+/// Returns the edges of a ring.
 fn of_ring(ring: &[Corner]) -> Vec<Edge> {
-    if let [a, b] = ring
-        && a.bulge.abs() == 1.0
-        && a.bulge == b.bulge
-    {
-        return vec![whole(between(a.at, b.at), distance(a.at, b.at) / 2.0)];
-    }
     let next = ring.iter().cycle().skip(1);
     ring.iter()
         .zip(next)
@@ -126,8 +119,8 @@ mod tests {
             Shape::Region(vec![ring, hole]),
             Shape::Segment(at(5.0, 0.0), at(-5.0, 0.0)),
             Shape::Arc { center: at(0.0, 0.0), radius: 5.0, start: 0.0, sweep: TAU / 2.0 },
+            // a hole that is drilled, the other half, and a part of an edge
             Shape::Circle { center: at(0.0, 2.0), radius: 1.0 },
-            // the other half, and a part of an edge
             Shape::Arc { center: at(0.0, 0.0), radius: 5.0, start: 0.0, sweep: -TAU / 2.0 },
             Shape::Segment(at(0.0, 0.0), at(5.0, 0.0)),
         ];
@@ -136,7 +129,25 @@ mod tests {
         dashed.style.line = Line::Dashed;
         all.push(dashed);
         let left = without_doubles(all.iter().collect(), &|_| None);
-        let wanted: Vec<&Element> = [0, 4, 5, 6].map(|i| &all[i]).into();
+        let wanted: Vec<&Element> = [0, 3, 4, 5, 6].map(|i| &all[i]).into();
         assert_eq!(left, wanted);
+    }
+
+    #[test]
+    fn what_is_no_ring_on_the_sheet_takes_no_edge_away() {
+        let at = |x, y| Point { x, y };
+        let ring =
+            [(0.0, 0.0), (4.0, 0.0), (4.0, 3.0)].map(|(x, y)| Corner { at: at(x, y), bulge: 0.0 });
+        let mut region = Element::new(Shape::Region(vec![ring.into()]));
+        let side = Element::new(Shape::Segment(at(0.0, 0.0), at(4.0, 0.0)));
+        let left = |region: &Element| without_doubles(vec![region, &side], &|_| None).len();
+        assert_eq!(left(&region), 1);
+        let points = vec![at(0.0, 0.0), at(4.0, 0.0)];
+        let measured = crate::Dimension { kind: crate::DimensionKind::Aligned, points };
+        region.style.dimension = Some(std::sync::Arc::new(measured));
+        assert_eq!(left(&region), 2);
+        region.style.dimension = None;
+        region.style.line = Line::None;
+        assert_eq!(left(&region), 2);
     }
 }
