@@ -131,7 +131,8 @@ impl Kind {
                 items.iter().all(|item| item.fits(element, document))
             }
             (Self::Thing(a), Self::Thing(b)) => {
-                let may_cover = || is_drawn(document, *a) || is_disc(document, *a);
+                let may_be_disc = || document.classes[*b].is_abstract && is_disc(document, *a);
+                let may_cover = || is_drawn(document, *a) || may_be_disc();
                 are_alike(document, *a, *b) || covers(document, *b) && may_cover()
             }
             (Self::List(element), Self::Thing(class)) if covers(document, *class) => {
