@@ -303,20 +303,24 @@ impl<'a> Evaluator<'a> {
             return self.surfaces(&Answer::List(self.items(&all)?), nearest);
         }
         if self.is_of(of, "Circle") {
-            return Ok(vec![Surface { outer: self.disc(of, nearest)?, holes: Vec::new() }]);
+            return self.disc(of, nearest);
         }
         let kind = self.kind(of);
         Err(Fault::wrong(format!("{kind} where a contour, a surface or a region is wanted")))
     }
 
-    /// Returns the ring around what a circle covers: two half turns, to the left.
-    fn disc(&self, circle: &Answer<'a>, nearest: ThingId) -> Result<geometry::Ring> {
+    /// Returns what a circle covers, within two half turns to the left; nothing where it has no radius.
+    fn disc(&self, circle: &Answer<'a>, nearest: ThingId) -> Result<Vec<Surface>> {
         let center = self.xy(&self.ask_of(circle, &self.tables.center, nearest)?, nearest)?;
         let (radius, _) = self.operand(&self.ask_of(circle, &self.tables.radius, nearest)?)?;
+        if self.order_of(radius, 0.0).is_eq() {
+            return Ok(Vec::new());
+        }
         let radius = self.unary_number(Unary::Abs, radius);
         let side =
             |of| Bend { at: [self.binary_number(of, center[0], radius), center[1]], bulge: 1.0 };
-        Ok(vec![side(Binary::Add), side(Binary::Subtract)])
+        let outer = vec![side(Binary::Add), side(Binary::Subtract)];
+        Ok(vec![Surface { outer, holes: Vec::new() }])
     }
 
     fn ring(&self, corners: &Answer<'a>) -> Result<geometry::Ring> {
