@@ -7,6 +7,7 @@ use crate::references::{References, Symbol};
 use crate::uses::Text;
 use base::{Diagnostic, Name, Place, Span};
 use kernel::ClassId;
+use kernel::builtin::{FUNCTIONS, THING_MESSAGES, find};
 use std::collections::BTreeSet;
 use syntax::ast::{AstNode, NameExpr};
 use syntax::edit::{self, TextEdit};
@@ -18,7 +19,7 @@ impl Text<'_> {
     /// Lets every word mean what it meant before a member was called otherwise.
     ///
     /// # Errors
-    /// A word would mean something else, and cannot be written so that it does not.
+    /// A word would mean something else, one of the language too, and cannot be written so that it does not.
     pub(super) fn meaning_the_same(
         &self,
         mut edits: Vec<TextEdit>,
@@ -29,6 +30,9 @@ impl Text<'_> {
             true => Symbol { class: symbol.class, name: to.clone() },
             false => symbol.clone(),
         };
+        if let Some(span) = self.spoken_of_by_the_language(to, before) {
+            return Err(self.caught(span, to));
+        }
         let mut owners = 0;
         loop {
             let changed = self.changed_words(&edits, before, &renamed_to);
@@ -65,6 +69,18 @@ impl Text<'_> {
         spans.dedup();
         spans.retain(|&span| !is_same(span));
         spans
+    }
+
+    /// Returns where a bare word stands that no member has and the language knows, `pi` or `parts`: a member of that name
+    /// would be meant instead.
+    fn spoken_of_by_the_language(&self, word: &Name, before: &References) -> Option<Span> {
+        let is_number = find(FUNCTIONS, word).is_some_and(|f| f.parameters.is_empty());
+        if !is_number && find(THING_MESSAGES, word).is_none() {
+            return None;
+        }
+        let names = self.file.syntax().descendants().filter_map(NameExpr::cast);
+        let words = names.filter_map(|name| name.name()).filter(|said| said.name() == *word);
+        { words }.map(|said| said.span()).find(|&span| meant(before, span).next().is_none())
     }
 
     /// Returns true for a name that stands for itself, before which `owner.` may be written.

@@ -132,6 +132,21 @@ fn a_part_is_renamed_wherever_it_is_spoken_of() {
 }
 
 #[test]
+fn no_part_takes_the_name_of_a_word_of_the_language_that_is_spoken() {
+    let text =
+        "a: Real\nturn: Angle = pi\nall => parts\nclass C { b: Real  size => 2 * b }\nc: C\n";
+    assert_eq!(apply(text, &rename("a", "pi")), Err("duplicate-name"));
+    assert_eq!(apply(text, &rename("a", "parts")), Err("duplicate-name"));
+    assert_eq!(apply(text, &rename("C.b", "pi")), Err("duplicate-name"));
+    // what is not spoken of is free
+    assert_becomes(
+        "a: Real\nb: Real = a + 1\n",
+        &rename("a", "pi"),
+        "pi: Real\nb: Real = pi + 1\n",
+    );
+}
+
+#[test]
 fn a_class_is_renamed_wherever_it_is_used() {
     assert_becomes(
         "class C { x: Real }\nclass D is C { }\nc: C\nl: List of C\nx: Real = C(3).x\n",
