@@ -76,7 +76,8 @@ fn usual(parse: &Parse, stated: &[NumberExpr]) -> BTreeMap<(Dimension, Option<Na
     for number in stated {
         let Some(unit) = number.unit() else { continue };
         let Some(known) = expr::units::unit(unit.text()) else { continue };
-        if known.dimension.is_none() {
+        // nothing is nothing in every unit
+        if known.dimension.is_none() || is_of_si(unit.text()) && is_nothing(number) {
             continue;
         }
         let class = class_of(number, &classes);
@@ -85,10 +86,7 @@ fn usual(parse: &Parse, stated: &[NumberExpr]) -> BTreeMap<(Dimension, Option<Na
         let found = usual.entry(key.clone());
         let units = &mut found.or_insert(Usual { units: Vec::new(), least: LEAST }).units;
         if is_of_si(unit.text()) {
-            // nothing is nothing in every unit
-            if number.value() != Some(0.0) {
-                of_si.push(key);
-            }
+            of_si.push(key);
         } else if !units.iter().any(|u| **u == *unit.text()) {
             units.push(unit.text().into());
         }
@@ -103,6 +101,10 @@ fn usual(parse: &Parse, stated: &[NumberExpr]) -> BTreeMap<(Dimension, Option<Na
         usual.insert((Dimension::TIME, Some(Name::new(""))), within);
     }
     usual
+}
+
+fn is_nothing(number: &NumberExpr) -> bool {
+    number.value() == Some(0.0)
 }
 
 /// Returns the classes of the names that a text declares; none for a name of several.
@@ -146,7 +148,7 @@ fn innermost(class: Option<Type>) -> Option<Name> {
 /// Returns the unit of time in all units that a text joins, `min` of `L/min`; nothing where it is the second, or there
 /// are several.
 fn time_within(stated: &[NumberExpr]) -> Option<Name> {
-    let units = stated.iter().filter_map(NumberExpr::unit);
+    let units = stated.iter().filter(|n| !is_nothing(n)).filter_map(NumberExpr::unit);
     let factors = units.flat_map(|unit| {
         let factors = unit.text().split(['*', '/']).map(|f| f.split('^').next().unwrap_or(f));
         factors.map(Name::new).collect::<Vec<_>>()
