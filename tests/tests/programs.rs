@@ -366,3 +366,28 @@ fn what_was_drawn_is_drawn_again_as_the_interpreter_draws_it() {
     }
     assert!(2 * replayed > asked, "{replayed} of {asked}");
 }
+
+#[test]
+fn what_lines_surround_is_filled_anew_and_the_reason_is_told() {
+    let text = "use geometry\nclass Panel {\n    a, b, c: Point\n    picture => picture(segment(a, b), segment(b, c), \
+                segment(c, a)).filled(\"silver\")\n}\nprogram Sheet(long: Length = 3) {\n    \
+                face = Panel(Point(0, 0), Point(long, 0), Point(0, 4))\n}\np: Sheet\n";
+    let opened = Opened::new(text).unwrap_or_else(|why| panic!("{why}"));
+    let model = opened.model();
+    let drawn: ThingId = opened.thing("p").expect("it has a program");
+    let class = model.document.class_named("Sheet").expect("the program");
+    let (known, mut values) = (Known::default(), opened.given().clone());
+    for time in 0..4 {
+        let reference = Evaluator::new(model.document, model.structure, &values);
+        let again = Evaluator::knowing(model.document, model.structure, &values, &known);
+        let [a, b] = [&reference, &again].map(|e| e.picture(drawn).drawing.elements);
+        assert_eq!(a, b, "{time}");
+        assert_eq!(a.iter().filter(|e| e.style.fill.is_some()).count(), 1);
+        if time == 3 {
+            let why = again.why_interpreted(class);
+            assert_eq!(why.as_deref(), Some("what lines surround is not noted"));
+        }
+        let slot = opened.slots("p.long")[0];
+        values.put(slot, Value::Number(values.numbers[slot] * 1.01));
+    }
+}

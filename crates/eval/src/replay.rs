@@ -7,8 +7,8 @@
 //! before, or a number is none, the interpreter runs; so it is the interpreter that says what fails, and why.
 //!
 //! Messages, calls, sets and classes come to nothing but operations on numbers, since the interpreter went through them.
-//! A run counts as much fuel, and as many things, as it did when it was noted. What makes texts of numbers, or looks for
-//! an edge of a region, is not noted; [`Evaluator::why_interpreted`] says so.
+//! A run counts as much fuel, and as many things, as it did when it was noted. What makes texts of numbers, looks for an
+//! edge of a region, or fills what lines surround, is not noted; [`Evaluator::why_interpreted`] says so.
 //!
 //! Reading order: `op`, `outline`, `routine`, `record`, `form`.
 

@@ -47,7 +47,8 @@ impl Piece {
 
 /// Returns true for what may be a piece of a ring.
 pub(crate) fn is_piece(element: &Element) -> bool {
-    matches!(element.shape, Shape::Segment(..) | Shape::Arc { .. }) && !element.style.is_unbounded
+    let is_edge = matches!(element.shape, Shape::Segment(..) | Shape::Arc { .. });
+    is_edge && !element.style.is_unbounded && element.style.dimension.is_none()
 }
 
 /// A piece between two corners, which are told by their numbers.

@@ -21,6 +21,8 @@ use std::sync::Arc;
 const LABEL_PIXELS: f64 = 13.0;
 /// How wide a thick line is, in pixels.
 const THICK_PIXELS: f64 = 3.0;
+/// Rings whose corners differ by no more than this part of how far they reach are one.
+const NEAR: f64 = 1e-9;
 
 impl<'a> Evaluator<'a> {
     /// Draws: calls one of the functions whose answer is a picture.
@@ -300,12 +302,10 @@ impl<'a> Evaluator<'a> {
         };
         let color = color.map(|a| self.color(a)).transpose()?;
         let mut elements = Vec::clone(elements);
-        let rings = match message {
+        let (surfaces, in_rings) = match message {
             PictureMessage::Filled => self.surrounded(&elements)?,
-            _ => Vec::new(),
+            _ => Default::default(),
         };
-        let in_rings: BTreeSet<usize> =
-            rings.iter().flat_map(|(_, pieces)| pieces).copied().collect();
         for (i, element) in elements.iter_mut().enumerate() {
             let style = &mut element.style;
             match message {
@@ -339,7 +339,7 @@ impl<'a> Evaluator<'a> {
                 }
             }
         }
-        let surfaces = rings.into_iter().map(|(mut surface, _)| {
+        let surfaces = surfaces.into_iter().map(|mut surface| {
             surface.style.fill = Some(color.clone().unwrap_or(Color::Faint));
             surface
         });
@@ -347,22 +347,22 @@ impl<'a> Evaluator<'a> {
         Ok(Answer::Picture(Rc::new(elements)))
     }
 
-    /// Finds what segments and arcs of a picture surround; what is decided so is not drawn again by rote.
-    fn surrounded(&self, elements: &[Element]) -> Result<Vec<(Element, Vec<usize>)>> {
-        let mut pieces: Vec<Element> =
-            elements.iter().filter(|e| rings::is_piece(e)).cloned().collect();
-        if pieces.len() < 2 {
-            return Ok(Vec::new());
+    /// Finds what segments and arcs of a picture surround, and the places of these; what a region of the picture covers
+    /// is no surface once more. How many pieces there are is counted, since a ring may be looked for from each.
+    fn surrounded(&self, elements: &[Element]) -> Result<(Vec<Element>, BTreeSet<usize>)> {
+        let pieces = elements.iter().filter(|e| rings::is_piece(e)).count();
+        if pieces < 2 {
+            return Ok(Default::default());
         }
-        let mut read = Ok(());
-        for piece in &mut pieces {
-            piece.shape.each_number(&mut |x| {
-                if let Err(fault) = self.number(&Answer::plain(*x)) {
-                    read = Err(fault);
-                }
-            });
+        if self.is_recording() {
+            return Err(Fault::wrong("what lines surround is not noted"));
         }
-        read.map(|()| rings::rings(elements))
+        self.burn_several(pieces as u64)?;
+        let found = rings::rings(elements);
+        let in_rings = found.iter().flat_map(|(_, pieces)| pieces).copied().collect();
+        let surfaces = found.into_iter().map(|(surface, _)| surface);
+        let is_new = |surface: &Element| !elements.iter().any(|e| covers_alike(e, surface));
+        Ok((surfaces.filter(is_new).collect(), in_rings))
     }
 
     /// Reads what a dimension of a drawing measures.
@@ -395,4 +395,32 @@ impl<'a> Evaluator<'a> {
             other => Err(Fault::wrong(format!("{} where a colour is wanted", self.kind(other)))),
         }
     }
+}
+
+/// Returns true for a region with the one ring of another, from whichever corner and whichever way it runs.
+fn covers_alike(of: &Element, other: &Element) -> bool {
+    let (Shape::Region(rings), Shape::Region(others)) = (&of.shape, &other.shape) else {
+        return false;
+    };
+    let ([ring], [other]) = (rings.as_slice(), others.as_slice()) else { return false };
+    let edges = |ring: &[Corner]| -> Vec<(Point, Point, f64)> {
+        let next = ring.iter().cycle().skip(1);
+        ring.iter().zip(next).map(|(a, b)| (a.at, b.at, a.bulge)).collect()
+    };
+    let back = |(from, to, bulge): &(Point, Point, f64)| (*to, *from, -bulge);
+    let (own, left) = (edges(ring), edges(other));
+    let right: Vec<_> = left.iter().rev().map(back).collect();
+    let reach = ring.iter().fold(0.0_f64, |most, c| most.max(c.at.x.abs()).max(c.at.y.abs()));
+    let is_near =
+        |p: Point, q: Point| (p.x - q.x).abs() <= NEAR * reach && (p.y - q.y).abs() <= NEAR * reach;
+    let is_one = |a: &(Point, Point, f64), b: &(Point, Point, f64)| {
+        is_near(a.0, b.0) && is_near(a.1, b.1) && (a.2 - b.2).abs() <= NEAR
+    };
+    own.len() == left.len()
+        && [left, right].iter().any(|other| {
+            (0..other.len()).any(|first| {
+                let turned = other.iter().cycle().skip(first);
+                own.iter().zip(turned).all(|(a, b)| is_one(a, b))
+            })
+        })
 }

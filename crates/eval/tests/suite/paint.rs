@@ -3,7 +3,7 @@
 use crate::build::{Build, call, num, op, part, send, text, tuple};
 use drawing::{Color, Line, Point, Shape};
 use eval::{Evaluator, Picture, given_values};
-use kernel::{BinaryOperator, ClassKind, Count, DOCUMENT, Stay};
+use kernel::{BinaryOperator, ClassKind, Count, DOCUMENT, Stay, Term};
 
 fn picture(b: &Build) -> (Picture, Vec<String>) {
     let structure = b.structure();
@@ -99,6 +99,46 @@ fn styles_apply_to_whole_pictures() {
     assert_eq!(points[2], Point { x: 2.0, y: 1.0 });
     let Shape::Text { anchoring, .. } = &words.shape else { panic!("words") };
     assert_eq!(*anchoring, drawing::Anchoring::Center);
+}
+
+#[test]
+fn what_lines_surround_is_filled_once() {
+    let corners = || vec![tuple(0.0, 0.0), tuple(4.0, 0.0), tuple(0.0, 3.0)];
+    let sides = || {
+        let [a, b, c] = [0, 1, 2].map(|i| corners()[i].clone());
+        vec![
+            call("segment", vec![a.clone(), b.clone()]),
+            call("segment", vec![c.clone(), b]),
+            call("segment", vec![c, a]),
+        ]
+    };
+    let drawn = |of: Vec<Term>| {
+        let mut b = Build::new();
+        let class = b.class("Mark", &[]);
+        let filled = send(call("picture", of), "filled", vec![text("steelblue")]);
+        b.message(class, "picture", &[], filled);
+        b.part(b.root(), "mark", class);
+        let (picture, _) = picture(&b);
+        assert_eq!(picture.faults, []);
+        picture.drawing.elements
+    };
+    let is_filled = |e: &drawing::Element| e.style.fill.is_some();
+    let found = drawn(sides());
+    let fills: Vec<bool> = found.iter().map(is_filled).collect();
+    assert_eq!(fills, [true, false, false, false]);
+    assert_eq!(found[0].style.line, Line::None);
+    // a region beside its edges, whichever way these run
+    let mut beside = vec![call("region", vec![Term::List(corners())])];
+    beside.extend(sides());
+    let found = drawn(beside);
+    let fills: Vec<bool> = found.iter().map(is_filled).collect();
+    assert_eq!(fills, [true, false, false, false]);
+    assert_eq!(found[0].style.line, Line::Solid);
+    // what a dimension is shown by closes no ring
+    let mut sides = sides();
+    let ends = Term::List([0, 1, 0, 1].map(|i| corners()[i].clone()).to_vec());
+    sides[0] = send(sides[0].clone(), "measured", vec![text("aligned"), ends]);
+    assert_eq!(drawn(sides).len(), 3);
 }
 
 #[test]
