@@ -285,7 +285,10 @@ impl Lowerer<'_> {
             {
                 format!("{path} is a whole number, and is given {x}")
             }
-            (Some(ClassKind::List(element)), _) if *element == self.object => {
+            (Some(ClassKind::List(element)), given)
+                if *element == self.object
+                    && !matches!(given, Term::List(items) if items.is_empty()) =>
+            {
                 let message = format!(
                     "{path} holds things without parts, and keeps nothing of what it is given"
                 );

@@ -440,8 +440,11 @@ impl Lowerer<'_> {
             let (term, kind) = self.expr_wanting(scope, &item, wanted)?;
             element = match (kind.fits(&element, &self.document), &element, &kind) {
                 (true, ..) => element.joined(kind.clone()),
-                // whatever is an object
-                (false, ..) if *wanted == Kind::Thing(self.object) => {
+                // whatever is an object, and what a loop draws beside it
+                (false, known, found)
+                    if *wanted == Kind::Thing(self.object)
+                        && [known, found].into_iter().all(|kind| self.is_object(kind)) =>
+                {
                     is_mixed = true;
                     wanted.clone()
                 }
@@ -487,6 +490,15 @@ impl Lowerer<'_> {
         let items = items.into_iter().map(measure).collect();
         let each = if is_mixed { Kind::Unknown } else { element };
         Some((Term::List(items), Kind::List(Box::new(each))))
+    }
+
+    /// Returns true for a thing, and for the turns of a block of a program.
+    fn is_object(&self, kind: &Kind) -> bool {
+        match (kind, kind.inmost()) {
+            (Kind::Thing(_), _) => true,
+            (_, Kind::Thing(turn)) => self.draws(*turn),
+            _ => false,
+        }
     }
 
     /// Reports an element of another kind than one before it.
