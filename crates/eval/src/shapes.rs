@@ -348,7 +348,7 @@ impl<'a> Evaluator<'a> {
     }
 
     /// Finds what segments and arcs of a picture surround, and the places of these; what a region of the picture covers
-    /// is no surface once more. How many pieces there are is counted, since a ring may be looked for from each.
+    /// is no surface once more. Each piece is a step.
     fn surrounded(&self, elements: &[Element]) -> Result<(Vec<Element>, BTreeSet<usize>)> {
         let pieces = elements.iter().filter(|e| rings::is_piece(e)).count();
         if pieces < 2 {
