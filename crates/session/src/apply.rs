@@ -23,6 +23,7 @@ use kernel::{
 use plan::{EditKind, LimitKind, NotDecided, Planner, RefusalReason, Target};
 use std::collections::BTreeSet;
 use std::sync::Arc;
+use syntax::ast::AstNode;
 
 /// Applies a command to a document.
 ///
@@ -32,6 +33,36 @@ pub(crate) fn apply(
     open: &mut Open,
     host: &dyn Host,
     command: &Command,
+) -> Result<Change, Refusal> {
+    apply_by(open, host, command, Mover::Lab)
+}
+
+/// Applies a command as a hand gives it: a handle that is moved is dragged.
+///
+/// # Errors
+/// Why it was refused; then nothing has changed.
+pub(crate) fn by_hand(
+    open: &mut Open,
+    host: &dyn Host,
+    command: &Command,
+) -> Result<Change, Refusal> {
+    apply_by(open, host, command, Mover::Hand)
+}
+
+/// Who moves something.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Mover {
+    /// A hand: what a handle keeps stays meanwhile.
+    Hand,
+    /// The lab itself: places go where they are to be, and nothing is kept.
+    Lab,
+}
+
+pub(crate) fn apply_by(
+    open: &mut Open,
+    host: &dyn Host,
+    command: &Command,
+    mover: Mover,
 ) -> Result<Change, Refusal> {
     for path in general::changed(command) {
         general::accept(&open.state, path)?;
@@ -46,7 +77,13 @@ pub(crate) fn apply(
         && !targets.iter().all(|(_, value)| matches!(value, Literal::Path(_)))
         && let Some(class) = targets.first().and_then(|t| prototype::class_of(&open.state, &t.0))
     {
-        return prototype::edit(open, host, command, targets, class);
+        return prototype::edit(open, host, (command, mover), targets, class);
+    }
+    if let (Mover::Hand, Command::Move(targets)) = (mover, command)
+        && let [(path, to @ Literal::Tuple(_))] = targets.as_slice()
+        && drag::is_handle(&open.state, path)
+    {
+        return drag::at_once(open, host, path, to);
     }
     match command {
         Command::Set(targets) if targets.iter().any(|t| is_structure(&open.state, t)) => {
@@ -86,11 +123,6 @@ fn edit(
     targets: &[(Path, Literal)],
 ) -> Result<Change, Refusal> {
     let state = open.state.clone();
-    if let (EditKind::Move, [(path, Literal::Tuple(_))]) = (kind, targets)
-        && drag::is_handle(&state, path)
-    {
-        return drag::at_once(open, host, path, &targets[0].1);
-    }
     let label = label(kind, &state, targets);
     let mut aims: Vec<(Aim, Vec<Value>)> = Vec::new();
     let parts: Vec<(Path, Literal)> = targets.iter().flat_map(|t| in_parts(&state, t)).collect();
@@ -426,20 +458,40 @@ fn take_text(open: &mut Open, host: &dyn Host, text: &str) -> Change {
     step_to(open, label_of_text(&before, &state), state, planner)
 }
 
-/// Says what an edit of the text did, where all that it did is that things came or went.
+/// Says what an edit of the text did, where all that it did is that things came or went: nothing else that the text
+/// says is another.
 fn label_of_text(before: &State, after: &State) -> String {
-    let names = |state: &State| -> Vec<String> {
-        let document = &state.lowered.document;
-        document.classes[document.root].parts.iter().map(|part| part.name.to_string()).collect()
-    };
-    let (was, is) = (names(before), names(after));
-    let gone: Vec<String> = was.iter().filter(|name| !is.contains(name)).cloned().collect();
-    let come: Vec<String> = is.iter().filter(|name| !was.contains(name)).cloned().collect();
+    /// Returns the names of things that one document has and another has not, in order.
+    fn beyond(state: &State, other: &State) -> Vec<String> {
+        let [own, others] = [state, other].map(|state| {
+            let document = &state.lowered.document;
+            &document.classes[document.root].parts
+        });
+        let known: BTreeSet<&base::Name> = others.iter().map(|part| &part.name).collect();
+        let names = own.iter().map(|part| &part.name);
+        names.filter(|name| !known.contains(name)).map(|name| name.to_string()).collect()
+    }
+    let (gone, come) = (beyond(before, after), beyond(after, before));
     match (gone.as_slice(), come.as_slice()) {
-        ([], [_, ..]) => format!("add {}", words::listed(&come)),
-        ([_, ..], []) => format!("delete {}", words::listed(&gone)),
+        ([], [_, ..]) if says_all_of(&after.text, &before.text) => {
+            format!("add {}", words::listed(&come))
+        }
+        ([_, ..], []) if says_all_of(&before.text, &after.text) => {
+            format!("delete {}", words::listed(&gone))
+        }
         _ => "edit text".into(),
     }
+}
+
+/// Returns true for a text with every member of another, in the same order. Cost: linear in their lengths.
+fn says_all_of(text: &str, other: &str) -> bool {
+    let members = |text: &str| -> Vec<String> {
+        let file = syntax::parse(base::FileId(0), text).file();
+        file.members().map(|member| member.syntax().text().to_string().trim().into()).collect()
+    };
+    let said = members(text);
+    let mut said = said.iter();
+    members(other).iter().all(|member| said.any(|one| one == member))
 }
 
 fn travel(open: &mut Open, host: &dyn Host, direction: Direction) -> Result<Change, Refusal> {

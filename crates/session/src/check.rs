@@ -279,7 +279,7 @@ impl Run<'_> {
             other => command_of(state, other)?,
         };
         self.before = Some(self.open.state.clone());
-        let change = apply::apply(&mut self.open, self.host, &command)?;
+        let change = apply::by_hand(&mut self.open, self.host, &command)?;
         if change.structure || matches!(kind, StatementKind::Command(_)) {
             self.known = 0..0;
         }

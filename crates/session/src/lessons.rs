@@ -301,7 +301,7 @@ fn solve(
         })?;
         let state = open.state.clone();
         let command = command_of(&state, &kind)?;
-        last = apply::apply(open, host, &command)?;
+        last = apply::by_hand(open, host, &command)?;
     }
     Ok(last)
 }

@@ -6,7 +6,7 @@
 
 pub(crate) mod pane;
 
-use crate::apply;
+use crate::apply::{self, Mover};
 use crate::document::Open;
 use crate::host::Host;
 use crate::state::State;
@@ -69,7 +69,7 @@ pub(crate) fn class_of<'p>(state: &State, path: &'p Path) -> Option<&'p base::Na
 pub(crate) fn edit(
     open: &mut Open,
     host: &dyn Host,
-    command: &Command,
+    (command, mover): (&Command, Mover),
     targets: &[(Path, Literal)],
     class: &base::Name,
 ) -> Result<Change, Refusal> {
@@ -86,14 +86,11 @@ pub(crate) fn edit(
         (Path(steps.collect()), literal.clone())
     };
     let targets = targets.iter().map(of_trial).collect();
-    apply::apply(
-        &mut trial,
-        host,
-        &match command {
-            Command::Move(_) => Command::Move(targets),
-            _ => Command::Set(targets),
-        },
-    )?;
+    let command_of_trial = match command {
+        Command::Move(_) => Command::Move(targets),
+        _ => Command::Set(targets),
+    };
+    apply::apply_by(&mut trial, host, &command_of_trial, mover)?;
     let writes = given_since(&trial.state, start, class);
     let edits = lang::write_values(&before.lowered, &writes);
     let text = syntax::edit::apply(&before.text, &edits);

@@ -174,3 +174,27 @@ fn a_copy_of_what_is_joined_lies_as_its_model_does() {
     assert_eq!(desk.place("resistor.b.node.at"), (110.0, 60.0));
     assert_eq!(desk.place("b.b.node.at"), (90.0, 40.0));
 }
+
+#[test]
+fn copies_of_a_rectangle_are_as_large_as_it_is() {
+    const TEXT: &str =
+        "use geometry\nbox: Rectangle { corner = (10, 10)  width = 30  height = 40 }\n";
+    let mut desk = Desk::of(TEXT);
+    let clip = desk.session.copied(desk.id, &[at("box")], Relations::Own).expect("it stands alone");
+    let mut copies = Vec::new();
+    for aside in [1, 2] {
+        let (command, names) = desk.session.pasting(desk.id, &clip, aside).expect("it can stand");
+        desk.apply(&command).expect("it can be made");
+        copies.push((names[0].clone(), 10.0 + 20.0 * f64::from(aside)));
+    }
+    let (command, names) = copy(&desk, &["box"], Relations::All).expect("it can stand");
+    desk.apply(&command).expect("it can be made");
+    copies.push((names[0].clone(), 30.0));
+    for (name, lies) in copies {
+        let found = ["corner.x", "corner.y", "width", "height"];
+        let found = found.map(|part| desk.number(&format!("{name}.{part}")));
+        assert_eq!(found, [lies, lies, 30.0, 40.0], "{name}: {}", desk.text());
+    }
+    (0..3).for_each(|_| desk.undo());
+    assert_eq!(desk.text(), TEXT);
+}

@@ -179,3 +179,32 @@ fn several_that_are_deleted_are_undone_by_their_names() {
     desk.apply(&command).expect("they can go");
     assert_eq!(desk.undo_label().as_deref(), Some("delete a, b"));
 }
+
+#[test]
+fn an_edit_of_the_text_is_called_by_what_came_only_where_nothing_else_changed() {
+    let text = "use geometry\na: Circle { radius = 30 }\nb: Point = (1, 2)\nc: Point\n";
+    for (typed, label) in [
+        (format!("{text}p: Point\n"), "add p"),
+        (text.replace("b: Point", "p: Point\nb: Point") + "q: Point\n", "add p, q"),
+        (text.replace("radius = 30", "radius = 50") + "p: Point\n", "edit text"),
+        (text.replace("radius = 30", "radius = 305") + "p: Point\n", "edit text"),
+        (text.replace("c: Point\n", ""), "delete c"),
+        (text.replace("b: Point = (1, 2)\n", "").replace("30", "31"), "edit text"),
+        (text.replace("c: Point", "d: Point"), "edit text"),
+    ] {
+        let mut desk = Desk::of(text);
+        desk.type_text(&typed);
+        assert_eq!(desk.undo_label().as_deref(), Some(label), "{typed}");
+        desk.undo();
+        assert_eq!(desk.text(), text);
+    }
+}
+
+#[test]
+fn two_that_are_deleted_apart_are_undone_by_their_names() {
+    let mut desk = Desk::of("use geometry\na: Point\nb: Point\nc: Point\n");
+    let (command, _) =
+        desk.session.deletion(desk.id, &[at("a"), at("c")]).expect("nothing needs them");
+    desk.apply(&command).expect("they can go");
+    assert_eq!(desk.undo_label().as_deref(), Some("delete a, c"));
+}
