@@ -7,6 +7,7 @@ use crate::general;
 use crate::handles::{self, Keeping};
 use crate::host::Host;
 use crate::limits;
+use crate::session::thing_at;
 use crate::state::State;
 use crate::texts::Texts;
 use crate::view::{Change, DragState, Refusal};
@@ -413,15 +414,36 @@ impl Drag {
     pub(crate) fn start(&self) -> &[f64] {
         &self.start
     }
-    /// Returns the numbers of its handle, each with what it was at the press; none of what is computed.
-    pub(crate) fn handle_slots(&self) -> impl Iterator<Item = (SlotId, f64)> + '_ {
-        let handle = if self.computed.is_some() { 0 } else { 2 };
-        self.slots.iter().copied().zip(self.start.iter().copied()).take(handle)
+    /// Returns the path of what the hand holds now: what was pressed, or the handle that lies there instead of it.
+    pub(crate) fn held_path(&self) -> &Path {
+        self.instead().unwrap_or(&self.path)
     }
-    /// Returns the numbers of what is computed and dragged, as of the last event.
+    /// Returns the path of the handle that is held instead of the one that was pressed, if it is another.
+    fn instead(&self) -> Option<&Path> {
+        self.keeping.as_ref()?.instead()
+    }
+    /// Returns the numbers of the handle that is held, each with what it was at the press; none of what is computed.
+    pub(crate) fn handle_slots(&self, state: &State) -> Vec<(SlotId, f64)> {
+        let pressed = || if self.computed.is_some() { &[] } else { self.slots.as_slice() };
+        let slots: Vec<SlotId> = match self.instead() {
+            Some(path) => {
+                let place = thing_at(state, path).and_then(|t| coordinates(&state.structure, t));
+                place.into_iter().flatten().map(|(_, slot)| slot).collect()
+            }
+            None => pressed().to_vec(),
+        };
+        slots.into_iter().zip(self.start.iter().copied()).take(2).collect()
+    }
+    /// Returns the numbers of what is computed and held, as of the last event.
     pub(crate) fn computed_now(&self, state: &State) -> Option<Vec<(f64, Dimension)>> {
         let evaluator = state.evaluator(&self.values);
-        numbers_of(&evaluator.evaluate(self.computed.as_ref()?, DOCUMENT).ok()?)
+        let answer = match (self.instead(), &self.computed) {
+            (Some(path), _) if thing_at(state, path).is_some() => return None,
+            (Some(path), _) => evaluator.at(path),
+            (None, Some(term)) => evaluator.evaluate(term, DOCUMENT),
+            (None, None) => return None,
+        };
+        numbers_of(&answer.ok()?)
     }
     /// Returns the slots that it depends on and cannot move.
     pub(crate) fn held(&self) -> Vec<SlotId> {

@@ -9,7 +9,8 @@ use crate::by_hand::class_at;
 use crate::drag::{coordinates, numbers_of};
 use crate::session::thing_at;
 use crate::state::State;
-use kernel::{DOCUMENT, Path, SlotId, Step, Term, Values};
+use eval::Answer;
+use kernel::{DOCUMENT, Path, SlotId, Step, Term, ThingId, Values};
 use plan::{EditReport, Host, Planner, Press, Target};
 use std::collections::BTreeSet;
 
@@ -102,7 +103,8 @@ fn handles_of(state: &State, whole: &Path) -> impl Iterator<Item = Way> {
     let handles = class.map(|class| document.handles(class)).unwrap_or_default();
     let way = |handle: &kernel::Handle| {
         let dragged = whole.join(&handle.place);
-        let keeps: Vec<Path> = handle.keeps.iter().map(|kept| whole.join(kept)).collect();
+        let kept = handle.keeps.iter().map(|kept| whole.join(kept));
+        let keeps: Vec<Path> = kept.flat_map(|kept| elements(state, kept)).collect();
         let side = match keeps.as_slice() {
             [kept] => side_of(state, &state.values, (&dragged, kept)).unwrap_or_default(),
             _ => Vec::new(),
@@ -110,6 +112,15 @@ fn handles_of(state: &State, whole: &Path) -> impl Iterator<Item = Way> {
         Way { dragged, keeps, side }
     };
     handles.into_iter().map(way).collect::<Vec<_>>().into_iter()
+}
+
+/// Returns the paths of the elements of a list; of anything else, its own.
+fn elements(state: &State, path: Path) -> Vec<Path> {
+    let evaluator = state.evaluator(&state.values);
+    match evaluator.at(&path) {
+        Ok(Answer::List(all)) => (0..all.len()).map(|i| path.then(Step::Index(i as u32))).collect(),
+        Ok(_) | Err(_) => vec![path],
+    }
 }
 
 /// Returns the numbers of the place at a path.
@@ -153,12 +164,14 @@ impl Keeping {
         let wished: Vec<f64> = to.iter().chain(&self.stays).copied().collect();
         let report = planner.drag(state.model(), press, values, &wished, host);
         let Some(across) = self.other_side(state, values) else { return report };
+        let turned = report.reached.then(|| values.clone());
         let before = self.present;
         self.present = across;
         if let Some(mut other) = self.press(state, planner) {
             let mut there = self.start.clone();
             let found = planner.drag(state.model(), &mut other, &mut there, &wished, host);
-            if found.reached && self.other_side(state, &there).is_none() {
+            let leads = turned.is_some_and(|turned| self.leads_others(state, &turned, &there));
+            if found.reached && !leads && self.other_side(state, &there).is_none() {
                 (*press, *values) = (other, there);
                 return found;
             }
@@ -180,6 +193,29 @@ impl Keeping {
         self.ways.iter().position(fits)
     }
 
+    /// Returns true where a place that is no part of the thing alone would lie elsewhere than if the thing were turned
+    /// inside out: what is joined to a corner neither lets go of the hand nor goes along with it.
+    fn leads_others(&self, state: &State, turned: &Values, there: &Values) -> bool {
+        let own: BTreeSet<SlotId> = self.slots(state).into_iter().collect();
+        let structure = &state.structure;
+        let is_within = |thing: ThingId| {
+            let path = structure.path(&state.lowered.document, thing);
+            self.wholes.iter().any(|whole| path.0.starts_with(&whole.0))
+        };
+        let is_alone = |slot: SlotId, place: ThingId| {
+            own.contains(&slot) && structure.merged_with(place).into_iter().all(is_within)
+        };
+        turned.changed(there).any(|slot| {
+            let place = structure.slots[slot].place.filter(|&place| !is_alone(slot, place));
+            place.is_some() && !base::number::close(turned.numbers[slot], there.numbers[slot])
+        })
+    }
+
+    /// Returns the path of the handle that is held, if it is not the one that was pressed.
+    pub(crate) fn instead(&self) -> Option<&Path> {
+        (self.present != 0).then(|| &self.ways[self.present].dragged)
+    }
+
     /// Returns the numbers of the things whose handle it is.
     pub(crate) fn slots(&self, state: &State) -> Vec<SlotId> {
         let things = self.wholes.iter().filter_map(|whole| thing_at(state, whole));
@@ -190,7 +226,7 @@ impl Keeping {
 
 /// What an edit can hold.
 enum Held {
-    Thing(kernel::ThingId),
+    Thing(ThingId),
     Term(Term),
 }
 

@@ -82,7 +82,7 @@ pub(crate) fn seen_in_words(limit: &Limit) -> String {
 /// Says where a drag has stopped short of the pointer: of a number, the limit; of a place, its reach from
 /// an anchored place where that is what ends, else how far it is from the pointer.
 pub(crate) fn of_drag(state: &State, drag: &Drag) -> (Limit, String) {
-    let path = drag.path.to_string();
+    let path = drag.held_path().to_string();
     if let Some(now) = drag.computed_now(state) {
         let show = |(&(x, dimension), &from): (&(f64, Dimension), &f64)| {
             let document = &state.lowered.document;
@@ -95,11 +95,12 @@ pub(crate) fn of_drag(state: &State, drag: &Drag) -> (Limit, String) {
         return (limit, words);
     }
     let shown: Vec<String> = drag
-        .handle_slots()
+        .handle_slots(state)
+        .into_iter()
         .map(|(slot, start)| show(state, slot, drag.values.numbers[slot], start))
         .collect();
     let limit = Limit { path, value: tuple(&shown) };
-    let Some((x, at)) = place_of(drag) else {
+    let Some((x, at)) = place_of(state, drag) else {
         let words = in_words(&limit);
         return (limit, words);
     };
@@ -113,7 +114,7 @@ pub(crate) fn of_drag(state: &State, drag: &Drag) -> (Limit, String) {
 /// Says how far a place that is dragged reaches from an anchored place, where it lies straight between that and the
 /// pointer.
 pub(crate) fn reach(state: &State, drag: &Drag) -> Option<String> {
-    let (x, at) = place_of(drag)?;
+    let (x, at) = place_of(state, drag)?;
     let short = away(at, drag.wish);
     let place = |length: f64, from: f64| show(state, x, length, from);
     anchored_places(state, drag).find_map(|(thing, from)| {
@@ -130,8 +131,8 @@ pub(crate) fn reach(state: &State, drag: &Drag) -> Option<String> {
 }
 
 /// Returns where a place is that is dragged, with the slot of its first coordinate.
-fn place_of(drag: &Drag) -> Option<(SlotId, [f64; 2])> {
-    let slots: Vec<SlotId> = drag.handle_slots().map(|(slot, _)| slot).collect();
+fn place_of(state: &State, drag: &Drag) -> Option<(SlotId, [f64; 2])> {
+    let slots: Vec<SlotId> = drag.handle_slots(state).into_iter().map(|(slot, _)| slot).collect();
     let &[x, y] = slots.as_slice() else { return None };
     Some((x, [drag.values.numbers[x], drag.values.numbers[y]]))
 }

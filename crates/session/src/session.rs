@@ -260,10 +260,19 @@ impl Session {
     pub fn join(&self, id: DocumentId, paths: &[Path]) -> Result<Command, Refusal> {
         joining::joined(&self.document(id).state, paths).map(Command::Merge)
     }
+    fn held_path(&self, id: DocumentId) -> Option<Path> {
+        self.document(id).drag.as_ref().map(|drag| drag.held_path().clone())
+    }
+    /// Returns what was pressed and the handle that a hand holds instead of it since it was dragged across what stays;
+    /// nothing where that is the same.
+    pub fn held_instead(&self, id: DocumentId) -> Option<(Path, Path)> {
+        let drag = self.document(id).drag.as_ref()?;
+        let (pressed, held) = (drag.path.clone(), drag.held_path().clone());
+        (pressed != held).then_some((pressed, held))
+    }
     /// Returns what the thing that is dragged would be joined with if it were dropped on a path.
     pub fn joint(&self, id: DocumentId, target: &Path) -> Option<Path> {
-        let drag = self.document(id).drag.as_ref()?;
-        let paths = [target.clone(), drag.path.clone()];
+        let paths = [target.clone(), self.held_path(id)?];
         joining::joined(&self.document(id).state, &paths).ok()?.into_iter().next()
     }
     /// Ends a drag on something that it joins: both are one undo step.
@@ -271,8 +280,8 @@ impl Session {
     /// # Errors
     /// Why it could not be kept or joined; then all is as it was before the press.
     pub fn release_onto(&mut self, id: DocumentId, target: &Path) -> Result<Change, Refusal> {
-        let Some(drag) = &self.document(id).drag else { return Ok(Change::default()) };
-        let paths = [target.clone(), drag.path.clone()];
+        let Some(held) = self.held_path(id) else { return Ok(Change::default()) };
+        let paths = [target.clone(), held];
         let command = match self.join(id, &paths) {
             Ok(command) => command,
             Err(refusal) => {

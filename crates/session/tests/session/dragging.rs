@@ -318,3 +318,137 @@ fn a_corner_where_two_rectangles_meet_resizes_both() {
     let sizes = ["a.width", "a.height", "b.width", "b.height"].map(|path| desk.number(path));
     assert_eq!(sizes, [35.0, 35.0, -15.0, -15.0]);
 }
+
+const BOX: &str =
+    "use geometry\nbox: Rectangle { corner = (10.1, 10.2)  width = 30.3  height = 40.7 }\n";
+
+/// Where a rectangle is and how large.
+fn sizes(desk: &Desk, name: &str) -> [f64; 4] {
+    ["corner.x", "corner.y", "width", "height"].map(|part| desk.number(&format!("{name}.{part}")))
+}
+
+#[test]
+fn a_corner_that_is_let_go_by_escape_was_never_dragged() {
+    for path in ["box.corner", "box.corner2", "box.far", "box.corner4"] {
+        let mut desk = Desk::of(BOX);
+        let before = desk.moment();
+        desk.hold(path, &[(60.0, 90.0), (-20.0, 25.0), (-30.0, -40.0)]);
+        desk.session.cancel(desk.id);
+        assert_eq!(desk.moment(), before, "{path}");
+        assert_eq!(desk.undo_label(), None);
+        desk.session.release(desk.id).expect("there is nothing to let go");
+        assert_eq!(desk.moment(), before, "{path}");
+    }
+}
+
+#[test]
+fn a_drag_across_is_undone_and_done_again_to_the_bit() {
+    for path in ["box.corner", "box.corner2", "box.far", "box.corner4"] {
+        let mut desk = Desk::of(BOX);
+        let before = desk.moment();
+        desk.drag(path, &[(60.0, 90.0), (-20.3, 25.7), (90.1, -40.9), (-33.3, -70.1)]);
+        let after = desk.moment();
+        assert!(desk.number("box.width") > 0.0 && desk.number("box.height") > 0.0, "{path}");
+        desk.undo();
+        assert_eq!(desk.moment(), before, "{path}");
+        desk.redo();
+        assert_eq!(desk.moment(), after, "{path}");
+    }
+}
+
+#[test]
+fn what_is_dragged_across_is_held_and_dropped_by_the_corner_that_lies_there() {
+    let mut desk = Desk::of(
+        "use geometry\nbox: Rectangle { corner = (10, 10)  width = 30  height = 40 }\np: Point = (-20, -10)\n",
+    );
+    desk.hold("box.far", &[(60.0, 90.0)]);
+    assert_eq!(desk.session.held_instead(desk.id), None);
+    // what is computed joins nothing
+    assert_eq!(desk.session.joint(desk.id, &at("p")), None);
+    desk.session.drag(desk.id, (-20.0, -10.0));
+    let instead = Some((at("box.far"), at("box.corner")));
+    assert_eq!(desk.session.held_instead(desk.id), instead);
+    assert_eq!(desk.session.joint(desk.id, &at("p")), Some(at("p")));
+    desk.session.release_onto(desk.id, &at("p")).expect("they can be one");
+    assert!(desk.text().contains("merge p = box.corner"), "{}", desk.text());
+    assert_eq!(sizes(&desk, "box"), [-20.0, -10.0, 30.0, 20.0]);
+}
+
+#[test]
+fn a_corner_dragged_across_stops_where_that_corner_stops() {
+    let mut desk = Desk::of(
+        "use geometry\nbox: Rectangle { corner = (10, 10)  width = 30  height = 40 }\nconstraint box.corner.x >= -20\n",
+    );
+    let came = desk.hold("box.far", &[(-10.0, 0.0), (-50.0, 0.0)]);
+    assert!(!came.reached);
+    let limit = came.limit.expect("it stops");
+    assert_eq!((limit.path.as_str(), limit.value.as_str()), ("box.corner", "(-20, 0)"));
+    let message = came.message.unwrap_or_default();
+    assert!(message.starts_with("(-20, 0) is as far as it goes, 30 short"), "{message}");
+}
+
+#[test]
+fn a_rectangle_dragged_across_what_it_is_joined_to_leaves_that_where_it_is() {
+    let mut desk = Desk::of(
+        "use geometry\na: Rectangle { corner = (0, 0)  width = 30  height = 40 }\n\
+         b: Rectangle { width = 20  height = 10 }\nmerge a.corner = b.corner\n\
+         l: Line { p1 = (100, 100)  p2 = (30, 40) }\nconstraint l.p2 = a.far\n",
+    );
+    let before = desk.moment();
+    desk.drag("a.far", &[(-5.0, -15.0)]);
+    let of_b = ["a.corner.x", "a.corner.y", "b.width", "b.height"].map(|path| desk.number(path));
+    assert_eq!(of_b, [0.0, 0.0, 20.0, 10.0]);
+    assert_eq!(desk.place("a.far"), (-5.0, -15.0));
+    assert_eq!(desk.place("l.p2"), (-5.0, -15.0));
+    desk.undo();
+    assert_eq!(desk.moment(), before);
+}
+
+#[test]
+fn an_anchored_corner_stays_while_the_others_resize() {
+    let mut desk = Desk::of(&format!("{BOX}anchor box.corner\n"));
+    let before = desk.moment();
+    desk.session.press(desk.id, &at("box.corner")).expect_err("it is anchored");
+    desk.drag("box.far", &[(60.1, 90.2)]);
+    assert_eq!(sizes(&desk, "box"), [10.1, 10.2, 50.0, 80.0]);
+    desk.drag("box.far", &[(-9.9, 90.2)]);
+    assert_eq!(sizes(&desk, "box"), [10.1, 10.2, -20.0, 80.0]);
+    desk.undo();
+    desk.undo();
+    assert_eq!(desk.moment(), before);
+}
+
+#[test]
+fn a_rectangle_in_a_pane_is_resized_by_its_corner_and_turned_never() {
+    const TEXT: &str = "use geometry\nclass Plate {\n    rim: Rectangle { corner = (10, 10)  width = 30  height = 40 }\n}\na: Plate\n";
+    let mut desk = Desk::of(TEXT);
+    let pane = desk.session.open_prototype(desk.id, "Plate").expect("it is declared here");
+    let rim = desk
+        .session
+        .picture(pane)
+        .grips
+        .iter()
+        .find_map(|grip| grip.path.strip_suffix(".far").map(String::from));
+    let rim = rim.expect("its corner has a grip");
+    desk.session.press(pane, &at(&format!("{rim}.far"))).expect("it can be dragged");
+    assert!(desk.session.drag(pane, (60.0, 90.0)).reached);
+    assert!(desk.session.drag(pane, (-20.0, -10.0)).reached);
+    desk.session.release(pane).expect("it is kept");
+    assert_eq!(sizes(&desk, "a.rim"), [-20.0, -10.0, 30.0, 20.0]);
+    desk.undo();
+    assert_eq!(desk.text(), TEXT);
+}
+
+#[test]
+fn a_list_that_a_handle_keeps_stays_place_by_place() {
+    let mut desk = Desk::of(
+        "use geometry\nclass Fan {\n    hub, tip: Point\n    half: Length = 10\n    \
+         ends: List of Point => [Point(hub.x + half, tip.y), Point(hub.x + half, tip.y + 5)]\n    \
+         handle hub keeps ends\n}\nfan: Fan { hub = (0, 0)  tip = (0, 30) }\n",
+    );
+    assert_eq!(desk.wrong(), []);
+    desk.drag("fan.hub", &[(4.0, 3.0)]);
+    assert_eq!(desk.place("fan.hub"), (4.0, 3.0));
+    assert_eq!(desk.number("fan.half"), 6.0);
+    assert_eq!(desk.place("fan.ends[1]"), (10.0, 35.0));
+}

@@ -101,7 +101,18 @@ impl Lab {
     /// Ends a drag: one step for the undo list.
     pub fn release(self) {
         self.dragging.set(None);
+        self.select_held();
         self.settle(self.tell(Session::release));
+    }
+
+    /// Selects the handle that is held since another was dragged across what stays, where that one was selected.
+    fn select_held(self) {
+        let instead = self.id().and_then(|id| self.ask(|session| session.held_instead(id)));
+        let Some((pressed, held)) = instead else { return };
+        let pressed = pressed.to_string();
+        if self.selected.with_untracked(|selected| selected.as_ref() == Some(&pressed)) {
+            self.select(Some(held.to_string()));
+        }
     }
 
     /// Looks whether what is dragged, brought to a place, would be joined with one of some paths, nearest first.
@@ -123,6 +134,7 @@ impl Lab {
     pub fn release_onto(self, target: &Path) {
         self.dragging.set(None);
         self.dropping.set(None);
+        self.select_held();
         self.settle(self.tell(|session, id| session.release_onto(id, target)));
     }
 
