@@ -1,6 +1,6 @@
 //! Commands applied: each gives the next state, or a refusal that changed nothing.
 
-use crate::difference::difference;
+use crate::difference::{difference, says_all_of};
 use crate::document::{Direction, Open};
 use crate::drag::{self, coordinates};
 use crate::following;
@@ -23,7 +23,6 @@ use kernel::{
 use plan::{EditKind, LimitKind, NotDecided, Planner, RefusalReason, Target};
 use std::collections::BTreeSet;
 use std::sync::Arc;
-use syntax::ast::AstNode;
 
 /// Applies a command to a document.
 ///
@@ -481,17 +480,6 @@ fn label_of_text(before: &State, after: &State) -> String {
         }
         _ => "edit text".into(),
     }
-}
-
-/// Returns true for a text with every member of another, in the same order. Cost: linear in their lengths.
-fn says_all_of(text: &str, other: &str) -> bool {
-    let members = |text: &str| -> Vec<String> {
-        let file = syntax::parse(base::FileId(0), text).file();
-        file.members().map(|member| member.syntax().text().to_string().trim().into()).collect()
-    };
-    let said = members(text);
-    let mut said = said.iter();
-    members(other).iter().all(|member| said.any(|one| one == member))
 }
 
 fn travel(open: &mut Open, host: &dyn Host, direction: Direction) -> Result<Change, Refusal> {

@@ -6,6 +6,7 @@
 //! **Source:** Myers, "An O(ND) Difference Algorithm and Its Variations", Algorithmica 1986.
 
 use crate::view::TextChange;
+use syntax::ast::AstNode;
 
 /// Texts that differ in more lines than this are one stretch: nobody follows so many with the eye.
 const MOST_LINES: usize = 200;
@@ -36,6 +37,17 @@ pub(crate) fn difference(before: &str, after: &str) -> Vec<TextChange> {
         (i, j) = (next_i + 1, next_j + 1);
     }
     changes
+}
+
+/// Returns true for a text with every member of another, in the same order. Cost: linear in their lengths.
+pub(crate) fn says_all_of(text: &str, other: &str) -> bool {
+    let members = |text: &str| -> Vec<String> {
+        let file = syntax::parse(base::FileId(0), text).file();
+        file.members().map(|member| member.syntax().text().to_string().trim().into()).collect()
+    };
+    let said = members(text);
+    let mut said = said.iter();
+    members(other).iter().all(|member| said.any(|one| one == member))
 }
 
 /// Returns how many bytes two texts have in common in whole lines, at the beginning and at the end.
