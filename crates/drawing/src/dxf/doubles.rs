@@ -46,8 +46,8 @@ pub(super) fn without_doubles<'e>(
         let near = edges[from..].iter().take_while(|(_, e)| e.middle.x <= own.middle.x + reach);
         { near }.any(|(way, edge)| *way == own_way && edge.is_one_with(&own, reach))
     };
-    let all = elements.iter().zip(&ways);
-    all.filter(|(element, way)| !is_double(element, way)).map(|(element, _)| *element).collect()
+    let all = elements.into_iter().zip(&ways);
+    all.filter(|(element, way)| !is_double(element, way)).map(|(element, _)| element).collect()
 }
 
 impl Edge {
