@@ -19,15 +19,16 @@ pub fn is_unit_of_sheet(unit: &str) -> bool {
 }
 
 impl Lowered {
-    /// Returns true where the text states a quantity that is made of lengths: `2 m`, `9.81 m/s^2`, `4 N`.
+    /// Returns true where the text, or a file that it uses, states a quantity that is made of lengths: `2 m`,
+    /// `9.81 m/s^2`, `4 N`.
     ///
-    /// Cost: a look at every node of the text.
+    /// Cost: a look at every node of them.
     pub fn measures_lengths(&self) -> bool {
-        let stated = crate::scale::stated(&self.effective_parse);
-        stated
-            .iter()
-            .filter_map(crate::scale::quantity)
-            .any(|(_, Dimension([length, ..]))| length != 0)
+        let used = self.files.iter().filter(|(id, _)| *id != OWN).map(|(_, file)| &file.parse);
+        let all = std::iter::once(&self.effective_parse).chain(used);
+        let stated: Vec<NumberExpr> = all.flat_map(crate::scale::stated).collect();
+        let mut quantities = stated.iter().filter_map(crate::scale::quantity);
+        quantities.any(|(_, Dimension([length, ..]))| length != 0)
     }
 
     /// Returns a warning where the text gives bare lengths, others with a unit that is not the metre, and names no

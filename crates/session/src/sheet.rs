@@ -13,7 +13,7 @@ use crate::view::{Change, DocumentId, Refusal};
 use crate::{apply, by_hand, words};
 use base::{FileId, Span};
 use kernel::{Command, Literal, Path};
-use syntax::SyntaxKind;
+use syntax::{SyntaxKind, SyntaxToken};
 
 /// Returns the unit that a sheet takes over from what is written by hand; none where the document names one, or has
 /// quantities already to which a bare length is a metre.
@@ -71,17 +71,9 @@ fn first_unit(text: &str) -> Option<String> {
         return None;
     }
     let tree = parse.syntax();
-    let tokens = tree.descendants_with_tokens().filter_map(|element| element.into_token());
-    let mut numbers = tokens.filter(|token| token.kind() == SyntaxKind::Number);
-    numbers.find_map(|number| {
-        let behind = text.get(syntax::span_of_token(&number).end as usize..)?;
-        let behind = behind.trim_start_matches(' ');
-        let (unit, next) = behind.split_at(syntax::units::unit_length(behind));
-        // `let far = d > 5 in if far …`: no inch where an operand follows
-        let begins = |c: char| c.is_alphanumeric() || "_([{\"-".contains(c);
-        let is_word = unit == "in" && next.trim_start().starts_with(begins);
-        (!is_word && lang::is_unit_of_sheet(unit)).then(|| unit.to_string())
-    })
+    let tokens = std::iter::successors(tree.first_token(), SyntaxToken::next_token);
+    let mut units = tokens.filter(|token| token.kind() == SyntaxKind::Unit);
+    units.find(|unit| lang::is_unit_of_sheet(unit.text())).map(|unit| unit.text().to_string())
 }
 
 /// Returns the lines of a text that another one lacks, from the first to the last of them.
@@ -136,6 +128,8 @@ mod tests {
         assert_eq!(unit("12, 30 mm<45 deg").as_deref(), Some("mm"));
         assert_eq!(unit("2 m"), None);
         assert_eq!(unit("let far = d > 5 in if far then 1 else 2"), None);
+        assert_eq!(unit("constraint a.length = 3 in - gap").as_deref(), Some("in"));
+        assert_eq!(unit("r: Length = 3 in\n    x: Length").as_deref(), Some("in"));
         assert_eq!(unit("30 mm^2"), None);
         assert_eq!(unit("t: Text = \"Pipe 5 mm\""), None);
         assert_eq!(unit("unit in\nx: Length = 3 mm"), None);

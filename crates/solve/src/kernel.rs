@@ -202,6 +202,16 @@ impl Kernel {
     pub(crate) fn has_pieces(&self) -> bool {
         self.entries.iter().any(|entry| entry.branches)
     }
+    /// Returns true if a derivative that comes to nothing may be that of an exponential, which is nowhere zero: its
+    /// number is too small to be written.
+    pub(crate) fn may_underflow(&self) -> bool {
+        let grows = |node| match node {
+            Node::Unary(Unary::Exp | Unary::Sinh | Unary::Cosh | Unary::Tanh, _) => true,
+            Node::Binary(Binary::Pow, _, exponent) => self.arena.as_constant(exponent).is_none(),
+            _ => false,
+        };
+        self.arena.nodes().any(grows)
+    }
     /// Compiles an equation whose variables are `Var(0)` to `Var(arity - 1)`; `sides` are its own.
     pub(crate) fn compile(
         mut arena: Arena,
@@ -346,7 +356,8 @@ impl Kernel {
                 }
             }
             let of = |(entry, shows): (&Entry, Option<bool>)| {
-                (shows != Some(false) || entry.branches).then_some(entry.argument)
+                let may_be_any = || entry.branches || self.may_underflow();
+                (shows != Some(false) || may_be_any()).then_some(entry.argument)
             };
             self.entries.iter().zip(shows).filter_map(of).collect()
         };

@@ -491,8 +491,9 @@ fn set_columns(system: &System, classes: &Classes, rows: &mut Rows, slopes: &[f6
                     }
                     let slot = mentions[entry.argument as usize];
                     curved = curved || entry.depends.iter().any(|&a| may[a as usize]);
-                    let by_branch = value == 0.0 && entry.branches;
-                    let value = if value.is_finite() && !by_branch {
+                    // a choice or an exponential that comes to nothing here may be anything elsewhere
+                    let may_be_any = value == 0.0 && (entry.branches || kernel.may_underflow());
+                    let value = if value.is_finite() && !may_be_any {
                         value
                     } else {
                         generic_coefficient(next, slot)

@@ -77,8 +77,11 @@ fn CardView(lab: Lab, listed: Listed) -> impl IntoView {
     let card = RwSignal::new(None::<Card>);
     let lively = RwSignal::new(false);
     let (path, title) = (listed.path.clone(), listed.title.clone());
+    // who has left the gallery does not wait for its cards
+    let waits = StoredValue::new(());
+    let goes_on = move || waits.try_get_value().is_some();
     leptos::task::spawn_local(async move {
-        if let Ok(opened) = lab.load(&path).await {
+        if let Ok(opened) = lab.load_while(&path, goes_on).await {
             let doc = lab.ask(|session| session.preamble(opened.id));
             card.try_set(Some(Card {
                 id: opened.id,

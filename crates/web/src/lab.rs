@@ -201,6 +201,8 @@ pub struct Lab {
     pub attachers: RwSignal<Option<Vec<String>>>,
     /// How many stages of a long opening are done, while there is one.
     pub opening: RwSignal<Option<usize>>,
+    /// How often long openings were given up.
+    pub given_up: StoredValue<usize>,
     /// The class whose prototype is shown instead of the document.
     pub prototype: RwSignal<Option<Shown>>,
     /// What a person is asked to type.
@@ -341,6 +343,7 @@ impl Lab {
             menu: RwSignal::new(None),
             attachers: RwSignal::new(None),
             opening: RwSignal::new(None),
+            given_up: StoredValue::new(0),
             prototype: RwSignal::new(None),
             wish: RwSignal::new(None),
             grid: RwSignal::new(theme::keep(GRID_KEY).is_none_or(|kept| kept != "off")),

@@ -98,7 +98,7 @@ fn Opening(lab: Lab) -> impl IntoView {
                 <p class="words">{words::OPENING}
                     <progress aria-label=words::OPENING max=session::Opening::STAGES.to_string()
                         value=move || lab.opening.get().unwrap_or_default().to_string()></progress></p>
-                <button on:click=move |_| lab.opening.set(None)>{words::CANCEL}</button>
+                <button on:click=move |_| lab.give_openings_up()>{words::CANCEL}</button>
             </div>
         </Show>
     }

@@ -236,6 +236,17 @@ pub(crate) fn pasting(
         base = format!("{}\n{own}", brought.join("\n"));
         trial = with(&base);
     }
+    let unit = clip.header.iter().find(|said| said.starts_with("unit "));
+    let lowered = &open.state.lowered;
+    if let Some(unit) = unit.filter(|unit| !brought.contains(unit))
+        && lowered.document.unit.is_none()
+        && !lowered.measures_lengths()
+    {
+        // the copies' bare lengths stay what they are, and those of the sheet are of no unit yet
+        brought.insert(0, unit.clone());
+        base = format!("{}\n{own}", brought.join("\n"));
+        trial = with(&base);
+    }
     if errors(&trial).len() > errors(&before).len() {
         let first = errors(&trial).pop().unwrap_or_default();
         let message = match clip.relations {

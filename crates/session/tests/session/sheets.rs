@@ -1,8 +1,8 @@
 //! The unit of a sheet: taken over from the first length that a hand types with one.
 
-use crate::desk::{Desk, edited};
+use crate::desk::{Desk, at, edited};
 use session::drafting::view::NewParameter;
-use session::{Command, Path};
+use session::{Command, Path, Relations};
 
 const LINE: &str = "use geometry\nline: Line { p1 = (-200, 107)  p2 = (100, 7) }\n";
 
@@ -90,4 +90,26 @@ fn what_is_refused_leaves_the_sheet_without_a_unit() {
     desk.type_in("line.direction", "30 mm").expect_err("that is no angle");
     assert_eq!(desk.moment(), before);
     assert!(desk.session.history(desk.id).0.is_empty());
+}
+
+#[test]
+fn a_sheet_stays_in_metres_where_a_library_has_some() {
+    let text = "use geometry\nuse trusses\nline: Line { p1 = (-200, 107)  p2 = (100, 7) }\n";
+    let mut desk = Desk::of(text);
+    let change = desk.type_in("line.p2.x", "30 mm").expect("it is free");
+    assert_eq!(change.unit, None);
+    assert!(!desk.text().contains("unit mm"));
+}
+
+#[test]
+fn copies_bring_the_unit_of_their_sheet() {
+    let source =
+        Desk::of("use geometry\nunit mm\nring: Circle { center = (0, 0)  radius = 5 cm }\n");
+    let clip = source.session.copied(source.id, &[at("ring")], Relations::Own);
+    let mut desk = Desk::of("use geometry\n");
+    let clip = clip.expect("it is a thing");
+    let (command, _) = desk.session.pasting(desk.id, &clip, 1).expect("it is known here");
+    desk.apply(&command).expect("it stands");
+    assert!(desk.text().contains("unit mm"), "{}", desk.text());
+    assert_eq!(shown(&desk, "ring.radius"), "5 cm");
 }

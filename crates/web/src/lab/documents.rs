@@ -49,20 +49,47 @@ impl Lab {
     /// # Errors
     /// One sentence, where the server does not give it.
     pub async fn load(self, path: &str) -> Result<Opened, String> {
+        self.load_while(path, || true).await
+    }
+
+    /// The same, as long as somebody waits for it.
+    ///
+    /// # Errors
+    /// One sentence, where the server does not give it or nobody waits any longer.
+    pub async fn load_while(
+        self,
+        path: &str,
+        goes_on: impl Fn() -> bool,
+    ) -> Result<Opened, String> {
         if let Some(opened) = self.opened.with_value(|all| all.get(path).cloned())
             && (opened.dirty || stands(path).await.is_ok_and(|s| s.version == opened.version))
         {
             return Ok(opened);
         }
         let stored = stands(path).await?;
-        self.take_up(path, stored).await
+        self.take_up_while(path, stored, goes_on).await
+    }
+
+    /// Gives up what is long to open and not open yet.
+    pub fn give_openings_up(self) {
+        self.given_up.update_value(|times| *times += 1);
+        self.opening.set(None);
     }
 
     /// Opens a text in the session under a path, with the files that it uses.
     pub(super) async fn take_up(self, path: &str, stored: Stored) -> Result<Opened, String> {
-        let mut id = self.open(path, &stored.text).await?;
+        self.take_up_while(path, stored, || true).await
+    }
+
+    async fn take_up_while(
+        self,
+        path: &str,
+        stored: Stored,
+        goes_on: impl Fn() -> bool,
+    ) -> Result<Opened, String> {
+        let mut id = self.open(path, &stored.text, &goes_on).await?;
         while self.fetch_used().await {
-            id = self.open(path, &stored.text).await?;
+            id = self.open(path, &stored.text, &goes_on).await?;
         }
         let title = self.session.with_value(|session| session.title(id));
         let opened = Opened {
@@ -81,21 +108,32 @@ impl Lab {
 
     /// Opens a text stage by stage; the page has its turn between. Of a long one it shows how far it is, and it can be
     /// given up.
-    async fn open(self, path: &str, text: &str) -> Result<DocumentId, String> {
+    async fn open(
+        self,
+        path: &str,
+        text: &str,
+        goes_on: &impl Fn() -> bool,
+    ) -> Result<DocumentId, String> {
         let is_long = text.len() > LONG;
+        let before = self.given_up.get_value();
         let mut opening = self.ask(|session| session.begin_opening(path, text));
         while !opening.is_over() {
             if is_long {
                 self.opening.set(Some(opening.done()));
                 js::painted().await;
-                if self.opening.with_untracked(Option::is_none) {
-                    return Err(String::from(words::OPENING_GIVEN_UP));
+            }
+            if !goes_on() || is_long && self.given_up.get_value() != before {
+                if is_long {
+                    self.opening.set(None);
                 }
+                return Err(String::from(words::OPENING_GIVEN_UP));
             }
             opening = self.ask(|session| session.go_on_opening(opening));
             js::pause().await;
         }
-        self.opening.set(None);
+        if is_long {
+            self.opening.set(None);
+        }
         Ok(self.order(|session| session.end_opening(opening)))
     }
 
