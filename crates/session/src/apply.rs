@@ -468,7 +468,7 @@ fn label_of_text(before: &State, after: &State) -> String {
         });
         let known: BTreeSet<&base::Name> = others.iter().map(|part| &part.name).collect();
         let names = own.iter().map(|part| &part.name);
-        names.filter(|name| !known.contains(name)).map(|name| name.to_string()).collect()
+        names.filter(|name| !known.contains(name)).map(ToString::to_string).collect()
     }
     let (gone, come) = (beyond(before, after), beyond(after, before));
     match (gone.as_slice(), come.as_slice()) {
