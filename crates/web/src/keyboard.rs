@@ -41,10 +41,9 @@ pub fn rest_at(selector: &'static str) {
 /// The buttons of a list, and the heads of its shelves, in order: those that no shut shelf hides.
 fn buttons(list: &str) -> Vec<HtmlElement> {
     let Ok(Some(list)) = document().query_selector(list) else { return Vec::new() };
-    let found = list.get_elements_by_tag_name("*");
+    let Ok(found) = list.query_selector_all("button, summary") else { return Vec::new() };
     let all = (0..found.length()).filter_map(|i| found.item(i)?.dyn_into::<HtmlElement>().ok());
-    let is_button = |e: &HtmlElement| matches!(&*e.tag_name(), "BUTTON" | "SUMMARY");
-    all.filter(|e| is_button(e) && !is_shut_away(e)).collect()
+    all.filter(|e| !is_shut_away(e)).collect()
 }
 
 /// Whether a shut shelf hides it, rather than is its head. A button that is hidden otherwise is a stop as the others.
@@ -64,7 +63,9 @@ pub fn one_stop(list: &'static str) {
         let held = holder();
         let is_held =
             |b: &HtmlElement| held.as_ref().is_some_and(|held| b.is_same_node(Some(held)));
-        let was = || all.iter().position(|button| button.tab_index() == 0);
+        // a new button has no such word of its own, and is a stop all the same
+        let is_stop = |b: &HtmlElement| b.get_attribute("tabindex").as_deref() == Some("0");
+        let was = || all.iter().position(is_stop);
         let is_chosen = |b: &HtmlElement| b.matches("[aria-selected='true']").unwrap_or(false);
         let chosen = || all.iter().position(is_chosen);
         let at = all.iter().position(is_held).or_else(chosen).or_else(was).unwrap_or(0);
