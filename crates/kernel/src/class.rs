@@ -339,6 +339,23 @@ pub struct Constraint {
     pub origin: OriginId,
 }
 
+impl Constraint {
+    /// Returns a required constraint that says this and nothing else: without a name, its methods derived.
+    pub fn required(rule: Term, origin: OriginId) -> Self {
+        Self {
+            name: None,
+            doc: Box::default(),
+            rule,
+            strength: Strength::Required,
+            methods: Vec::new(),
+            derived: true,
+            reads: Vec::new(),
+            within: None,
+            origin,
+        }
+    }
+}
+
 /// A part that is given an expression of other parts: `size = 2 * width`.
 ///
 /// It is a constraint that holds where nothing nearer gives the part a value, and no given value.

@@ -10,7 +10,7 @@ use crate::scope::Scope;
 use base::{Diagnostic, Name, Place};
 use kernel::{
     Argument, BinaryOperator, Binding, ClassId, ClassKind, Constraint, Document, Method, OriginId,
-    Path, Primitive, Step, Strength, Term,
+    Path, Primitive, Step, Term,
 };
 use std::collections::BTreeSet;
 use syntax::ast::{AstNode, Expr, span_without_doc};
@@ -109,17 +109,9 @@ impl Lowerer<'_> {
             ClassKind::Composite => is_of_numbers(&self.document, class),
             ClassKind::Primitive(_) | ClassKind::Set(_) | ClassKind::Reference(_) => false,
         };
-        let constraint = Constraint {
-            name: None,
-            doc: Box::default(),
-            rule: Term::Binary(BinaryOperator::Equal, part, Box::new(term.clone())),
-            strength: Strength::Required,
-            methods: if is_of_several { Vec::new() } else { vec![method] },
-            derived: true,
-            reads: Vec::new(),
-            within: None,
-            origin,
-        };
+        let rule = Term::Binary(BinaryOperator::Equal, part, Box::new(term.clone()));
+        let methods = if is_of_several { Vec::new() } else { vec![method] };
+        let constraint = Constraint { methods, ..Constraint::required(rule, origin) };
         let of = &mut self.document.classes[scope.class()];
         let index = of.constraints.len() as u32;
         of.constraints.push(constraint);

@@ -387,17 +387,7 @@ impl Lowerer<'_> {
             });
         }
         let Some(rule) = rule else { return true };
-        let joint = Constraint {
-            name,
-            doc: Box::default(),
-            rule,
-            strength: Strength::Required,
-            methods: Vec::new(),
-            derived: true,
-            reads: Vec::new(),
-            within: None,
-            origin,
-        };
+        let joint = Constraint { name, ..Constraint::required(rule, origin) };
         self.document.classes[scope.class()].constraints.push(joint);
         true
     }

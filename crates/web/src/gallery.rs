@@ -77,11 +77,9 @@ fn CardView(lab: Lab, listed: Listed) -> impl IntoView {
     let card = RwSignal::new(None::<Card>);
     let lively = RwSignal::new(false);
     let (path, title) = (listed.path.clone(), listed.title.clone());
-    // who has left the gallery does not wait for its cards
-    let waits = StoredValue::new(());
-    let goes_on = move || waits.try_get_value().is_some();
+    let is_seen = move || card.try_get_untracked().is_some();
     leptos::task::spawn_local(async move {
-        if let Ok(opened) = lab.load_while(&path, goes_on).await {
+        if let Some(opened) = lab.load_for_card(&path, is_seen).await {
             let doc = lab.ask(|session| session.preamble(opened.id));
             card.try_set(Some(Card {
                 id: opened.id,

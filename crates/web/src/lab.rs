@@ -201,7 +201,7 @@ pub struct Lab {
     pub attachers: RwSignal<Option<Vec<String>>>,
     /// How many stages of a long opening are done, while there is one.
     pub opening: RwSignal<Option<usize>>,
-    /// How often long openings were given up.
+    /// How often long openings were given up: one goes on as long as this is what it was when it began.
     pub given_up: StoredValue<usize>,
     /// The class whose prototype is shown instead of the document.
     pub prototype: RwSignal<Option<Shown>>,

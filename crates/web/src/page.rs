@@ -122,7 +122,10 @@ fn follow(lab: Lab) {
             Ok(_) if route::present().as_deref() == Some(&path) => lab.show(&path),
             Ok(_) => {}
             Err(message) => {
-                lab.leave();
+                // of what was given up the address does not speak any more
+                if route::present().as_deref() == Some(&path) {
+                    lab.leave();
+                }
                 lab.say_refused(format!("{path}: {message}"));
             }
         }

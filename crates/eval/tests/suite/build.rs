@@ -4,8 +4,8 @@ use base::{IdVec, Name};
 use expr::dimension::Dimension;
 use kernel::{
     Argument, BinaryOperator, Class, ClassId, ClassKind, Constraint, Document, Given, Merge,
-    Message, Method, OriginId, Parameter, Part, Path, Primitive, Strength, Structure, Superclass,
-    Term, Vertical, instantiate,
+    Message, Method, OriginId, Parameter, Part, Path, Primitive, Structure, Superclass, Term,
+    Vertical, instantiate,
 };
 use std::rc::Rc;
 
@@ -150,17 +150,8 @@ impl Build {
         self.document.classes[class].messages.push(message);
     }
     pub(crate) fn constraint(&mut self, class: ClassId, name: &str, rule: Term) -> &mut Constraint {
-        let constraint = Constraint {
-            name: Some(Name::new(name)),
-            doc: Box::default(),
-            rule,
-            strength: Strength::Required,
-            methods: Vec::new(),
-            derived: true,
-            reads: Vec::new(),
-            within: None,
-            origin: self.origin(),
-        };
+        let name = Some(Name::new(name));
+        let constraint = Constraint { name, ..Constraint::required(rule, self.origin()) };
         let constraints = &mut self.document.classes[class].constraints;
         constraints.push(constraint);
         constraints.last_mut().expect("one was just added")

@@ -4,7 +4,7 @@ use base::{IdVec, Name};
 use expr::dimension::Dimension;
 use kernel::{
     Class, ClassId, ClassKind, Constraint, Count, Document, Given, Merge, OriginId, Part, Path,
-    Primitive, Strength, Superclass, Term, Vertical,
+    Primitive, Superclass, Term, Vertical,
 };
 use std::rc::Rc;
 
@@ -66,17 +66,9 @@ impl Builder {
         self.0[class].givens.push(Rc::new(Given { path: Path::of(path), value, origin: ORIGIN }));
     }
     pub(crate) fn constraint(&mut self, class: ClassId, name: &str) {
-        self.0[class].constraints.push(Constraint {
-            name: Some(name.into()),
-            doc: Box::default(),
-            rule: Term::Bool(true),
-            strength: Strength::Required,
-            methods: Vec::new(),
-            derived: true,
-            reads: Vec::new(),
-            within: None,
-            origin: ORIGIN,
-        });
+        let name = Some(name.into());
+        let constraint = Constraint { name, ..Constraint::required(Term::Bool(true), ORIGIN) };
+        self.0[class].constraints.push(constraint);
     }
     pub(crate) fn document(self, root: ClassId) -> Document {
         Document {

@@ -7,7 +7,7 @@ use crate::lower::Lowerer;
 use crate::scope::Scope;
 use base::{Diagnostic, Name, Place, Span};
 use kernel::program::{Allowed, Asked, Block, Carried, Says, Step};
-use kernel::{BinaryOperator, ClassId, Constraint, Program, Strength, Term};
+use kernel::{BinaryOperator, ClassId, Constraint, Program, Term};
 use syntax::ast::{self, AstNode, Else, Expr, Member, Value, span_without_doc};
 
 /// So deep in one another what blocks carry is looked at twice; deeper it may be anything.
@@ -76,13 +76,7 @@ impl Lowerer<'_> {
             self.document.classes[class].constraints.push(Constraint {
                 name: Some(name),
                 doc: format!("What is allowed of {}.", asked.name).into(),
-                rule,
-                strength: Strength::Required,
-                methods: Vec::new(),
-                derived: true,
-                reads: Vec::new(),
-                within: None,
-                origin,
+                ..Constraint::required(rule, origin)
             });
         }
     }

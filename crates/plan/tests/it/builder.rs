@@ -87,17 +87,8 @@ impl Builder {
     }
     pub(crate) fn constraint(&mut self, class: ClassId, rule: Term) -> &mut Constraint {
         let constraints = &mut self.document.classes[class].constraints;
-        constraints.push(Constraint {
-            name: None,
-            doc: Box::default(),
-            rule,
-            strength: Strength::Required,
-            methods: Vec::new(),
-            derived: true,
-            reads: Vec::new(),
-            within: None,
-            origin: OriginId(constraints.len() as u32 + 100),
-        });
+        let origin = OriginId(constraints.len() as u32 + 100);
+        constraints.push(Constraint::required(rule, origin));
         constraints.last_mut().expect("it was just pushed")
     }
     pub(crate) fn merge(&mut self, class: ClassId, paths: &[&str]) {

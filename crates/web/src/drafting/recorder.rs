@@ -101,7 +101,13 @@ fn Define(lab: Lab) -> impl IntoView {
         lab.define_parameter();
     };
     let is_other = Memo::new(move |_| new.with(|n| !n.instead_of.is_empty()));
+    let is_first = Memo::new(move |_| {
+        lab.drafting.turned.track();
+        let steps = lab.ask_of_shown(|session, id| session.steps(id, None)).flatten();
+        steps.is_some_and(|steps| steps.parameters.is_empty())
+    });
     view! {
+        <Show when=move || is_first.get()><p class="quiet">{words::FIRST_PARAMETER}</p></Show>
         <form class="line define" aria-label=words::DEFINE on:submit=define>
             <input name="parameter" autocomplete="off" placeholder=words::PARAMETER_NAME
                 aria-label=words::NAME_OF_PARAMETER prop:value=move || new.with(|n| n.name.clone())

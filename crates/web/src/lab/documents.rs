@@ -47,38 +47,55 @@ impl Lab {
     /// Opens a document in the session, if it is not open already, and returns it.
     ///
     /// # Errors
-    /// One sentence, where the server does not give it.
+    /// One sentence, where the server does not give it or its opening was given up.
     pub async fn load(self, path: &str) -> Result<Opened, String> {
-        self.load_while(path, || true).await
-    }
-
-    /// The same, as long as somebody waits for it.
-    ///
-    /// # Errors
-    /// One sentence, where the server does not give it or nobody waits any longer.
-    pub async fn load_while(
-        self,
-        path: &str,
-        goes_on: impl Fn() -> bool,
-    ) -> Result<Opened, String> {
-        if let Some(opened) = self.opened.with_value(|all| all.get(path).cloned())
-            && (opened.dirty || stands(path).await.is_ok_and(|s| s.version == opened.version))
-        {
+        if let Some(opened) = self.open_already(path).await {
             return Ok(opened);
         }
         let stored = stands(path).await?;
-        self.take_up_while(path, stored, goes_on).await
+        self.take_up(path, stored).await
     }
 
-    /// Gives up what is long to open and not open yet.
+    /// The same for a card of the gallery, as long as somebody looks at it; nothing where that takes long.
+    pub async fn load_for_card(self, path: &str, is_seen: impl Fn() -> bool) -> Option<Opened> {
+        if let Some(opened) = self.open_already(path).await {
+            return Some(opened);
+        }
+        let stored = stands(path).await.ok()?;
+        let is_short = stored.text.len() <= LONG;
+        if is_short { self.take_up_while(path, stored, is_seen).await.ok() } else { None }
+    }
+
+    async fn open_already(self, path: &str) -> Option<Opened> {
+        let opened = self.opened.with_value(|all| all.get(path).cloned())?;
+        let is_latest =
+            opened.dirty || stands(path).await.is_ok_and(|s| s.version == opened.version);
+        is_latest.then_some(opened)
+    }
+
+    /// Gives up what is long to open and not open yet; the address names what is shown.
     pub fn give_openings_up(self) {
         self.given_up.update_value(|times| *times += 1);
         self.opening.set(None);
+        let shown = self.current.get_untracked();
+        if route::present() != shown {
+            let address =
+                shown.map_or_else(|| String::from(route::GALLERY), |path| route::to(&path));
+            route::replace(&address);
+        }
     }
 
-    /// Opens a text in the session under a path, with the files that it uses.
+    /// Opens a text in the session under a path, with the files that it uses. Of a long one the page shows how far it
+    /// is, and it can be given up.
     pub(super) async fn take_up(self, path: &str, stored: Stored) -> Result<Opened, String> {
-        self.take_up_while(path, stored, || true).await
+        let given_up = self.given_up.get_value();
+        let is_long = stored.text.len() > LONG;
+        let goes_on = move || !is_long || self.given_up.get_value() == given_up;
+        let opened = self.take_up_while(path, stored, goes_on).await;
+        if is_long {
+            self.opening.set(None);
+        }
+        opened
     }
 
     async fn take_up_while(
@@ -106,8 +123,7 @@ impl Lab {
         Ok(opened)
     }
 
-    /// Opens a text stage by stage; the page has its turn between. Of a long one it shows how far it is, and it can be
-    /// given up.
+    /// Opens a text stage by stage; the page has its turn between, and it may be given up there.
     async fn open(
         self,
         path: &str,
@@ -115,24 +131,17 @@ impl Lab {
         goes_on: &impl Fn() -> bool,
     ) -> Result<DocumentId, String> {
         let is_long = text.len() > LONG;
-        let before = self.given_up.get_value();
         let mut opening = self.ask(|session| session.begin_opening(path, text));
         while !opening.is_over() {
             if is_long {
                 self.opening.set(Some(opening.done()));
                 js::painted().await;
             }
-            if !goes_on() || is_long && self.given_up.get_value() != before {
-                if is_long {
-                    self.opening.set(None);
-                }
+            if !goes_on() {
                 return Err(String::from(words::OPENING_GIVEN_UP));
             }
             opening = self.ask(|session| session.go_on_opening(opening));
             js::pause().await;
-        }
-        if is_long {
-            self.opening.set(None);
         }
         Ok(self.order(|session| session.end_opening(opening)))
     }

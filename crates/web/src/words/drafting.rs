@@ -6,6 +6,9 @@ pub const PARAMETER_CLASS: &str = "Class of the parameter: without one, that of 
 pub const CLASS_OF_EXAMPLE: &str = "class";
 /// The field for the values that are allowed.
 pub const RANGE: &str = "allowed";
+/// What the fields for a parameter are for, while a program has none.
+pub const FIRST_PARAMETER: &str =
+    "A parameter is a name and an example: r, 30 mm. The other fields may stay empty.";
 /// How that is written.
 pub const RANGE_HELP: &str =
     "The values that are allowed: a range, 1 mm..100 mm, or a table, 3, 4, 5 mm";
