@@ -194,7 +194,7 @@ fn name_of(path: &ast::DottedName) -> String {
 }
 
 /// Returns the word after a number that was to be its unit, where that is what a diagnostic is at.
-fn strange_unit(parse: &Parse, diagnostic: &Diagnostic) -> Option<SyntaxToken> {
+pub(crate) fn strange_unit(parse: &Parse, diagnostic: &Diagnostic) -> Option<SyntaxToken> {
     let span = diagnostic.place.span;
     let word = syntax::token_from(&parse.syntax(), span.start)?;
     if syntax::span_of_token(&word) != span {

@@ -117,7 +117,15 @@ pub fn read_literal(
     let parse = syntax::parse_expression(OWN, typed.trim());
     let broken = || Diagnostic::error("not-a-value", place, format!("`{typed}` is no value"));
     if let Some(d) = parse.diagnostics().first() {
-        return Err(broken().hint(d.message.clone()));
+        return Err(broken().hint(match crate::files::strange_unit(&parse, d) {
+            Some(word) => match expr::units::meant(word.text()).as_slice() {
+                [] => format!("there is no unit {}", word.text()),
+                meant => {
+                    format!("there is no unit {}; meant may be {}", word.text(), meant.join(" or "))
+                }
+            },
+            None => d.message.clone(),
+        }));
     }
     let expr = parse.file().expression().ok_or_else(broken)?;
     let wanted = match wanted {

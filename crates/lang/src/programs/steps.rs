@@ -25,7 +25,6 @@ impl Lowerer<'_> {
         let mut scope = Scope::of(file, class);
         let params = node.params().into_iter().flat_map(|p| p.params());
         let parameters = params.filter_map(|p| self.asked(&scope, &p)).collect::<Vec<_>>();
-        self.demand_ranges(class, &parameters, &node);
         scope.is_program = true;
         let mut body = nothing(class);
         self.steps(&mut scope, &mut body, &members_of(node.body()));
@@ -36,8 +35,25 @@ impl Lowerer<'_> {
         let name = param.name()?.name();
         let kind = self.kind_of_part(scope.class(), &name)?;
         let prompt = param.prompt().map_or_else(String::new, |w| w.unquoted());
-        let allowed = param.domain().and_then(|domain| self.allowed(scope, &domain, &kind));
+        let domain = param.domain();
+        let allowed = domain.as_ref().and_then(|domain| self.allowed(scope, domain, &kind));
+        if let (Some(domain), Some(allowed)) = (domain, allowed.clone()) {
+            self.demand(scope, &name, (allowed, domain.span()));
+        }
         Some(Asked { name, prompt, allowed })
+    }
+
+    /// Makes what is allowed of a program's parameter a required constraint: `d_range` of `d`.
+    fn demand(&mut self, scope: &Scope, of: &Name, (allowed, span): (Allowed, Span)) {
+        let class = scope.class();
+        let name = Name::new(&format!("{of}_range"));
+        self.constraints.insert((class, name.clone()));
+        let origin = self.origin(scope.file, span);
+        self.document.classes[class].constraints.push(Constraint {
+            name: Some(name),
+            doc: format!("What is allowed of {of}.").into(),
+            ..Constraint::required(within(of, allowed), origin)
+        });
     }
 
     /// Reads the values that are allowed of a parameter: `1 mm..9 mm`, `[3 mm, 4 mm]`.
@@ -58,26 +74,6 @@ impl Lowerer<'_> {
                 self.error("not-a-domain", scope.file, domain.span(), message.into());
                 None
             }
-        }
-    }
-
-    /// Makes what is allowed of each of a program's parameters a required constraint: `d_range` of `d`.
-    fn demand_ranges(&mut self, class: ClassId, parameters: &[Asked], node: &ast::Program) {
-        let file = self.programs.declared[self.programs.of_class[&class]].1;
-        let span = node.params().map_or(Span::default(), |p| p.span());
-        for asked in parameters {
-            let Some(rule) = asked.allowed.clone().map(|allowed| within(&asked.name, allowed))
-            else {
-                continue;
-            };
-            let name = Name::new(&format!("{}_range", asked.name));
-            self.constraints.insert((class, name.clone()));
-            let origin = self.origin(file, span);
-            self.document.classes[class].constraints.push(Constraint {
-                name: Some(name),
-                doc: format!("What is allowed of {}.", asked.name).into(),
-                ..Constraint::required(rule, origin)
-            });
         }
     }
 

@@ -72,3 +72,25 @@ fn what_is_given_in_terms_of_what_is_computed_is_read_after_that() {
     assert_eq!(desk.session.text(desk.id).diagnostics, []);
     assert_eq!([desk.number("z"), desk.number("l[0]"), desk.number("l[1]")], [0.25, 0.25, 4.0]);
 }
+
+#[test]
+fn a_word_that_is_no_unit_is_told_as_one() {
+    let mut desk = Desk::of("unit mm\nd: Length = 20\n");
+    let refused = |desk: &mut Desk, typed: &str| {
+        desk.type_in("d", typed).expect_err("it is no length").message
+    };
+    assert_eq!(refused(&mut desk, "5 banana"), "`5 banana` is no value; there is no unit banana");
+    let message = refused(&mut desk, "5 kohn");
+    assert_eq!(message, "`5 kohn` is no value; there is no unit kohn; meant may be kohm");
+    assert!(refused(&mut desk, "5 mm +").starts_with("`5 mm +` is no value; found"));
+}
+
+#[test]
+fn what_is_allowed_of_a_parameter_stands_where_it_is_written() {
+    let desk = Desk::of(
+        "program P(d: Length in 1 mm..9 mm = 2 mm, e: Length = 3 mm) {\n    a = d + e\n}\np: P\n",
+    );
+    let rows = desk.session.structure(desk.id);
+    let row = rows.iter().find(|row| row.name == "d_range").expect("it is listed");
+    assert_eq!(row.detail, "1 mm..9 mm");
+}
