@@ -329,7 +329,7 @@ pub(crate) fn svg(picture: &PictureView) -> String {
 }
 
 /// Returns the paths of the document's parts that nothing in its picture stands for: those of classes without a
-/// picture. A number, a text or a list of them has none and needs none.
+/// picture. A number, a text or a list of them has none and needs none, nor has a library.
 pub(crate) fn unpictured(state: &State, picture: &PictureView) -> Vec<String> {
     let (document, structure) = (&state.lowered.document, &state.structure);
     let is_thing = |part: &ThingId| {
@@ -348,5 +348,6 @@ pub(crate) fn unpictured(state: &State, picture: &PictureView) -> Vec<String> {
         picture.paths.iter().any(below)
     };
     let parts = structure.parts(DOCUMENT).filter(|&part| structure.merged[part] == part);
-    parts.filter(is_thing).map(own).filter(|path| !is_pictured(path)).collect()
+    let is_bare = |path: &String| !is_pictured(path) && !super::values::is_of_library(state, path);
+    parts.filter(is_thing).map(own).filter(is_bare).collect()
 }

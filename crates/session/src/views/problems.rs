@@ -10,11 +10,12 @@ use crate::texts::Texts;
 use crate::view::DiagnosticView;
 use crate::words;
 use base::{Diagnostic, FileId, Place};
+use eval::FaultKind;
 use expr::Dimension;
-use kernel::{Primitive, SlotId, ThingId};
+use kernel::{ClassId, Message, Primitive, SlotId, Step, ThingId, Values};
 use plan::{Certainty, Contradiction, Source};
 use solve::Level;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Returns what was found, in the order of the text.
 pub(crate) fn view(open: &mut Open) -> Vec<DiagnosticView> {
@@ -53,6 +54,7 @@ pub(crate) fn view(open: &mut Open) -> Vec<DiagnosticView> {
     let untold = required.map(|u| u.source).filter(|s| !is_told(s));
     problems.extend(untold.filter_map(|source| of_unmet(&state, source)));
     problems.extend(mechanism.map(|(problem, _)| problem));
+    problems.extend(without_value(&state, &open.values().clone()));
     problems.sort_by_key(|d| (d.place.file, d.place.span.start));
     super::text::diagnostics(&state, &problems)
 }
@@ -95,6 +97,47 @@ fn of_contradiction(
         [] => d,
         repairs => d.hint(repairs.join("; or ")),
     })
+}
+
+/// Warns of what the text computes and has no value, `1 / x` where `x` is 0: each message once, of the first such thing.
+fn without_value(state: &State, values: &Values) -> Vec<Diagnostic> {
+    let (document, structure) = (&state.lowered.document, &state.structure);
+    let own = |m: &&Message| {
+        m.parameters.is_empty()
+            && !m.is_asked
+            && !m.is_of_class()
+            && state.lowered.place(m.origin).file == FileId(0)
+    };
+    let mut messages: BTreeMap<ClassId, Vec<&Message>> = BTreeMap::new();
+    // what a program did not draw is not missing
+    for (id, _) in document.classes.iter().filter(|(_, class)| class.program.is_none()) {
+        let line = document.primary_line(id).into_iter();
+        let asked: Vec<&Message> =
+            line.flat_map(|class| document.classes[class].messages.iter().filter(own)).collect();
+        if !asked.is_empty() {
+            messages.insert(id, asked);
+        }
+    }
+    let evaluator = state.evaluator(values);
+    let mut told = BTreeSet::new();
+    let mut found = Vec::new();
+    for thing in structure.things.ids().filter(|&t| structure.merged[t] == t) {
+        for message in messages.get(&structure.things[thing].class).into_iter().flatten() {
+            let place = state.lowered.place(message.origin);
+            if told.contains(&place) {
+                continue;
+            }
+            let Err(fault) = evaluator.ask(thing, &message.name) else { continue };
+            // what an inner message lacks is told there
+            let is_inner = fault.origin.is_some_and(|origin| origin != message.origin);
+            if fault.kind == FaultKind::NoAnswer && !is_inner && told.insert(place) {
+                let path = structure.path(document, thing).then(Step::Part(message.name.clone()));
+                let said = format!("{path} has no value: {}", fault.message);
+                found.push(Diagnostic::warning("no-value", place, said));
+            }
+        }
+    }
+    found
 }
 
 fn of_unmet(state: &State, source: Source) -> Option<Diagnostic> {

@@ -5,7 +5,7 @@ use crate::view::ValueRow;
 use crate::views::drawn::walk;
 use crate::words;
 use base::Name;
-use eval::{Answer, Evaluator, Standing};
+use eval::{Answer, Evaluator, Fault, FaultKind, Standing};
 use indexmap::IndexMap;
 use kernel::builtin::{FUNCTIONS, Kind, PICTURE_MESSAGES, find};
 use kernel::program::Allowed;
@@ -95,16 +95,17 @@ pub(crate) fn renew<'r>(
     for row in rows {
         let Some(path) = crate::session::parse_path(&row.path) else { continue };
         let shown = match path.0.split_last() {
-            Some((Step::Part(name), owner)) if row.is_virtual => {
-                match crate::session::thing_at(state, &Path(owner.to_vec())) {
-                    Some(owner) => show_virtual(state, &evaluator, owner, name),
-                    // of what a program drew
-                    None => {
-                        let answer = evaluator.at(&path).ok();
-                        answer
-                            .and_then(|a| show_answer(&state.lowered.document, &a, ""))
-                            .map(|s| s.0)
-                    }
+            Some((step, owner)) if row.is_virtual => {
+                let owner = crate::session::thing_at(state, &Path(owner.to_vec()));
+                match (step, owner) {
+                    (Step::Part(name), Some(owner)) => show_virtual(state, &evaluator, owner, name),
+                    // of what a program drew, or of a list
+                    _ => match evaluator.at(&path) {
+                        Ok(answer) => {
+                            show_answer(&state.lowered.document, &answer, "").map(|s| s.0)
+                        }
+                        Err(fault) => without_value(&fault),
+                    },
                 }
             }
             _ => crate::session::thing_at(state, &path)
@@ -147,7 +148,16 @@ fn show_virtual(
         let named = items.iter().filter_map(entry).find(|(n, _)| **n == **name);
         named.map(|(_, value)| value).ok_or(fault)
     });
-    show_answer(document, &answer.ok()?, class).map(|shown| shown.0)
+    match answer {
+        Ok(answer) => show_answer(document, &answer, class).map(|shown| shown.0),
+        Err(fault) => without_value(&fault),
+    }
+}
+
+/// Says why something has no value; nothing where that is no matter of its numbers.
+fn without_value(fault: &Fault) -> Option<Cell> {
+    let text = format!("no value: {}", fault.message);
+    (fault.kind == FaultKind::NoAnswer).then(|| Cell { words: words::plain(text), number: None })
 }
 
 /// Returns the name of the class that is written for what a message answers; empty where none is.
@@ -202,7 +212,7 @@ pub(crate) fn in_words(document: &Document, answer: &Answer<'_>) -> Option<Strin
 }
 
 /// Returns true for what belongs to a text that is used: a constant of a library, `constants.c`.
-fn is_of_library(state: &State, path: &str) -> bool {
+pub(crate) fn is_of_library(state: &State, path: &str) -> bool {
     let first = path.split('.').next().unwrap_or_default();
     let mut used = state.lowered.files.iter().map(|(_, file)| file.name.as_str());
     !first.is_empty() && used.any(|name| name.rsplit('.').next() == Some(first))
@@ -342,18 +352,52 @@ impl Maker<'_> {
         let most = self.work.rows.len() + MOST_DRAWN;
         for Answers { name, doc, is_pictured } in parts.clone().iter() {
             let (answer, read) = self.evaluator.listening(|| self.evaluator.ask(thing, name));
-            let Ok(answer) = answer else { continue };
             let slots = &self.state.structure.slots;
             let is_layout = read.iter().all(|&slot| slots[slot].is_layout)
                 && (*is_pictured || !read.is_empty());
             append(&mut path, name);
             let said = [answer_class(document, class, name), doc];
-            match answered(document, &path, &answer, said, is_layout) {
-                None if draws => self.add_drawn(&answer, &mut path, most),
-                row => self.work.rows.extend(row),
+            match answer {
+                Ok(answer) => match answered(document, &path, &answer, said, is_layout) {
+                    None if draws => self.add_drawn(&answer, &mut path, most),
+                    None if is_table(document, &answer, thing) => {
+                        self.add_each(&answer, &mut path, said, is_layout);
+                    }
+                    row => self.work.rows.extend(row),
+                },
+                // what another branch would have drawn is not missing
+                Err(_) if draws => {}
+                Err(fault) => {
+                    let cell = without_value(&fault);
+                    let row = cell.map(|cell| row_of(&path, cell, said, is_layout));
+                    self.work.rows.extend(row);
+                }
             }
             path.truncate(end);
         }
+    }
+
+    /// Adds the rows of the values that a list or a place consists of.
+    fn add_each(
+        &mut self,
+        answer: &Answer<'_>,
+        path: &mut String,
+        [class, doc]: [&str; 2],
+        is_layout: bool,
+    ) {
+        let (document, rows) = (&self.state.lowered.document, &mut self.work.rows);
+        let most = rows.len() + MOST_DRAWN;
+        let class = class.rsplit("List of ").next().unwrap_or_default();
+        walk(document, (answer, Standing::Result), path, &mut |answer, _, path| {
+            if rows.len() >= most {
+                return false;
+            }
+            let of = if matches!(answer, Answer::Number(..)) { class } else { "" };
+            let row = answered(document, path, answer, [of, doc], is_layout);
+            let is_value = row.is_some();
+            rows.extend(row);
+            !is_value
+        });
     }
 
     /// Adds the rows of what a program drew: the numbers of its figures, turn by turn.
@@ -401,8 +445,14 @@ fn answered(
     [class, doc]: [&str; 2],
     is_layout: bool,
 ) -> Option<ValueRow> {
-    let (Cell { words, number }, class) = show_answer(document, answer, class)?;
-    Some(ValueRow {
+    let (cell, class) = show_answer(document, answer, class)?;
+    Some(row_of(path, cell, [class, doc], is_layout))
+}
+
+/// Returns the row of what a thing answers, in words.
+fn row_of(path: &str, cell: Cell, [class, doc]: [&str; 2], is_layout: bool) -> ValueRow {
+    let Cell { words, number } = cell;
+    ValueRow {
         path: path.into(),
         shortest: path.into(),
         class: class.into(),
@@ -418,7 +468,29 @@ fn answered(
         freedom: None,
         doc: doc.into(),
         range: None,
-    })
+    }
+}
+
+/// Returns true for what is shown value by value: lists of values, and of the document itself also places and lists of
+/// these.
+fn is_table(document: &Document, answer: &Answer<'_>, thing: ThingId) -> bool {
+    let is_value = |answer: &Answer<'_>| {
+        matches!(
+            answer,
+            Answer::Number(..) | Answer::Text(_) | Answer::Bool(_) | Answer::Option(..)
+        )
+    };
+    match answer {
+        Answer::List(items) => {
+            let mut items = items.iter();
+            items.all(|item| is_value(item) || is_table(document, item, thing))
+        }
+        Answer::Made(made) => {
+            let is_place = document.is_place(made.class);
+            thing == kernel::DOCUMENT && is_place && made.fields.iter().all(is_value)
+        }
+        _ => false,
+    }
 }
 
 /// Returns what there is to choose for a value.

@@ -402,3 +402,45 @@ fn sides_of_a_polygon_are_told_apart() {
     // a corner that no hand can move is no grip
     assert!(picture.grips.iter().all(|grip| !grip.path.starts_with("hex.corners")));
 }
+
+/// Returns the rows of a document as lines.
+fn rows_of(desk: &Desk) -> Vec<String> {
+    let rows = desk.session.values(desk.id);
+    rows.iter()
+        .map(|r| format!("{} {} {}", r.path, r.text, r.unit).trim_end().to_string())
+        .collect()
+}
+
+#[test]
+fn a_computed_list_is_shown_element_by_element() {
+    let text = "use geometry\nxs: List of 2 Real = [1, 2]\nys => xs.map(x => 2 * x)\n\
+                turns: List of Angle => xs.map(x => x * 90 deg)\np => Point(3, 5)\n";
+    let mut desk = Desk::of(text);
+    let wanted = [
+        "xs[0] 1",
+        "xs[1] 2",
+        "ys[0] 2",
+        "ys[1] 4",
+        "turns[0] 90 deg",
+        "turns[1] 180 deg",
+        "p.x 3",
+        "p.y 5",
+    ];
+    assert_eq!(rows_of(&desk), wanted);
+    let mut rows = desk.session.values(desk.id);
+    desk.set("xs[1]", 3.0).unwrap();
+    desk.session.renew_values(desk.id, rows.iter_mut());
+    assert_eq!(rows[3].text, "6");
+}
+
+#[test]
+fn what_has_no_value_says_why_in_its_row() {
+    let mut desk = Desk::of("x: Real = 2\ny => 1 / x\nz => [1 / x]\n");
+    let mut rows = desk.session.values(desk.id);
+    assert_eq!(rows_of(&desk)[1], "y 0.5");
+    desk.set("x", 0.0).unwrap();
+    let none = "no value: 1 divided by zero";
+    assert_eq!(rows_of(&desk)[1..], [format!("y {none}"), format!("z {none}")]);
+    desk.session.renew_values(desk.id, rows.iter_mut());
+    assert_eq!(rows[1].text, none);
+}
