@@ -135,11 +135,17 @@ impl Lowerer<'_> {
     }
 }
 
-/// Returns true for what an angle stays one by, so many times as large: it has no unit, and does not speak of `pi`.
+/// Returns true for a unit in which turns are counted: `deg`, `1/rad`, `rpm`.
+fn is_of_angles(unit: &str) -> bool {
+    unit.split(['/', '*', '^']).any(|factor| UNITS.contains(&factor) || factor == "rpm")
+}
+
+/// Returns true for what an angle stays one by, so many times as large: it has no unit of angles, and does not speak of
+/// `pi`.
 fn is_factor(e: &Expr) -> bool {
     let mut parts = e.syntax().descendants().filter_map(Expr::cast);
     !parts.any(|part| match part {
-        Expr::Number(number) => number.unit().is_some(),
+        Expr::Number(number) => number.unit().is_some_and(|unit| is_of_angles(unit.text())),
         Expr::Name(name) => name.name().is_some_and(|word| word.text() == "pi"),
         _ => false,
     })
