@@ -358,7 +358,7 @@ impl Lowerer<'_> {
             let code = code_for(receiver, &Kind::PLAIN);
             let place = Place { file: scope.file, span: word.span() };
             let d = Diagnostic::error(code, place, message);
-            self.report(with_plain_hint(d, b.receiver, receiver, "the number"));
+            self.report(with_plain_hint(d, b.receiver, receiver, "x"));
             return None;
         }
         self.own_arguments(scope, b, word.span(), Some(receiver.clone()), args)

@@ -193,6 +193,16 @@ impl Lowerer<'_> {
                 d.hint(format!("a text stands in quotes: `{quoted}`"))
                     .fix(format!("write {quoted}"), [(place, quoted)])
             }
+            (Kind::Number(_), Kind::Text, Expr::Binary(_)) if is_date(&written) => {
+                let quoted = format!("\"{written}\"");
+                d.hint(format!("a text stands in quotes: `{quoted}`"))
+                    .fix(format!("write {quoted}"), [(place, quoted)])
+            }
+            (
+                Kind::Number(Some(Dimension::CHARGE)),
+                Kind::Number(Some(Dimension::TEMPERATURE)),
+                _,
+            ) => d.hint("`C` is a coulomb; temperatures are in kelvin: 20 °C is `293.15 K`"),
             (Kind::Number(_), Kind::Text, _) => {
                 d.hint(format!("put the value into a text: `\"{{{written}}}\"`"))
             }
@@ -331,6 +341,16 @@ pub(crate) fn called_otherwise(word: &str) -> Option<&'static str> {
         "False" | "FALSE" | "no" => "write `false`",
         _ => return None,
     })
+}
+
+/// Returns true for `2026-01-31` and `10/11`: digits with one sort of sign between them.
+fn is_date(written: &str) -> bool {
+    let is_of = |sign: char| {
+        let mut fields = written.split(sign);
+        written.contains(sign)
+            && fields.all(|f| !f.is_empty() && f.bytes().all(|b| b.is_ascii_digit()))
+    };
+    is_of('-') || is_of('/')
 }
 
 /// Returns a message as it is written to what is asked, its arguments by their labels.

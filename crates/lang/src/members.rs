@@ -221,7 +221,7 @@ impl Lowerer<'_> {
             _ if is_whole => {
                 let message = "a domain is a range of constants".to_string();
                 let d = Diagnostic::error("not-a-domain", place, message);
-                self.report(d.hint("write `in 0..9`; what depends on parts is a constraint"));
+                self.report_whole(d.hint("write `in 0..9`; what depends on parts is a constraint"));
             }
             _ => {
                 let is = Kind::of_class(&self.document, of).words(&self.document);

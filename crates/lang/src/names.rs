@@ -188,8 +188,15 @@ impl Lowerer<'_> {
             let (name, class) = (word.text(), &self.document.classes[class]);
             d = d.hint(match class.options.first() {
                 Some(option) => format!("it is a choice: `{name}.{option}` is one of its options"),
+                None if self.goes_on(place, "{") => {
+                    format!("it is a class: a body stands right after it, `name: {name} {{ … }}`")
+                }
                 None => format!("it is a class: `{name}(…)` makes a thing of it"),
             });
+        } else if self.is_label(place) {
+            d = d.hint(format!("a label is followed by a colon: `{}: …`", word.text()));
+        } else if let Some(unit) = self.unit_below(place, word.text()) {
+            d = d.meant(&unit);
         } else if let Some(power) = raised(word.text()) {
             let hint = match unit_above(word) {
                 Some(above) => format!("the unit is `{above}/{power}`"),
@@ -232,6 +239,35 @@ impl Lowerer<'_> {
             }
         }
         self.report(d);
+    }
+
+    /// Returns true if the text goes on with a sign behind a place, on its line.
+    fn goes_on(&self, place: Place, sign: &str) -> bool {
+        let rest = self.files[place.file].text.get(place.span.end as usize..).unwrap_or_default();
+        rest.trim_start_matches([' ', '\t']).starts_with(sign)
+    }
+
+    /// Returns true for the name before an `=` among arguments: `Point(x = 3, y = 4)`.
+    fn is_label(&self, place: Place) -> bool {
+        let before = self.files[place.file].text.get(..place.span.start as usize);
+        let before = before.unwrap_or_default().trim_end_matches([' ', '\t']);
+        let of = before.trim_end_matches('(').chars().last();
+        let is_argument = before.ends_with('(') && of.is_some_and(char::is_alphanumeric);
+        is_argument && self.goes_on(place, "=") && !self.goes_on(place, "==")
+    }
+
+    /// Returns the unit that is meant by a word below a unit: `h` in `30 km/hr`.
+    fn unit_below(&self, place: Place, word: &str) -> Option<String> {
+        let before = self.files[place.file].text.get(..place.span.start as usize)?;
+        let above = before.strip_suffix('/')?;
+        let unit = above.rsplit(|c: char| !(c.is_alphanumeric() || c == '^')).next()?;
+        let number = above.strip_suffix(unit)?.trim_end_matches(' ');
+        let is_unit = number.ends_with(|c: char| c.is_ascii_digit())
+            && expr::units::read_quantity("1", unit).is_some();
+        match expr::units::meant(word).as_slice() {
+            [one] if is_unit => Some(one.clone()),
+            _ => None,
+        }
     }
 
     /// Returns where the things of a text are that is used and has a part or message of this name.
@@ -308,6 +344,13 @@ impl Lowerer<'_> {
                 .fix(format!("write {power}"), [(place, power)]),
             _ if of_each => d.meant(&format!("map(each => each.{})", word.text())),
             _ if is_list && matches!(word.text(), "length" | "size" | "len") => d.meant("count"),
+            _ if is_list && matches!(word.text(), "average" | "avg") => d.meant("mean"),
+            _ if is_list && matches!(word.text(), "contains" | "has" | "includes") => {
+                d.hint("whether something is in a list is asked by `x in xs`")
+            }
+            _ if is_list && matches!(word.text(), "append" | "add" | "push" | "concat") => d.hint(
+                "a list with more is another: `xs.union(other: [x])` has what either has, once",
+            ),
             Some(near) => d.meant(near),
             None if let Some(made) = made => d.hint(made),
             None if names.is_empty() => d,

@@ -192,7 +192,7 @@ impl Lowerer<'_> {
                 Some(hint) => d.hint(hint),
                 None => self.with_value_hint(d, (&kind, &wanted), value),
             };
-            return self.report(d);
+            return self.report_whole(d);
         }
         if class.is_some_and(|class| self.loses_elements(scope, &path, class, value)) {
             return;

@@ -223,6 +223,9 @@ impl Lowerer<'_> {
                 "colours are mixed with colours, `c: Color = \"navy\"`; texts are joined by `\"{a}{b}\"`",
             );
         }
+        if let (Kind::List(_), Kind::List(_)) = (left, right) {
+            d = d.hint("what either list has, each once, is `xs.union(other: ys)`; numbers of two lists are added by `xs.zip(other: ys).map(pair => pair[0] + pair[1])`");
+        }
         if (left, right) == (&Kind::Picture, &Kind::Picture) {
             d = d.hint("`picture(a, b)` draws both");
         }
@@ -345,8 +348,13 @@ impl Lowerer<'_> {
         (list, count): (&Expr, Option<u32>),
     ) -> Option<u32> {
         if i.fract() != 0.0 || !(0.0..4e9).contains(&i) {
-            let message = "an index is a whole number, from 0".to_string();
-            self.error("index", scope.file, at.span(), message);
+            let place = Place { file: scope.file, span: at.span() };
+            let d = Diagnostic::error("index", place, "an index is a whole number, from 0");
+            let written = list.syntax().text();
+            self.report(match i < 0.0 {
+                true => d.hint(format!("the last element is `{written}.last`")),
+                false => d,
+            });
             return None;
         }
         if let Some(count) = count.filter(|&n| i >= f64::from(n)) {

@@ -185,11 +185,26 @@ impl<'t> Parser<'t> {
         }
         self.pos + n
     }
+    /// The text of the first token of this line, or of its body on this line.
+    pub(crate) fn line_first(&self) -> &'t str {
+        let mut first = self.pos.min(self.tokens.len() - 1);
+        while first > 0
+            && !self.tokens[first].newline
+            && !matches!(self.tokens[first - 1].kind, SyntaxKind::LBrace | SyntaxKind::Semicolon)
+        {
+            first -= 1;
+        }
+        self.text_between(first, first)
+    }
     /// How far the line of the token here is indented.
     pub(crate) fn indent(&self) -> usize {
         let start = self.span_at(self.pos).start as usize;
         let line = &self.text[self.text[..start].rfind('\n').map_or(0, |n| n + 1)..];
         line.len() - line.trim_start_matches([' ', '\t']).len()
+    }
+    /// How many tokens ahead the bracket here is closed; 0 where it is not.
+    pub(crate) fn bracket_length(&self) -> usize {
+        (self.token(0).closer as usize).saturating_sub(self.pos)
     }
     /// Returns true if the bracket here is closed somewhere.
     pub(crate) fn is_closed(&self) -> bool {
@@ -533,6 +548,15 @@ fn token_fault(file: FileId, text: &str, span: Span, fault: Fault) -> Diagnostic
             )
             .hint("close the comment with `*/`")
         }
+        Fault::DivisorInComment => {
+            let comment = text.get(span.range()).unwrap_or_default();
+            let number = comment.trim_start_matches('/').trim();
+            Diagnostic::warning("comment", place, format!("`{comment}` is a comment")).hint(
+                format!(
+                    "a whole quotient is `floor(x / {number})`; a comment says more than a number"
+                ),
+            )
+        }
         Fault::UnknownCharacter => {
             let all = &text[span.range()];
             let first: String = all.chars().take(8).collect();
@@ -544,12 +568,22 @@ fn token_fault(file: FileId, text: &str, span: Span, fault: Fault) -> Diagnostic
                     "a text stands between straight double quotes: `\"hello\"`"
                 }
                 Some('&') => "write `and`",
+                Some('|') if line_before(text, span).trim_start().starts_with("choice ") => {
+                    "options are names with commas between them: `choice Fit { loose, close }`"
+                }
                 Some('|') => "write `or`; a size is `abs(x)`, a relation `l.parallel(to: m)`",
                 Some('∥' | '⊥') => {
                     "a relation is asked of a thing: `l.parallel(to: m)`, `l.perpendicular(to: m)`"
                 }
+                Some('!')
+                    if line_before(text, span)
+                        .ends_with(|c: char| c.is_alphanumeric() || c == ')') =>
+                {
+                    "a factorial is a product: `(1..5).product`"
+                }
                 Some('!') => "write `not`",
                 Some('%') => "the remainder is `x mod 3`; right after a number `%` is percent",
+                Some('#') if is_colour(text, span) => "a colour is a text: `\"#ff8000\"`",
                 Some('#') => "a comment begins with `//`",
                 Some('×' | '·' | '∙') => "write `*`",
                 Some('÷') => "write `/`",
@@ -557,6 +591,14 @@ fn token_fault(file: FileId, text: &str, span: Span, fault: Fault) -> Diagnostic
                 Some('≤') => "write `<=`",
                 Some('≥') => "write `>=`",
                 Some('≠') => "write `!=`",
+                Some('≈' | '≃' | '≅' | '±' | '~') => {
+                    "what is nearly equal is `a = b within 0.1`"
+                }
+                Some('∈') => "write `in`",
+                Some('½') => "write `0.5`",
+                Some('¼') => "write `0.25`",
+                Some('¾') => "write `0.75`",
+                Some('?') => "a value is chosen by `if c then a else b`",
                 Some('√') => "write `sqrt(x)`",
                 Some('°') if follows(text, span, "°C") => {
                     "temperatures are in kelvin: 20 °C is `293.15 K`, and a step of 1 °C is `1 K`"
@@ -569,9 +611,7 @@ fn token_fault(file: FileId, text: &str, span: Span, fault: Fault) -> Diagnostic
                 Some('€' | '£' | '¥') => MONEY,
                 Some('∞') => "a number is finite: leave out the bound that is none",
                 Some('$') if dollars(text, span) => MONEY,
-                Some('$' | '@' | '\\' | '~' | '?' | '`') => {
-                    "names are made of letters, digits and `_`"
-                }
+                Some('$' | '@' | '\\' | '`') => "names are made of letters, digits and `_`",
                 _ => return d,
             };
             d.hint(hint)
@@ -581,6 +621,20 @@ fn token_fault(file: FileId, text: &str, span: Span, fault: Fault) -> Diagnostic
 
 /// What is said of signs of currencies.
 const MONEY: &str = "money is a plain number without its sign: `price: Real = 3.50`";
+
+/// Returns what stands on the line before a span.
+fn line_before(text: &str, span: Span) -> &str {
+    let before = text.get(..span.range().start).unwrap_or_default();
+    before.rsplit('\n').next().unwrap_or_default()
+}
+
+/// Returns true for `#ff8000`, `#f80`: a sign before three or six hexadecimal digits.
+fn is_colour(text: &str, span: Span) -> bool {
+    let rest = text.get(span.range().start + 1..).unwrap_or_default();
+    let digits = rest.bytes().take_while(u8::is_ascii_alphanumeric);
+    let (hex, other): (Vec<u8>, Vec<u8>) = digits.partition(u8::is_ascii_hexdigit);
+    other.is_empty() && matches!(hex.len(), 3 | 6)
+}
 
 /// Returns true for a dollar sign before a number.
 fn dollars(text: &str, span: Span) -> bool {

@@ -476,8 +476,13 @@ pub(super) fn unknown(p: &mut Parser<'_>) {
         p.skip_line();
         return;
     }
-    if mistakes::comma_between(p) {
+    if p.line_first() != "constraint" && mistakes::comma_between(p) {
         return p.bump();
+    }
+    if mistakes::elsewhere::strange_unit(p) {
+        p.start(SyntaxKind::Error);
+        p.bump();
+        return p.finish();
     }
     if mistakes::of_member(p) {
         p.skip_line();

@@ -1,10 +1,12 @@
 //! Mistakes that beginners make, each told as a teacher would: what it is, and what to write instead.
 
+pub(super) mod elsewhere;
+
 use super::members::is_keyword;
 use crate::kind::SyntaxKind::{
-    Arrow, Colon, Comma, Dot, Eof, Eq, EqEq, FatArrow, Greater, GreaterEq, Ident, LBrace, LBracket,
-    LParen, Less, LessEq, LetKw, Minus, NotEq, Number, Plus, RBrace, RBracket, RParen, Slash, Star,
-    Text, Unit,
+    Arrow, Colon, Comma, Dot, Ellipsis, Eof, Eq, EqEq, FatArrow, Greater, GreaterEq, Ident, LBrace,
+    LBracket, LParen, Less, LessEq, LetKw, Minus, NotEq, Number, Plus, RBrace, RBracket, RParen,
+    Slash, Star, Text, Unit,
 };
 use crate::parser::Parser;
 use crate::units::unit_length;
@@ -24,6 +26,7 @@ pub(super) fn unclosed(p: &mut Parser<'_>, opener: usize) {
 pub(super) fn of_member(p: &mut Parser<'_>) -> bool {
     grouped_digits(p)
         || decimal_comma(p)
+        || elsewhere::of_member(p)
         || comment(p)
         || declared_elsewhere(p)
         || enumeration(p)
@@ -137,8 +140,11 @@ fn increment(p: &mut Parser<'_>) -> bool {
 
 /// `f(x) = x^2`, `print(x)`: returns true where the call or definition was reported.
 pub(super) fn called_member(p: &mut Parser<'_>) -> bool {
-    let is_one = p.nth(1) == LParen && p.nth(2) == Ident && p.nth(3) == RParen && !p.begins_line(1);
-    let is_defined = matches!(p.nth(4), Eq | FatArrow) && !p.begins_line(4);
+    let is_one = p.nth(1) == LParen
+        && matches!(p.nth(2), Ident | Text)
+        && p.nth(3) == RParen
+        && !p.begins_line(1);
+    let is_defined = p.nth(2) == Ident && matches!(p.nth(4), Eq | FatArrow) && !p.begins_line(4);
     let ends = p.begins_line(4) || p.nth(4) == Eof;
     if !is_one || !is_defined && !ends {
         return false;
@@ -481,12 +487,10 @@ fn relation_in_words(p: &mut Parser<'_>) -> bool {
     is_one
 }
 
-/// `for i in 1 to 5`. Returns true where it was reported.
+/// `for i in 1 to 5`, `0...5`. Returns true where it was reported.
 pub(super) fn range_in_words(p: &mut Parser<'_>) -> bool {
-    let is_one = p.at(Ident)
-        && matches!(p.word(0), "to" | "until")
-        && p.behind(1) == Number
-        && p.nth(1) == Number;
+    let is_sign = p.at(Ellipsis) || p.at(Ident) && matches!(p.word(0), "to" | "until");
+    let is_one = is_sign && p.behind(1) == Number && p.nth(1) == Number;
     if is_one {
         let at = p.pos();
         let (from, to) = (p.text_between(at - 1, at - 1), p.word(1));
@@ -574,17 +578,15 @@ pub(super) fn implied_product(p: &mut Parser<'_>) -> bool {
         let at = p.pos();
         let number = p.text_between(at - 1, at - 1);
         let factor = if is_name { p.word(0) } else { "(…)" };
+        let meant = if is_name { elsewhere::number(p) } else { None };
+        let fix = p.span_at(at).start;
+        let fix = meant.is_none().then(|| (Span::new(fix, fix), " * ".into()));
         let said = (
             "implied-product",
             format!("found a number before `{}`, wanted an operator between them", p.word(0)),
-            format!("write `{number} * {factor}`"),
+            meant.unwrap_or_else(|| format!("write `{number} * {factor}`")),
         );
-        let span = p.span_at(at);
-        p.report_mistake(
-            (at - 1, at),
-            said,
-            Some((Span::new(span.start, span.start), " * ".into())),
-        );
+        p.report_mistake((at - 1, at), said, fix);
     }
     is_one
 }
@@ -615,6 +617,15 @@ pub(super) fn bare_call(p: &mut Parser<'_>) -> bool {
         let at = p.pos();
         let unit = if p.nth(2) == Unit { format!(" {}", p.word(2)) } else { String::new() };
         let call = format!("{}({}{unit})", p.word(0), p.word(1));
+        if p.word(0) == "return" {
+            let said = (
+                "bare-call",
+                "found `return` before what is answered".to_string(),
+                "what stands behind `=>` is the answer: leave `return` out".to_string(),
+            );
+            p.report_mistake((at, at), said, None);
+            return true;
+        }
         let said = (
             "bare-call",
             format!("found `{}` right after a name, wanted an operator", p.word(1)),

@@ -19,6 +19,8 @@ pub(super) fn constraint(p: &mut Parser<'_>) {
     if p.at(Ident) && p.nth(1) == Colon {
         p.bump();
         p.bump();
+    } else if mistakes::elsewhere::name_without_colon(p) {
+        p.bump();
     }
     rule(p);
     tolerance(p);

@@ -1,16 +1,30 @@
 //! Classes where they are named, and the parts of a declaration that hang on them.
 
 use super::expressions::{self, expression};
+use super::mistakes;
 use crate::kind::SyntaxKind::{
-    Colon, Comma, Domain, Dot, DottedName, Eq, Ident, LParen, Minus, Number, Param, ParamList,
-    Plus, RParen, Slash, Star, Text, Type, Unit,
+    Colon, Comma, Domain, Dot, DottedName, Eq, Error, Ident, LParen, Minus, Number, NumberExpr,
+    Param, ParamList, Plus, RParen, Slash, Star, Text, Type, Unit,
 };
 use crate::parser::Parser;
 
 /// `List of 12 C`, `Set of C`, `Path to C`, `Placed of C`, `geometry.Line`.
 pub(super) fn class_name(p: &mut Parser<'_>) {
+    if mistakes::elsewhere::is_list_in_brackets(p, 0) {
+        mistakes::elsewhere::list_in_brackets(p);
+        p.start(Error);
+        p.bump();
+        p.finish();
+        class_name(p);
+        if p.at(RParen) {
+            p.start(Error);
+            p.bump();
+            p.finish();
+        }
+        return;
+    }
     if !(p.at(Ident) || p.at(Unit)) || p.line_ended(0) && p.nth(1) == Colon {
-        let hint = if p.line_ended(0) { None } else { super::mistakes::value_for_class(p) };
+        let hint = if p.line_ended(0) { None } else { mistakes::value_for_class(p) };
         p.expected_hint("expected-class", "a class", hint);
         return;
     }
@@ -41,6 +55,14 @@ pub(super) fn class_name(p: &mut Parser<'_>) {
 ///
 /// A name counts where it is small and a class follows on its line.
 fn count(p: &mut Parser<'_>) {
+    if p.at(Number) && mistakes::elsewhere::is_list_in_brackets(p, 1) {
+        p.start(NumberExpr);
+        p.bump();
+        return p.finish();
+    }
+    if mistakes::elsewhere::is_list_in_brackets(p, 0) {
+        return;
+    }
     if is_sum(p) {
         return expressions::sum(p);
     }
@@ -73,7 +95,10 @@ fn is_sum(p: &Parser<'_>) -> bool {
 /// `geometry.parts`
 pub(super) fn dotted_name(p: &mut Parser<'_>, wanted: &str) {
     if !p.at(Ident) {
-        p.expected("expected-name", wanted);
+        let is_quoted = p.at(Text) && !p.line_ended(0);
+        let hint =
+            is_quoted.then(|| format!("it has no quotes: `{}`", p.word(0).trim_matches('"')));
+        p.expected_hint("expected-name", wanted, hint);
         return;
     }
     p.start(DottedName);
@@ -96,6 +121,10 @@ pub(super) fn domain(p: &mut Parser<'_>) {
         p.start(Domain);
         p.bump_keyword();
         expressions::range(p);
+        if mistakes::range_in_words(p) {
+            p.bump();
+            p.bump();
+        }
         p.finish();
     }
 }

@@ -1,0 +1,166 @@
+//! Words and signs that other languages have where a member begins: what stands for them here.
+
+use crate::kind::SyntaxKind::{
+    Caret, Colon, Comma, Eof, Eq, Greater, GreaterEq, Ident, LParen, Less, LessEq, Minus, NotEq,
+    Number, Plus, Slash, Star, Text, Unit,
+};
+use crate::parser::Parser;
+
+/// What a member is, where another word begins one.
+const MEMBER: &str = "a part, constraint, message or value";
+
+/// Reports what begins no member as the word or sign of another language; returns false where it is none that is known.
+pub(super) fn of_member(p: &mut Parser<'_>) -> bool {
+    if let Some(hint) = sign(p).or_else(|| word(p)) {
+        let at = p.pos();
+        let message = format!("found `{}`, wanted {MEMBER}", p.word(0));
+        p.report_mistake((at, at), ("expected-member", message, hint), None);
+        return true;
+    }
+    false
+}
+
+/// A word that begins a member in other languages: what is written for it.
+fn word(p: &Parser<'_>) -> Option<String> {
+    if !p.at(Ident) || p.begins_line(1) || p.nth(1) == Eof {
+        return None;
+    }
+    let next = p.word(1);
+    let is_named = p.nth(1) == Ident;
+    Some(match p.word(0) {
+        "import" | "include" | "require" | "using" if is_named => {
+            format!("a library is brought by its name: `use {next}`")
+        }
+        "import" | "include" | "require" if p.nth(1) == Text => {
+            format!("a library is brought by its name: `use {}`", next.trim_matches('"'))
+        }
+        "def" | "function" | "fn" | "func" | "fun" | "method" | "sub" if p.nth(2) == LParen => {
+            format!("what is computed is a message: `{next}(x: Real) => 2 * x`")
+        }
+        "connect" | "join" | "link" | "attach" | "glue" if is_named => {
+            "two become one by `merge a = b`".into()
+        }
+        "solve" => "what is to hold is a rule, and is solved: `constraint x^2 = 4`".into(),
+        "minimize" | "minimise" | "maximize" | "maximise" => {
+            "nothing is minimized: what is wished is a soft rule, `weak constraint x = 0`".into()
+        }
+        "private" | "public" | "protected" | "final" | "readonly" | "mut" if is_named => {
+            format!("every part is seen, and stays as it is given: leave `{}` out", p.word(0))
+        }
+        "assert" | "ensure" | "should" => {
+            "what is to be true in a check is expected: `expect x = 3`".into()
+        }
+        "test" | "it" | "describe" if p.nth(1) == Text => format!("write `check {next} {{ … }}`"),
+        "struct" | "type" | "record" | "object" | "interface" | "entity" if is_named => {
+            format!("a class is declared by `class {next} {{ … }}`")
+        }
+        _ => return None,
+    })
+}
+
+/// What goes on where a member has ended: what is written for it.
+fn sign(p: &Parser<'_>) -> Option<String> {
+    if p.begins_line(0) {
+        return None;
+    }
+    let of = p.line_first();
+    let before = |n: usize| p.text_between(p.pos().saturating_sub(n), p.pos().saturating_sub(n));
+    let hint = match p.current() {
+        Comma if of == "use" => format!("each has a line of its own: `use {}`", p.word(1)),
+        Comma if of == "constraint" => "two rules are joined by `and`".into(),
+        Comma if of == "expect" => "each has its own `expect`".into(),
+        Colon if of == "constraint" && p.behind(1) == Text => {
+            let name = before(1).trim_matches('"');
+            format!("the name of a constraint has no quotes: `constraint {name}: …`")
+        }
+        LParen if of == "class" && p.behind(1) == Ident && p.nth(1) == Ident => {
+            format!("write `class {} is {}`", before(1), p.word(1))
+        }
+        LParen if before(1) == "super" => {
+            "the answer of the superclasses has a name: `super.picture`".into()
+        }
+        Ident if p.word(0) == "between" => "write `1 <= x <= 3`".into(),
+        Ident if p.word(0) == "per" && p.behind(1) == Unit => {
+            format!("a unit is divided without spaces: `{}/{}`", before(1), p.word(1))
+        }
+        _ => return None,
+    };
+    Some(hint)
+}
+
+/// `sum x = 3` after `constraint`: a name without its colon. Returns true where it was reported.
+pub(in crate::grammar) fn name_without_colon(p: &mut Parser<'_>) -> bool {
+    const WORDS: [&str; 8] = ["in", "is", "mod", "union", "subset", "within", "reads", "of"];
+    let compares = matches!(
+        p.nth(2),
+        Eq | Less | LessEq | Greater | GreaterEq | NotEq | Plus | Minus | Star | Slash
+    );
+    let is_one = p.at(Ident)
+        && p.nth(1) == Ident
+        && compares
+        && !p.begins_line(1)
+        && !p.begins_line(2)
+        && ![p.word(0), p.word(1)].iter().any(|word| WORDS.contains(word));
+    if is_one {
+        let at = p.pos();
+        let (name, next) = (p.word(0), p.word(1));
+        let said = (
+            "expected-colon",
+            format!("found `{next}` after the name `{name}`, wanted `:`"),
+            format!("write `constraint {name}: {}`", p.text_between(at + 1, p.line_end())),
+        );
+        p.report_mistake((at + 1, at + 1), said, Some((p.span_at(at), format!("{name}:"))));
+    }
+    is_one
+}
+
+/// `3x10^8`, `4k7`: numbers as they are written elsewhere. Returns what is written for one.
+pub(super) fn number(p: &Parser<'_>) -> Option<String> {
+    let (digits, word) = (p.text_between(p.pos() - 1, p.pos() - 1), p.word(0));
+    if word == "x10" && p.nth(1) == Caret {
+        let sign = usize::from(p.nth(2) == Minus);
+        let power = (p.nth(2 + sign) == Number).then(|| p.word(2 + sign))?;
+        return Some(format!("write `{digits}e{}{power}`", if sign == 1 { "-" } else { "" }));
+    }
+    let mut letters = word.chars();
+    let prefix = letters.next().filter(|c| "kMGmunpR".contains(*c))?;
+    let rest = letters.as_str();
+    let is_split = !rest.is_empty() && rest.chars().all(|c| c.is_ascii_digit());
+    let unit = if prefix == 'R' { "ohm".to_string() } else { format!("{prefix}ohm") };
+    is_split.then(|| format!("a number has its point and its unit: `{digits}.{rest} {unit}`"))
+}
+
+/// Returns true where the class of a list stands in brackets, so many tokens ahead: `(List of 3 Integer)`.
+pub(in crate::grammar) fn is_list_in_brackets(p: &Parser<'_>, n: usize) -> bool {
+    p.nth(n) == LParen
+        && p.nth(n + 1) == Ident
+        && matches!(p.word(n + 1), "List" | "Set" | "Path" | "Placed")
+        && matches!(p.word(n + 2), "of" | "to")
+}
+
+/// Reports the brackets around the class of a list.
+pub(in crate::grammar) fn list_in_brackets(p: &mut Parser<'_>) {
+    let at = p.pos();
+    let last = at + p.bracket_length();
+    let class = p.text_between(at + 1, last.saturating_sub(1).max(at + 1));
+    let said = (
+        "expected-class",
+        "found `(`, wanted a class".to_string(),
+        format!("a class stands without brackets: `List of 3 {class}`"),
+    );
+    p.report_mistake((at, at), said, None);
+}
+
+/// `4 furlong  x: Real`: a word that is no unit, with the next member on its line. Returns true where it was reported.
+pub(in crate::grammar) fn strange_unit(p: &mut Parser<'_>) -> bool {
+    let is_one = p.at(Ident)
+        && p.behind(1) == Number
+        && !p.begins_line(0)
+        && p.nth(1) == Ident
+        && !p.begins_line(1)
+        && p.names_itself(2);
+    if is_one {
+        p.expected("expected-member", "a part, constraint, message or value");
+    }
+    is_one
+}
