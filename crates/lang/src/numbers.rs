@@ -118,7 +118,7 @@ pub fn read_literal(
     let broken = || Diagnostic::error("not-a-value", place, format!("`{typed}` is no value"));
     if let Some(d) = parse.diagnostics().first() {
         return Err(broken().hint(match crate::files::strange_unit(&parse, d) {
-            Some(word) => match expr::units::meant(word.text()).as_slice() {
+            Some(word) => match units::meant(word.text()).as_slice() {
                 [] => format!("there is no unit {}", word.text()),
                 meant => {
                     format!("there is no unit {}; meant may be {}", word.text(), meant.join(" or "))

@@ -23,6 +23,7 @@ pub mod paint;
 pub mod palette;
 pub mod paths;
 pub mod pick;
+pub mod recent;
 pub mod rows;
 pub mod sentences;
 pub mod sheet;

@@ -16,6 +16,15 @@ pub struct Listed {
     pub in_gallery: bool,
 }
 
+/// A class that things can be made of.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Makeable {
+    /// Its name.
+    pub class: String,
+    /// The library that has it, where the document does not use that yet.
+    pub unused: Option<String>,
+}
+
 /// What can be chosen.
 #[derive(Clone, PartialEq, Debug)]
 pub enum Choice<A> {
@@ -23,14 +32,14 @@ pub enum Choice<A> {
     Do(A),
     /// A construction.
     Draw(ConstructionRow),
-    /// A class of the bin.
-    Insert(String),
+    /// A class of the bin, or of a library that is not used yet.
+    Insert(Makeable),
     /// A document.
     Open(Listed),
 }
 
-/// What can be drawn in the shown document: its constructions, and the classes of its bin.
-pub type Drawn = (Vec<ConstructionRow>, Vec<String>);
+/// What can be drawn in the shown document: its constructions, and what things can be made of.
+pub type Drawn = (Vec<ConstructionRow>, Vec<Makeable>);
 
 /// What has the words that are wanted in its label; then what has them in its own name; then what has each of
 /// them somewhere; then what has all their letters in order, the shortest first: an action in its label, a
@@ -62,10 +71,7 @@ pub fn matching<A: Clone>(
         let rank = rank(&one.title, &one.path, &one.path);
         (rank.map(|rank| rank.max((0, 2))), Choice::Open(one.clone()))
     };
-    let has = |text: &str| {
-        let text = text.to_lowercase();
-        !wanted.is_empty() && wanted.split_whitespace().all(|word| text.contains(word))
-    };
+    let has = |text: &str| !wanted.is_empty() && has_words(text, &wanted);
     let called = |text: &str| match text.to_lowercase().starts_with(&wanted) {
         true => (0, 1),
         false => (2, 1),
@@ -74,12 +80,22 @@ pub fn matching<A: Clone>(
         let text = [&row.label, row.also].join(" ");
         (has(&text).then(|| called(&row.label)), Choice::Draw(row.clone()))
     };
-    let class = |class: &String| (has(class).then(|| called(class)), Choice::Insert(class.clone()));
+    let class = |one: &Makeable| {
+        let rank = has(&one.class).then(|| called(&one.class));
+        let later = usize::from(one.unused.is_some());
+        (rank.map(|(rank, place)| (rank, place + later)), Choice::Insert(one.clone()))
+    };
     let all = actions.iter().map(action).chain(constructions.iter().map(construction));
     let all = all.chain(classes.iter().map(class)).chain(listed.iter().map(document));
     let mut found: Vec<_> = all.filter_map(|(rank, choice)| Some((rank?, choice))).collect();
     found.sort_by_key(|(rank, _)| *rank);
     found.into_iter().map(|(_, choice)| choice).collect()
+}
+
+/// Whether a text has each of the wanted words somewhere, in capitals or not.
+pub fn has_words(text: &str, wanted: &str) -> bool {
+    let (text, wanted) = (text.to_lowercase(), wanted.to_lowercase());
+    wanted.split_whitespace().all(|word| text.contains(word))
 }
 
 fn scattered(label: &str, wanted: &str) -> bool {
@@ -89,7 +105,7 @@ fn scattered(label: &str, wanted: &str) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::{Choice, ConstructionRow, Listed, Named, matching};
+    use super::{Choice, ConstructionRow, Listed, Makeable, Named, matching};
 
     /// Some of the page's.
     const ACTIONS: [Named<&str>; 15] = [
@@ -110,6 +126,10 @@ mod tests {
         ("theme", "theme", "Light, dark or as the system says"),
     ];
 
+    fn makeable(class: &str, unused: Option<&str>) -> Makeable {
+        Makeable { class: String::from(class), unused: unused.map(String::from) }
+    }
+
     #[test]
     fn the_palette_finds_by_words_before_letters() {
         let listed = [Listed {
@@ -127,12 +147,15 @@ mod tests {
             doc: String::new(),
             also: "perpendicular bisector",
         };
-        let drawn = (vec![row], vec![String::from("Resistor")]);
+        let drawn = (
+            vec![row],
+            [makeable("Resistor", None), makeable("Resistance", Some("circuits"))].into(),
+        );
         assert_eq!(matching("", &ACTIONS, &listed, &drawn).len(), ACTIONS.len() + 1);
         let first = |wanted| match matching(wanted, &ACTIONS, &listed, &drawn).into_iter().next() {
             Some(Choice::Do(action)) => String::from(action),
             Some(Choice::Draw(row)) => row.id,
-            Some(Choice::Insert(class)) => class,
+            Some(Choice::Insert(one)) => one.class,
             Some(Choice::Open(listed)) => listed.path,
             None => String::new(),
         };
@@ -144,6 +167,7 @@ mod tests {
         assert_eq!(first("recog"), "recognise");
         assert_eq!(first("perpendicular bisector"), "Axis.equidistant(first,second)");
         assert_eq!(first("resist"), "Resistor");
+        assert_eq!(first("resistance"), "Resistance");
         assert_eq!(first("brg"), "gallery/bridge.thing");
         // no piece of every word of a long title
         assert_eq!(first("bgeudload"), "");

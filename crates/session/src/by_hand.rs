@@ -11,7 +11,8 @@ use crate::outlines;
 use crate::session::{parse_path, thing_at};
 use crate::state::State;
 use crate::view::{
-    ClassItem, ClassPlan, Deed, DocumentId, Offer, Question, Refusal, ValueRow, ValueWithin,
+    BinEntry, ClassItem, ClassPlan, Deed, DocumentId, Offer, Question, Refusal, ValueRow,
+    ValueWithin,
 };
 use crate::ways_out;
 use crate::{Session, tools, views, words};
@@ -284,6 +285,15 @@ impl Session {
         tools::bin::names(&self.document(id).state)
     }
 
+    /// Returns what a library has that things can be made of, for a document that does not use it yet.
+    pub fn bin_of_library(&self, library: &str) -> Vec<BinEntry> {
+        let beside = Beside::opening(&*self.host, &self.documents, "");
+        let open = Open::of("", begun_with(library, &beside), &beside);
+        let mut entries = tools::bin::entries(&open.state);
+        entries.retain(|entry| entry.library == library);
+        entries
+    }
+
     /// Returns what has to be decided of some things that are to be the parts of a class.
     pub fn class_items(&self, id: DocumentId, paths: &[Path]) -> Vec<ClassItem> {
         classing::items(self.document(id), paths)
@@ -339,19 +349,15 @@ impl Session {
     /// pictures count `y`.
     pub fn using(&self, id: DocumentId, library: &str) -> Command {
         let state = &self.document(id).state;
-        let is_y = |text: &str| {
-            let file = syntax::parse(base::FileId(0), text).file();
-            file.members().find_map(|member| match member {
-                syntax::ast::Member::Y(y) => Some(y.is_down()),
-                _ => None,
-            })
-        };
         let is_empty = state.structure.parts(kernel::DOCUMENT).next().is_none();
-        let is_told = is_y(&state.text).is_some();
+        let is_told = counts_down(&state.text).is_some();
         let beside = Beside::of(&*self.host, &self.documents, id);
-        let wants = beside.read(library).and_then(|text| is_y(&text)) == Some(true);
-        let y = if is_empty && !is_told && wants { "\ny down" } else { "" };
-        Command::Edit { target: Path::default(), members: format!("use {library}{y}") }
+        let members = if is_empty && !is_told {
+            begun_with(library, &beside)
+        } else {
+            format!("use {library}")
+        };
+        Command::Edit { target: Path::default(), members }
     }
 }
 
@@ -464,4 +470,19 @@ fn collect(
         way.pop();
     }
     open.pop();
+}
+
+/// Which way a text says that `y` counts: down, up, or nothing of it.
+fn counts_down(text: &str) -> Option<bool> {
+    let file = syntax::parse(base::FileId(0), text).file();
+    file.members().find_map(|member| match member {
+        syntax::ast::Member::Y(y) => Some(y.is_down()),
+        _ => None,
+    })
+}
+
+/// What an empty document says to use a library, and to count `y` as its pictures do.
+fn begun_with(library: &str, beside: &Beside<'_>) -> String {
+    let is_down = beside.read(library).and_then(|text| counts_down(&text)) == Some(true);
+    format!("use {library}{}", if is_down { "\ny down" } else { "" })
 }

@@ -26,25 +26,23 @@ pub fn Bin(
         lab.text.track();
         lab.id().map(|id| lab.ask(|session| session.bin(id))).unwrap_or_default()
     });
-    let found = Memo::new(move |_| {
+    let has = move |entry: &BinEntry| {
         let wanted = wanted.get().to_lowercase();
-        let has = |entry: &BinEntry| {
-            entry.class.to_lowercase().contains(&wanted)
-                || entry.doc.to_lowercase().contains(&wanted)
-        };
+        entry.class.to_lowercase().contains(&wanted) || entry.doc.to_lowercase().contains(&wanted)
+    };
+    let found = Memo::new(move |_| {
         entries.with(|all| all.iter().filter(|entry| has(entry)).cloned().collect::<Vec<_>>())
     });
-    let shelves = Memo::new(move |_| {
-        let is_filtered = wanted.with(|wanted| !wanted.is_empty());
-        found.with(|found| shelved(found, is_filtered))
+    let is_filtered = move || wanted.with(|wanted| !wanted.trim().is_empty());
+    let shelves = Memo::new(move |_| found.with(|found| shelved(found, is_filtered())));
+    let libraries = Memo::new(move |_| lab.unused_libraries());
+    let beside = Memo::new(move |_| lab.without_used(lab.beside()));
+    // what is looked for may be in a library that is not used yet
+    let offered = Memo::new(move |_| {
+        let all = if is_filtered() { lab.in_unused_libraries() } else { Vec::new() };
+        all.into_iter().filter(|entry| has(entry)).collect::<Vec<_>>()
     });
-    let unused = move |mut names: Vec<String>| {
-        let text = lab.text.with(|text| text.source.clone());
-        names.retain(|name| !text.lines().any(|line| line.trim() == format!("use {name}")));
-        names
-    };
-    let libraries = Memo::new(move |_| unused(lab.libraries()));
-    let beside = Memo::new(move |_| unused(lab.beside()));
+    let more = Memo::new(move |_| offered.with(|offered| shelved(offered, true)));
     Effect::new(move |_| {
         lab.current.track();
         leptos::task::spawn_local(async move {
@@ -55,6 +53,7 @@ pub fn Bin(
     // one stop of Tab: arrows lead from tile to tile
     Effect::new(move |_| {
         shelves.track();
+        more.track();
         libraries.track();
         beside.track();
         keyboard::one_stop(LIST);
@@ -68,25 +67,31 @@ pub fn Bin(
         let is_typed = |name: &String| name.to_lowercase() == typed;
         let library = libraries.get_untracked().into_iter().find(is_typed);
         let document = beside.get_untracked().into_iter().find(is_typed);
-        let class = found.with_untracked(|found| {
+        let meant = |found: &Vec<BinEntry>| {
             let is_it = |entry: &&BinEntry| entry.class.to_lowercase() == typed;
             let begins = |entry: &&BinEntry| entry.class.to_lowercase().starts_with(&typed);
             let entry = found.iter().find(is_it).or_else(|| found.iter().find(begins));
-            let entry = entry.or_else(|| found.first().filter(|_| found.len() == 1));
-            entry.map(|entry| entry.class.clone())
-        });
-        match (library, document, class) {
+            entry.or_else(|| found.first().filter(|_| found.len() == 1)).cloned()
+        };
+        match (library, document, found.with_untracked(meant), offered.with_untracked(meant)) {
             (Some(library), ..) => lab.use_library(&library),
-            (None, Some(document), _) => lab.use_document(document),
-            (None, None, Some(class)) => lab.insert(&class),
-            (None, None, None) => lab.say_refused(words::nothing_called(&typed)),
+            (_, Some(document), ..) => lab.use_document(document),
+            (.., Some(entry), _) => lab.insert(&entry.class),
+            (.., Some(entry)) => {
+                lab.use_library(&entry.library);
+                lab.insert(&entry.class);
+            }
+            _ => lab.say_refused(words::nothing_called(&typed)),
         }
     };
     view! {
-        <section class="panel bin" aria-label=words::BIN>
+        <section class="panel bin" aria-label=words::BIN on:pointerup=move |_| lab.carried.set_value(false)>
             <div class="head">
                 <input type="search" placeholder=words::FILTER aria-label=words::FILTER_BIN
-                    on:input=move |e| wanted.set(event_target_value(&e))
+                    on:input=move |e| {
+                        wanted.set(event_target_value(&e));
+                        lab.read_libraries();
+                    }
                     on:keydown=move |e| {
                         match e.key().as_str() {
                             "Enter" => take(),
@@ -99,15 +104,14 @@ pub fn Bin(
             </div>
             <div class="scroll" on:keydown=|e| keyboard::go_in(LIST, &e)>
                 <For each=move || shelves.get() key=Shelf::key let(shelf)>
-                    <details open=shelf.is_open on:toggle=|_| keyboard::one_stop(LIST)>
-                        <summary>{if shelf.name.is_empty() { String::from(words::OWN_CLASSES) } else { shelf.name.clone() }}</summary>
-                        <ul class="tiles">
-                            {shelf.entries.into_iter().map(|entry| view! {
-                                <Tile lab=lab entry=entry />
-                            }).collect_view()}
-                        </ul>
-                    </details>
+                    <ShelfView lab=lab shelf=shelf is_used=true />
                 </For>
+                <Show when=move || !more.with(Vec::is_empty)>
+                    <h3>{words::NOT_USED_YET}</h3>
+                    <For each=move || more.get() key=Shelf::key let(shelf)>
+                        <ShelfView lab=lab shelf=shelf is_used=false />
+                    </For>
+                </Show>
                 <Show when=move || !libraries.with(Vec::is_empty)>
                     <h3>{words::MORE_LIBRARIES}</h3>
                     <Uses names=libraries take=move |name: String| lab.use_library(&name) />
@@ -141,9 +145,25 @@ fn Uses(names: Memo<Vec<String>>, take: impl Fn(String) + Copy + Send + 'static)
     }
 }
 
-/// A tile: a click takes the tool that places such a thing, Enter inserts one where there is room.
+/// Tiles that lie together, under their toolbox or library.
 #[component]
-fn Tile(lab: Lab, entry: BinEntry) -> impl IntoView {
+fn ShelfView(lab: Lab, shelf: Shelf, is_used: bool) -> impl IntoView {
+    let name = if shelf.name.is_empty() { words::OWN_CLASSES.into() } else { shelf.name };
+    let tiles = shelf.entries.into_iter().map(move |entry| {
+        view! { <Tile lab=lab entry=entry is_used=is_used /> }
+    });
+    view! {
+        <details open=shelf.is_open on:toggle=|_| keyboard::one_stop(LIST)>
+            <summary>{name}</summary>
+            <ul class="tiles">{tiles.collect_view()}</ul>
+        </details>
+    }
+}
+
+/// A tile: a click takes the tool that places such a thing, Enter inserts one where there is room. Where its library is
+/// not used yet, it is from then on.
+#[component]
+fn Tile(lab: Lab, entry: BinEntry, is_used: bool) -> impl IntoView {
     let canvas = NodeRef::<Canvas>::new();
     let size = RwSignal::new((0.0, 0.0));
     let painter = StoredValue::new_local(None::<Painter>);
@@ -169,6 +189,9 @@ fn Tile(lab: Lab, entry: BinEntry) -> impl IntoView {
             .unwrap_or_default()
     });
     let (class, name) = (StoredValue::new(entry.class.clone()), entry.class.clone());
+    let library = StoredValue::new((!is_used).then(|| entry.library.clone()));
+    let begin =
+        move || library.with_value(|library| library.iter().for_each(|l| lab.use_library(l)));
     let held = Memo::new(move |_| lab.tool.get() == Some(class.get_value()));
     let is_own = entry.library.is_empty();
     let by_finger = StoredValue::new(false);
@@ -180,14 +203,15 @@ fn Tile(lab: Lab, entry: BinEntry) -> impl IntoView {
                     by_finger.set_value(e.pointer_type() == "touch");
                     if e.button() == 0 && !by_finger.get_value() {
                         e.prevent_default();
+                        begin();
                         lab.take_tool(&class.get_value());
                         lab.carried.set_value(true);
                     }
                 }
-                on:pointerup=move |_| lab.carried.set_value(false)
                 on:click=move |_| {
                     // a finger that comes down may scroll the bin; what it takes is placed where the sheet was
                     if by_finger.get_value() {
+                        begin();
                         lab.take_tool(&class.get_value());
                         lab.sheet.set(Sheet::Shut);
                     }
@@ -196,6 +220,7 @@ fn Tile(lab: Lab, entry: BinEntry) -> impl IntoView {
                     if e.key() == "Enter" || e.key() == " " {
                         e.prevent_default();
                         e.stop_propagation();
+                        begin();
                         lab.insert(&class.get_value());
                     }
                 }>

@@ -24,7 +24,7 @@ use presentation::marks::Marked;
 use presentation::palette::Listed;
 use presentation::paths::covers;
 use session::view::{
-    Caught, DocumentId, DragState, Explanation, Ghost, HeldView, LessonView, MovedView,
+    BinEntry, Caught, DocumentId, DragState, Explanation, Ghost, HeldView, LessonView, MovedView,
     PictureView, Question, Recognised, Refusal, Status, StructureRow, TextView, ToolView, ValueRow,
     Velocity,
 };
@@ -169,6 +169,8 @@ pub struct Lab {
     pub why: RwSignal<bool>,
     /// Whether the palette of actions is open.
     pub palette: RwSignal<bool>,
+    /// What libraries have, once somebody looks for something in them.
+    of_libraries: RwSignal<Option<Vec<BinEntry>>>,
     /// The class of the things that the tool in the hand makes.
     pub tool: RwSignal<Option<String>>,
     /// What that tool shows.
@@ -327,6 +329,7 @@ impl Lab {
             journal: StoredValue::default(),
             why: RwSignal::new(false),
             palette: RwSignal::new(false),
+            of_libraries: RwSignal::new(None),
             tool: RwSignal::new(None),
             tool_view: RwSignal::new(ToolView::default()),
             typed: RwSignal::new(String::new()),

@@ -7,7 +7,7 @@ use crate::{route, words};
 use leptos::ev::KeyboardEvent;
 use leptos::html::Input;
 use leptos::prelude::*;
-use presentation::palette::{self, Choice, Drawn};
+use presentation::palette::{self, Choice, Drawn, Makeable};
 
 /// The palette, while it is open.
 #[component]
@@ -24,15 +24,15 @@ fn Open(lab: Lab) -> impl IntoView {
     let wanted = RwSignal::new(String::new());
     let at = RwSignal::new(0_usize);
     let before = StoredValue::new_local(document().active_element());
-    let drawn = StoredValue::new(drawn(lab));
+    let drawn = Memo::new(move |_| drawn(lab));
+    lab.read_libraries();
     let found = Memo::new(move |_| {
         at.set(0);
         let wanted = wanted.get();
         let actions = ACTIONS.iter().map(|action| (action, action.id, action.label));
         let actions: Vec<palette::Named<&'static Action>> = actions.collect();
-        lab.listed.with(|listed| {
-            drawn.with_value(|drawn| palette::matching(&wanted, &actions, listed, drawn))
-        })
+        lab.listed
+            .with(|listed| drawn.with(|drawn| palette::matching(&wanted, &actions, listed, drawn)))
     });
     leptos::task::spawn_local(async move {
         // Without the list there are still the actions.
@@ -58,7 +58,8 @@ fn Open(lab: Lab) -> impl IntoView {
         match choice {
             Choice::Do(action) => actions::run(action, lab),
             Choice::Draw(row) => lab.begin_construction(&row.id),
-            Choice::Insert(class) => {
+            Choice::Insert(Makeable { class, unused }) => {
+                unused.inspect(|library| lab.use_library(library));
                 lab.take_tool(&class);
                 crate::keyboard::focus("#picture");
             }
@@ -105,8 +106,11 @@ fn Open(lab: Lab) -> impl IntoView {
 
 fn drawn(lab: Lab) -> Drawn {
     let constructions = lab.ask_of_shown(session::Session::constructions).unwrap_or_default();
-    let classes = lab.ask_of_shown(session::Session::bin_names).unwrap_or_default();
-    (constructions, classes)
+    let own = lab.ask_of_shown(session::Session::bin_names).unwrap_or_default();
+    let own = own.into_iter().map(|class| Makeable { class, unused: None });
+    let unused = lab.in_unused_libraries().into_iter();
+    let other = unused.map(|one| Makeable { class: one.class, unused: Some(one.library) });
+    (constructions, own.chain(other).collect())
 }
 
 #[component]
@@ -120,7 +124,9 @@ fn Entry(
     let (name, label, action) = match choice {
         Choice::Do(action) => (String::from(action.id), String::from(action.label), Some(action)),
         Choice::Draw(row) => (row.operands, row.label, None),
-        Choice::Insert(class) => (class.clone(), words::place_one(&class), None),
+        Choice::Insert(Makeable { class, unused }) => {
+            (unused.unwrap_or_else(|| class.clone()), words::place_one(&class), None)
+        }
         Choice::Open(listed) => (listed.path, format!("{} {}", words::OPEN, listed.title), None),
     };
     // of a document where it is, of a construction what it is made of

@@ -1,7 +1,7 @@
 //! Views beside picture, structure and text: plots, lessons.
 
 use browser::Visit;
-use browser::hands::{drag, grip, show, state};
+use browser::hands::{begin, drag, grip, keys, middle, point, show, state};
 
 /// Types into a field of the page and leaves it.
 async fn fill(visit: &Visit, selector: &str, text: &str) {
@@ -73,6 +73,41 @@ async fn a_lesson_goes_on_as_its_tasks_are_done() {
     visit.until("document.querySelector('.lesson').textContent.includes('done')").await;
     visit.script("document.querySelector('.lesson .primary').click()").await;
     visit.until("window.__thinglab.state().path === 'gallery/lesson-2-figure.thing'").await;
+}
+
+#[tokio::test]
+async fn the_gallery_offers_what_was_shown_last_finds_by_words_and_begins_a_document() {
+    let visit = Visit::open_empty().await;
+    show(&visit, "bearing.thing").await;
+    show(&visit, "koch.thing").await;
+    visit.script("location.hash = '#/'").await;
+    let recent = "[...document.querySelectorAll('section[aria-label=Recent] .path')].map(p => p.textContent).join()";
+    visit.until(&format!("{recent} === 'gallery/koch.thing,gallery/bearing.thing'")).await;
+    // words of a card's sentence, which is read by and by
+    visit.script("document.querySelector('.begin input').focus()").await;
+    keys(&visit, "attacks NONE").await;
+    let found = "[...document.querySelectorAll('.card')].filter(c => c.checkVisibility()).map(c => c.querySelector('h3').textContent).join()";
+    visit.until(&format!("{found} === 'Eight queens'")).await;
+    keys(&visit, " zebra").await;
+    visit.until(&format!("{found} === ''")).await;
+    visit.until("document.querySelector('.gallery [role=status]').textContent.startsWith('No document')").await;
+    visit.script("document.querySelector('.begin .primary').click()").await;
+    visit.until("window.__thinglab.state().path === 'untitled.thing'").await;
+}
+
+#[tokio::test]
+async fn a_part_of_a_library_that_is_not_used_yet_is_found_and_placed() {
+    let visit = begin().await;
+    visit.script("document.getElementById('tab-bin').click()").await;
+    visit.script("document.querySelector('.bin input').focus()").await;
+    keys(&visit, "resistor").await;
+    visit.until("document.querySelector('.tile[data-class=Resistor]')").await;
+    let tile = middle(&visit, ".tile[data-class=Resistor]").await;
+    // its first end lies where it is dropped, the other where one clicks
+    drag(&visit, tile, (620.0, 400.0)).await;
+    visit.until("window.__thinglab.state().text.includes('use circuits\\n')").await;
+    point(&visit, (760.0, 400.0), 0).await;
+    visit.until("/: Resistor/.test(window.__thinglab.state().text)").await;
 }
 
 #[tokio::test]

@@ -52,6 +52,17 @@ fn a_toolbox_comes_first_in_the_bin_and_in_its_order() {
 }
 
 #[test]
+fn a_library_that_is_not_used_yet_shows_what_it_has() {
+    let desk = Desk::of("use geometry\n");
+    let bin = desk.session.bin_of_library("circuits");
+    let resistor = bin.iter().find(|entry| entry.class == "Resistor").expect("circuits has it");
+    assert!(!resistor.picture.elements.is_empty() && !resistor.doc.is_empty());
+    assert!(bin.iter().all(|entry| entry.library == "circuits"), "and not what it uses");
+    assert!(desk.session.bin_of_library("nowhere").is_empty());
+    assert_eq!(desk.session.text(desk.id).source, "use geometry\n");
+}
+
+#[test]
 fn a_view_or_toolbox_that_means_nothing_is_told_at_its_place() {
     let told = |text: &str| {
         let diagnostics = Desk::of(text).session.text(session::DocumentId(0)).diagnostics;

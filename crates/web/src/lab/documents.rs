@@ -4,11 +4,13 @@ use super::{ABSENT, Lab, Opened, Zoom};
 use crate::dialog::Wish;
 use crate::lab::Notice;
 use crate::server::{self, Saved, Stored};
-use crate::{js, route, words};
+use crate::{js, route, theme, words};
 use leptos::prelude::*;
+use presentation::drafts::place_of;
 use presentation::palette::Listed;
 use presentation::paths::usable;
-use session::view::DocumentId;
+use presentation::recent;
+use session::view::{BinEntry, DocumentId};
 use session::{Command, used_as};
 use wasm_bindgen::JsCast;
 use wasm_bindgen::closure::Closure;
@@ -18,6 +20,9 @@ const UNTITLED: &str = "untitled";
 
 /// A text with more bytes takes long to open.
 const LONG: usize = 200_000;
+
+/// Under which name the browser keeps what was shown last.
+const RECENT: &str = "thinglab/recent";
 
 /// What stands in a new document.
 const NEW_TEXT: &str = "use geometry\n";
@@ -226,12 +231,22 @@ impl Lab {
         self.notice.set(None);
         self.conflict.set(None);
         self.order(|session| session.catch_up(opened.id));
+        note_shown(path);
         self.current.set(Some(String::from(path)));
         self.document.set(Some(opened));
         self.offer_draft(path);
         self.show_views();
         self.meet_lesson(path);
         self.zoom.set(Some(Zoom::Fit));
+    }
+
+    /// The paths of what this browser showed last, of those that a list has or that are not saved anywhere yet.
+    pub fn recent(self, listed: &[Listed]) -> Vec<String> {
+        let kept = theme::keep(RECENT).unwrap_or_default();
+        let begun: Vec<String> = theme::names();
+        let has_draft =
+            |path: &str| begun.iter().any(|n| place_of(n).is_some_and(|(_, of)| of == path));
+        recent::offered(&kept, |path| listed.iter().any(|one| one.path == path) || has_draft(path))
     }
 
     /// Shows the gallery.
@@ -246,6 +261,41 @@ impl Lab {
     /// The names of the libraries.
     pub fn libraries(self) -> Vec<String> {
         self.files.with_value(|files| files.libraries.keys().cloned().collect())
+    }
+
+    /// The libraries that the shown document does not use yet.
+    pub fn unused_libraries(self) -> Vec<String> {
+        self.without_used(self.libraries())
+    }
+
+    /// Those of the names that no line of the shown document uses.
+    pub fn without_used(self, mut names: Vec<String>) -> Vec<String> {
+        let text = self.text.with(|text| text.source.clone());
+        names.retain(|name| !text.lines().any(|line| line.trim() == format!("use {name}")));
+        names
+    }
+
+    /// Begins to read what the libraries have, one after the other, so that it is found there.
+    pub fn read_libraries(self) {
+        if self.id().is_none() || self.of_libraries.with_untracked(Option::is_some) {
+            return;
+        }
+        self.of_libraries.set(Some(Vec::new()));
+        leptos::task::spawn_local(async move {
+            for library in self.libraries() {
+                js::pause().await;
+                let more = self.ask(|session| session.bin_of_library(&library));
+                self.of_libraries.update(|all| all.get_or_insert_default().extend(more));
+            }
+        });
+    }
+
+    /// What the libraries have that the shown document does not use yet, as far as that was read.
+    pub fn in_unused_libraries(self) -> Vec<BinEntry> {
+        let unused = self.unused_libraries();
+        let mut all = self.of_libraries.get().filter(|_| self.id().is_some()).unwrap_or_default();
+        all.retain(|entry| unused.contains(&entry.library));
+        all
     }
 
     pub(super) fn update_document(self, change: impl FnOnce(&mut Opened)) {
@@ -418,4 +468,10 @@ async fn stands(path: &str) -> Result<Stored, String> {
     let begun =
         || Stored { text: String::from(NEW_TEXT), version: String::from(ABSENT), writable: true };
     Ok(server::document(path).await?.unwrap_or_else(begun))
+}
+
+/// Keeps in mind that a document is shown. A browser that keeps nothing offers none.
+fn note_shown(path: &str) {
+    let kept = theme::keep(RECENT).unwrap_or_default();
+    theme::put(RECENT, Some(&recent::with(&kept, path)));
 }
