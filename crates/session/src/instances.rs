@@ -1,7 +1,7 @@
 //! Instances of programs: things that a program draws, each at a place of its own. Held in their place, a drag of what
 //! they show fits the program to it; unlinked, what they drew becomes plain figures of the document.
 
-use crate::drafting::retext;
+use crate::drafting::{compound, retext};
 use crate::session::{Session, parse_path};
 use crate::state::State;
 use crate::view::{Change, DocumentId, Refusal};
@@ -177,7 +177,8 @@ fn figures(state: &State, thing: &str) -> Result<Vec<Plain>, Refusal> {
         };
         let class = evaluator.class_of(&answer).ok_or_else(none)?;
         let mut values = Values::new();
-        let is_figure = document.figure(class).is_some();
+        let is_figure =
+            document.figure(class).is_some() || compound::of(document, class).is_some();
         let is_plain = is_figure && flatten(document, &answer, &Path::default(), &mut values);
         let says = match is_plain {
             true => Says::Figure(values),

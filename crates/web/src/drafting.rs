@@ -13,6 +13,7 @@ use wasm_bindgen::closure::Closure;
 
 pub mod calculator;
 pub mod numbers;
+pub mod parameter;
 pub mod prompt;
 pub mod recorder;
 pub mod steps;

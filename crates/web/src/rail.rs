@@ -83,8 +83,11 @@ impl Lab {
             self.ask_of_shown(|session, id| session.recorded(id).map(String::from)).flatten();
         let Some(program) = recorded else { return false };
         let all = self.ask_of_shown(session::Session::constructions).unwrap_or_default();
-        if all.iter().any(|row| row.id == class) {
-            self.begin_construction(class);
+        // a rectangle is drawn from corner to corner, as without a program
+        let by_corners = format!("{class}.between(first,second)");
+        let tool = [by_corners.as_str(), class].into_iter().find(|id| all.iter().any(|row| row.id == *id));
+        if let Some(tool) = tool {
+            self.begin_construction(tool);
         } else {
             let message = words::no_step(class, &program);
             self.notice.set(Some(Notice::Refused(Refusal { message, ..Refusal::default() })));

@@ -534,13 +534,11 @@ pub const PROGRAM_NAME: &str = "Program, as Washer";
 /// Defines a parameter.
 pub const DEFINE: &str = "Define";
 /// The field for the name of a parameter.
-pub const PARAMETER_NAME: &str = "name";
-/// What that field is for.
-pub const NAME_OF_PARAMETER: &str = "Name of the parameter";
+pub const PARAMETER_NAME: &str = "Name";
 /// The field for the example of a parameter.
-pub const EXAMPLE: &str = "example";
+pub const EXAMPLE: &str = "Example";
 /// The field for what is asked.
-pub const QUESTION: &str = "question?";
+pub const QUESTION: &str = "Question";
 /// Deletes a step.
 pub const DELETE_STEP: &str = "Delete step";
 /// The field that finds constructions.

@@ -5,7 +5,7 @@
 
 use super::parameters::{self, Asks};
 use super::view::ConstructionRow;
-use super::{Home, synonyms, text};
+use super::{Home, compound, synonyms, text};
 use crate::recognise;
 use crate::state::State;
 use base::{Name, Span};
@@ -342,7 +342,8 @@ pub(crate) fn tools(state: &State, home: &Home) -> Vec<Tool> {
             continue;
         }
         let is_program = document.program(id).is_some();
-        if is_program || document.figure(id).is_some() && !matches!(home, Home::Document) {
+        let is_drawn = document.figure(id).is_some() || compound::of(document, id).is_some();
+        if is_program || is_drawn && !matches!(home, Home::Document) {
             let is_placed = is_program && matches!(home, Home::Document);
             let mut tool = constructor(document, id, is_program);
             if let (Some(tool), true) = (&mut tool, is_program) {
@@ -367,6 +368,7 @@ pub(crate) fn tools(state: &State, home: &Home) -> Vec<Tool> {
             }
         }
     }
+    take_compounds(document, &mut all);
     if all.iter().any(|tool| *tool.class == *"Point") {
         all.extend(moved(document));
         all.extend([Pattern::Polar, Pattern::Row].into_iter().filter_map(|p| pattern(document, p)));
@@ -413,13 +415,33 @@ fn join(known: &mut Tool, other: Tool) {
     slot.kind = SlotKind::Set;
 }
 
+/// Lets copies take figures that are made of others, where these answer to them.
+fn take_compounds(document: &Document, all: &mut [Tool]) {
+    let compounds = || document.classes.iter().filter(|(id, _)| compound::of(document, *id).is_some());
+    for tool in all {
+        let Call::Message(word) = &tool.call else { continue };
+        let Some((slot, rest)) = tool.slots.split_first_mut() else { continue };
+        let answers = |(id, _): &(ClassId, &Class)| {
+            let labels = rest.len();
+            let found = document.find_message(*id, &Name::new(word), None);
+            found.is_some_and(|(_, message)| message.parameters.len() == labels)
+        };
+        let taken = compounds().filter(answers).map(|(_, class)| class.name.clone());
+        if slot.kind == SlotKind::Set {
+            slot.also.extend(taken);
+        }
+    }
+}
+
 /// Returns the tool that moves a set, or any figure of it.
 fn moved(document: &Document) -> Option<Tool> {
     let point = document.class_named("Point")?;
     let slots = [("what", None, point), ("by", Some("by".to_string()), point)];
     let mut slots = slots.map(|(name, label, class)| Slot::of(document, name, label, class));
     slots[0].kind = SlotKind::Set;
-    let figures = document.classes.iter().filter(|(id, _)| document.figure(*id).is_some());
+    let is_figure =
+        |id: ClassId| document.figure(id).is_some() || compound::of(document, id).is_some();
+    let figures = document.classes.iter().filter(|(id, _)| is_figure(*id));
     slots[0].also = figures.map(|(_, class)| class.name.clone()).collect();
     let doc = "Moved so far to the right and up as a point lies from the origin: all turns of a loop, or \
                what a program drew.";
@@ -490,7 +512,7 @@ fn constructor(document: &Document, id: ClassId, is_program: bool) -> Option<Too
     let class = &document.classes[id];
     let name = class.name.to_string();
     let is_by_place = matches!(name.as_str(), "Point" | "Line" | "Axis" | "Arc" | "ClockwiseArc");
-    let is_plain = is_by_place || name == "Circle";
+    let is_plain = is_by_place || name == "Circle" || compound::of(document, id).is_some();
     if !is_program && !is_plain {
         return None;
     }
@@ -513,7 +535,8 @@ fn constructor(document: &Document, id: ClassId, is_program: bool) -> Option<Too
 /// Returns the tool that a message is, if it makes a figure of what it is given.
 fn of_message(document: &Document, id: ClassId, message: &Message) -> Option<Tool> {
     let class = &document.classes[id];
-    if document.figure(id).is_none() && !is_planar(document, id) {
+    let is_drawn = document.figure(id).is_some() || compound::of(document, id).is_some();
+    if !is_drawn && !is_planar(document, id) {
         return None;
     }
     let word = message.word().to_string();

@@ -183,7 +183,7 @@ pub(crate) fn give(
             let all = scene::scene(&open.state, &home(open).ok_or_else(none)?);
             let nothing = || words::refuse(remove::why_nothing(open, &step, pointer));
             let found = scene::nearest(all.iter(), pointer).ok_or_else(nothing)?;
-            let picked = found.at_level(level);
+            let picked = found.at_level(level, false);
             match is_edges(&slot, &says) {
                 true => {
                     let (state, home) = (&open.state, home(open).ok_or_else(none)?);

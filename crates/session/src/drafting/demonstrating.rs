@@ -1,8 +1,8 @@
 //! Recording at the boundary: a program begun and ended, its parameters, loops and branches demonstrated.
 
 use super::hands::{home, not_in_a_pane, prompt, turn_of};
-use super::view::{Ends, NewParameter, Prompt, Turn};
-use super::{blocks, choice, parameters, recording, repeat, scene};
+use super::view::{Ends, NewParameter, ParameterReading, Prompt, Turn};
+use super::{blocks, choice, parameters, reading, recording, repeat, scene};
 
 use crate::session::Session;
 use crate::view::{Change, DocumentId, Refusal};
@@ -121,6 +121,12 @@ impl Session {
         let (open, beside) = self.beside_others(id);
         let change = choice::end(open, &beside)?;
         Ok(*self.with_reach(id, change))
+    }
+
+    /// Returns how what is typed so far of a parameter is understood, and what is wrong in which field.
+    pub fn read_parameter(&self, id: DocumentId, new: &NewParameter) -> ParameterReading {
+        let open = self.document(id);
+        reading::read(open, &home(open), new)
     }
 
     /// Defines a parameter of the program that is recorded, or says anew what one is.

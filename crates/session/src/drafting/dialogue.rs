@@ -174,7 +174,10 @@ impl Dialogue {
             let text = match slot.kind {
                 SlotKind::Value => measure::usual(state, found)
                     .ok_or_else(|| words::refuse(format!("{} has no measure", found.text)))?,
-                SlotKind::Set => found.at_level(level),
+                SlotKind::Set => {
+                    let is_whole = |class| slot.takes(state, class);
+                    found.at_level(level, found.side_of.is_some_and(is_whole))
+                }
                 SlotKind::Point | SlotKind::Curve | SlotKind::Edges => found.text.clone(),
             };
             return Ok(Operand::new(text, Some(pointer.at)));

@@ -576,7 +576,7 @@ fn object_at(
     let found = scene::nearest(all.iter(), pointer);
     let none = || words::refuse("nothing that can be picked lies here".into());
     found
-        .map(|found| scene::Found { text: found.at_level(level), ..found.clone() })
+        .map(|found| scene::Found { text: found.at_level(level, false), ..found.clone() })
         .ok_or_else(none)
 }
 

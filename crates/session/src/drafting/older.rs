@@ -4,7 +4,7 @@
 use super::catalogue::SlotKind;
 use super::scene::{self, Found};
 use super::view::{OlderUse, Prompt, Wants};
-use super::{Dialogue, Home, recording, steps, text};
+use super::{Dialogue, Home, compound, recording, steps, text};
 use crate::apply;
 use crate::document::Open;
 use crate::host::Host;
@@ -163,7 +163,9 @@ impl Taken<'_> {
             answer.is_some_and(|answer| {
                 let class = self.evaluator.class_of(&answer);
                 matches!(answer, Answer::Number(..) | Answer::Bool(_))
-                    || class.is_some_and(|class| document.figure(class).is_some())
+                    || class.is_some_and(|class| {
+                        document.figure(class).is_some() || compound::of(document, class).is_some()
+                    })
             })
         };
         let n = (1..=steps.len()).find(is_whole).ok_or_else(none)?;

@@ -51,7 +51,7 @@ pub(crate) enum Allowed {
 
 impl Allowed {
     /// Reads `1..10`, `1..<10`, `[3 mm, 4 mm]` and `3, 4, 5 mm`; nothing else.
-    fn of(text: &str) -> Option<Self> {
+    pub(crate) fn of(text: &str) -> Option<Self> {
         let said = |of: Expr| of.syntax().text().to_string().trim().to_string();
         match typed::expression(text) {
             Some(Expr::Range(range)) => Some(Self::Range {
@@ -99,7 +99,7 @@ impl Allowed {
     }
 
     /// As a program declares it; of angles, numbers without a unit are degrees.
-    fn written(&self, is_angle: bool) -> String {
+    pub(crate) fn written(&self, is_angle: bool) -> String {
         let own = |text: &String| if is_angle { in_degrees(text) } else { text.clone() };
         match self {
             Self::Range { least, most, is_open } => {
@@ -113,7 +113,7 @@ impl Allowed {
     }
 
     /// The condition that a value is allowed.
-    fn condition(&self, value: &str) -> String {
+    pub(crate) fn condition(&self, value: &str) -> String {
         match self {
             Self::Range { least, most, is_open } => {
                 let less = if *is_open { "<" } else { "<=" };
@@ -240,8 +240,7 @@ pub(crate) fn define(
         return Err(words::refuse("a parameter is one of a program: record one first".into()));
     };
     let name = new.name.trim();
-    let starts_well = name.chars().next().is_some_and(char::is_alphabetic);
-    if !starts_well || !name.chars().all(|c| c.is_alphanumeric() || c == '_') {
+    if !is_name(name) {
         return Err(words::refuse(format!("`{name}` is no name for a parameter")));
     }
     let instead = new.instead_of.trim();
@@ -263,6 +262,24 @@ pub(crate) fn define(
         open.one_step(since);
     }
     Ok(change)
+}
+
+/// Whether something can be the name of a parameter.
+pub(crate) fn is_name(name: &str) -> bool {
+    let starts_well = name.chars().next().is_some_and(char::is_alphabetic);
+    starts_well && name.chars().all(|c| c.is_alphanumeric() || c == '_')
+}
+
+/// What is wrong with what is no range.
+pub(crate) const NO_RANGE: &str = "no range and no table: wanted is from..to, as 1 mm..100 mm, or values, as 3, 4, 5 mm";
+
+/// Returns the class of a parameter and its example, as the language writes it.
+///
+/// # Errors
+/// The example is no value.
+pub(crate) fn understood(state: &State, new: &NewParameter) -> Result<(String, String), Refusal> {
+    let new = NewParameter { range: String::new(), ..new.clone() };
+    Said::of(state, &new, None).map(|said| (said.class, said.example))
 }
 
 /// Takes a parameter from a program.
@@ -331,10 +348,7 @@ impl Said {
         let keeps_range = is_old(&range, |old| &old.range);
         let read = Allowed::of(&range).filter(|_| !range.is_empty());
         if read.is_none() && !range.is_empty() && !keeps_range {
-            let message = format!(
-                "`{range}` is no range and no table: wanted is from..to, as 1 mm..100 mm, or values, as 3, 4, 5 mm"
-            );
-            return Err(words::refuse(message));
+            return Err(words::refuse(format!("`{range}` is {NO_RANGE}")));
         }
         if let (Some(read), false) = (&read, keeps_range) {
             range = read.written(false);

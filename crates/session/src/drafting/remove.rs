@@ -216,7 +216,7 @@ pub(crate) fn instead(
                 let gone = scene::nearest(all.iter(), pointer).map(|f| format!("{} goes", f.text));
                 words::refuse(gone.unwrap_or_else(|| why_nothing(open, &step, pointer)))
             };
-            found.map(|found| found.at_level(level)).ok_or_else(nothing)?
+            found.map(|found| found.at_level(level, false)).ok_or_else(nothing)?
         }
         None => typed.trim().to_string(),
     };

@@ -1,5 +1,6 @@
 //! What can be picked: the figures that the home of a drawing knows, each by what it is called there.
 
+use super::compound::{self, Compound};
 use super::{Home, text};
 use crate::state::State;
 use crate::view::Pointer;
@@ -22,6 +23,8 @@ pub(crate) struct Found {
     pub(crate) curve: Curve,
     /// What it is in, from the nearest: a turn of a loop, the loop.
     pub(crate) wholes: Vec<String>,
+    /// The class of the figure that it is a side of; nothing for what is a figure of its own.
+    pub(crate) side_of: Option<ClassId>,
     /// The edge of it, where it is one of several: of a contour, a surface or a region.
     pub(crate) side: Option<Side>,
     /// Whether it is a place of another figure.
@@ -39,9 +42,10 @@ impl Found {
         (begin.min(end) <= pointer.reach).then_some(end < begin)
     }
 
-    /// How it, or what it is in, is written: at level 0 itself, then from the nearest whole on, and around.
-    pub(crate) fn at_level(&self, level: usize) -> String {
-        match level % (self.wholes.len() + 1) {
+    /// How it, or what it is in, is written: at level 0 itself, or the figure that it is a side of where that is
+    /// `whole_first`, then from the nearest whole on, and around.
+    pub(crate) fn at_level(&self, level: usize, whole_first: bool) -> String {
+        match (level + usize::from(whole_first)) % (self.wholes.len() + 1) {
             0 => self.text.clone(),
             n => self.wholes[n - 1].clone(),
         }
@@ -446,7 +450,8 @@ impl<'a> Scene<'_, 'a> {
                 continue;
             }
             let path = structure.path(document, thing).to_string();
-            if document.figure(t.class).is_some() {
+            let is_compound = compound::of(document, t.class).is_some();
+            if is_compound || document.figure(t.class).is_some() {
                 self.add((&path, &[]), &Answer::Thing(thing), false);
             } else if document.program(t.class).is_some()
                 && let Some(run) = drawn::shown(self.evaluator, thing)
@@ -517,6 +522,9 @@ impl<'a> Scene<'_, 'a> {
             _ => {}
         }
         let Some(class) = self.evaluator.class_of(answer) else { return };
+        if let Some(parts) = compound::of(&self.state.lowered.document, class) {
+            return self.compound((text, wholes), (class, answer), parts);
+        }
         let Some(curve) = Curve::of(self.evaluator, answer) else {
             self.sets.push((text.into(), self.is_result));
             return self.outline((text, wholes), (class, answer));
@@ -527,6 +535,7 @@ impl<'a> Scene<'_, 'a> {
             class,
             curve,
             wholes,
+            side_of: None,
             side: None,
             is_place,
             is_result,
@@ -539,9 +548,48 @@ impl<'a> Scene<'_, 'a> {
                 && let (Some(class), Some(curve)) =
                     (self.evaluator.class_of(&part), Curve::of(self.evaluator, &part))
             {
-                let (text, wholes) = (format!("{text}.{name}"), Vec::new());
-                let (side, is_place, is_result) = (None, true, false);
-                self.found.push(Found { text, class, curve, wholes, side, is_place, is_result });
+                self.place(format!("{text}.{name}"), class, curve);
+            }
+        }
+    }
+
+    /// Adds a place of another figure.
+    fn place(&mut self, text: String, class: ClassId, curve: Curve) {
+        let (wholes, side_of, side) = (Vec::new(), None, None);
+        let (is_place, is_result) = (true, false);
+        self.found.push(Found { text, class, curve, wholes, side_of, side, is_place, is_result });
+    }
+
+    /// Adds the sides and the places of a figure that is made of others.
+    fn compound(
+        &mut self,
+        (text, wholes): (&str, &[String]),
+        (class, of): (ClassId, &Answer<'a>),
+        parts: &Compound,
+    ) {
+        self.sets.push((text.into(), self.is_result));
+        let around: Vec<String> =
+            std::iter::once(text.to_string()).chain(wholes.iter().cloned()).collect();
+        let since = self.found.len();
+        for name in parts.sides {
+            let (side, said) = (self.evaluator.of_part(of, name), format!("{text}.{name}"));
+            match side {
+                Ok(Answer::List(all)) => all.iter().enumerate().for_each(|(i, side)| {
+                    self.add((&format!("{said}[{i}]"), &around), side, true);
+                }),
+                Ok(side) => self.add((&said, &around), &side, parts.places.is_empty()),
+                Err(_) => {}
+            }
+        }
+        for side in &mut self.found[since..] {
+            side.side_of = (!side.is_place).then_some(class);
+        }
+        for name in parts.places {
+            if let Ok(part) = self.evaluator.of_part(of, name)
+                && let (Some(class), Some(curve)) =
+                    (self.evaluator.class_of(&part), Curve::of(self.evaluator, &part))
+            {
+                self.place(format!("{text}.{name}"), class, curve);
             }
         }
     }
@@ -560,6 +608,7 @@ impl<'a> Scene<'_, 'a> {
                 class,
                 curve: Curve::of_side(&side),
                 wholes: wholes.to_vec(),
+                side_of: None,
                 side: Some(side),
                 is_place: false,
                 is_result: self.is_result,

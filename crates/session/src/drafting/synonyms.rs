@@ -26,6 +26,8 @@ const ALSO: &[(&str, &str)] = &[
     ("Line.perpendicular", "perpendicular altitude height normal orthogonal drop"),
     ("Line.polar", "segment with given length and angle vector ray"),
     ("Line.tangent", "tangent"),
+    ("Rectangle", "rectangle box square rect"),
+    ("RegularPolygon", "polygon hexagon triangle pentagon"),
     ("Point.dividing", "ratio division section"),
     ("Point.intersection", "intersect crossing meet orthocenter"),
     ("Point.middle", "midpoint center middle"),

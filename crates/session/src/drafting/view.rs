@@ -320,3 +320,27 @@ pub struct NewParameter {
     /// The parameter that is said anew by this; nothing for another one.
     pub instead_of: String,
 }
+
+/// How a parameter that is being typed is understood.
+#[derive(Clone, PartialEq, Eq, Debug, Default)]
+pub struct ParameterReading {
+    /// The class of its example, or the one that was chosen; nothing where there is no example yet.
+    pub class: String,
+    /// The example with its unit: `84 mm`.
+    pub value: String,
+    /// The values that are allowed, in words: `1 mm to 100 mm`.
+    pub allowed: Option<String>,
+    /// What is wrong, and in which field.
+    pub wrong: Vec<(ParameterField, String)>,
+}
+
+/// A field of a parameter that is being typed.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum ParameterField {
+    /// Its name.
+    Name,
+    /// Its example.
+    Example,
+    /// The values that are allowed.
+    Allowed,
+}

@@ -433,3 +433,49 @@ fn a_parameter_allows_the_values_of_a_table() {
     let refused = desk.session.define_parameter(desk.id, &strange).expect_err("it is no table");
     assert!(refused.message.contains("no range and no table"), "{}", refused.message);
 }
+
+/// What is understood of a parameter that is typed: class, value, what is allowed; and what is wrong.
+fn read(desk: &Desk, fields: [&str; 4]) -> (String, String, String, Vec<String>) {
+    let [name, example, class, range] = fields.map(String::from);
+    let new = NewParameter { name, example, class, range, ..NewParameter::default() };
+    let reading = desk.session.read_parameter(desk.id, &new);
+    let wrong = reading.wrong.iter().map(|(field, why)| format!("{field:?}: {why}")).collect();
+    (reading.class, reading.value, reading.allowed.unwrap_or_default(), wrong)
+}
+
+#[test]
+fn what_is_typed_of_a_parameter_is_understood_before_it_is_defined() {
+    let desk = flange();
+    let none = Vec::<String>::new;
+    for (fields, class, value, allowed) in [
+        (["inner", "84", "", ""], "Length", "84 mm", ""),
+        (["inner", "30 deg", "", ""], "Angle", "30 deg", ""),
+        (["inner", "30", "Angle", "10..40"], "Angle", "30 deg", "10 to 40"),
+        (["inner", "yes", "", ""], "Bool", "yes", ""),
+        (["inner", "3,4", "", ""], "Point", "3,4", ""),
+        (["inner", "6", "Integer", "4, 6"], "Integer", "6", "4 or 6"),
+        (["inner", "8.4 mm", "", "1 mm..100 mm"], "Length", "8.4 mm", "1 mm to 100 mm"),
+        (["", "", "", ""], "", "", ""),
+    ] {
+        let understood = (class.to_string(), value.to_string(), allowed.to_string(), none());
+        assert_eq!(read(&desk, fields), understood, "{fields:?}");
+    }
+}
+
+#[test]
+fn what_is_wrong_of_a_parameter_is_said_of_its_field() {
+    let desk = flange();
+    for (fields, wrong) in [
+        (["3x", "84", "", ""], "Name: `3x` is no name"),
+        (["round", "84", "", ""], "Name: Flange has round already"),
+        (["circle", "84", "", ""], "Name: Flange has circle already"),
+        (["inner", "8 4", "", ""], "Example: "),
+        (["inner", "2.5", "Integer", ""], "Example: a count is wanted"),
+        (["inner", "7", "Bool", ""], "Example: yes or no is wanted"),
+        (["inner", "84", "", "many"], "Allowed: no range and no table"),
+        (["inner", "84", "", "1 mm..9 mm"], "Allowed: the example, 84 mm, is not among these"),
+    ] {
+        let (.., all) = read(&desk, fields);
+        assert!(all.iter().any(|said| said.starts_with(wrong)), "{fields:?}: {all:?}");
+    }
+}

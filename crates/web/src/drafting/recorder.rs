@@ -1,10 +1,11 @@
 //! Begins and ends recording, defines parameters, and demonstrates blocks.
 
+use super::parameter;
 use crate::keyboard::focus;
 use crate::lab::Lab;
 use crate::words;
 use leptos::prelude::*;
-use session::drafting::view::{Ends, NewParameter, OpenBlock, OpenKind, StepsView};
+use session::drafting::view::{Ends, OpenBlock, OpenKind, StepsView};
 
 /// Recording, from its name to its end.
 #[component]
@@ -32,7 +33,7 @@ pub fn Recorder(
                     <span class="lamp" aria-hidden="true"></span>{words::recording(&program)}
                     <button data-draft="stop" on:click=move |_| lab.stop_recording()>{words::STOP}</button>
                 </p>
-                <Define lab=lab />
+                <parameter::Define lab=lab />
                 {move || view! { <Blocks lab=lab open=open.get() /> }}
             }.into_any(),
             None => view! {
@@ -84,58 +85,5 @@ fn Blocks(lab: Lab, open: Vec<OpenBlock>) -> impl IntoView {
     view! {
         {lines.collect_view()}
         <div class="line blocks">{ends}{begins}</div>
-    }
-}
-
-/// The classes of parameters that can be chosen instead of the example's own.
-const CLASSES: [&str; 11] = [
-    "Length", "Angle", "Real", "Integer", "Bool", "Text", "Point", "Line", "Axis", "Circle", "Arc",
-];
-
-/// Defines a parameter by its example, or says one anew.
-#[component]
-fn Define(lab: Lab) -> impl IntoView {
-    let new = lab.drafting.parameter;
-    let define = move |e: leptos::ev::SubmitEvent| {
-        e.prevent_default();
-        lab.define_parameter();
-    };
-    let is_other = Memo::new(move |_| new.with(|n| !n.instead_of.is_empty()));
-    let is_first = Memo::new(move |_| {
-        lab.drafting.turned.track();
-        let steps = lab.ask_of_shown(|session, id| session.steps(id, None)).flatten();
-        steps.is_some_and(|steps| steps.parameters.is_empty())
-    });
-    view! {
-        <Show when=move || is_first.get()><p class="quiet">{words::FIRST_PARAMETER}</p></Show>
-        <form class="line define" aria-label=words::DEFINE on:submit=define>
-            <input name="parameter" autocomplete="off" placeholder=words::PARAMETER_NAME
-                aria-label=words::NAME_OF_PARAMETER prop:value=move || new.with(|n| n.name.clone())
-                on:input=move |e| new.update(|n| n.name = event_target_value(&e)) />
-            <input name="example" autocomplete="off" placeholder=words::EXAMPLE aria-label=words::EXAMPLE
-                prop:value=move || new.with(|n| n.example.clone())
-                on:input=move |e| new.update(|n| n.example = event_target_value(&e)) />
-            <select name="class" aria-label=words::PARAMETER_CLASS title=words::PARAMETER_CLASS
-                prop:value=move || new.with(|n| n.class.clone())
-                on:change=move |e| new.update(|n| n.class = event_target_value(&e))>
-                <option value="">{words::CLASS_OF_EXAMPLE}</option>
-                {CLASSES.map(|class| view! { <option value=class>{words::class_of_parameter(class)}</option> }).into_iter().collect_view()}
-            </select>
-            <input name="range" autocomplete="off" placeholder=words::RANGE aria-label=words::RANGE title=words::RANGE_HELP
-                prop:value=move || new.with(|n| n.range.clone())
-                on:input=move |e| new.update(|n| n.range = event_target_value(&e)) />
-            <input name="question" autocomplete="off" placeholder=words::QUESTION aria-label=words::QUESTION
-                prop:value=move || new.with(|n| n.prompt.clone())
-                on:input=move |e| new.update(|n| n.prompt = event_target_value(&e)) />
-            <button data-draft="define">
-                {move || if is_other.get() { words::CHANGE } else { words::DEFINE }}
-            </button>
-            <Show when=move || is_other.get()>
-                <button type="button" data-draft="keep-parameter"
-                    on:click=move |_| new.set(NewParameter::default())>{words::CANCEL}</button>
-                <button type="button" data-draft="remove-parameter"
-                    on:click=move |_| lab.remove_parameter()>{words::REMOVE_PARAMETER}</button>
-            </Show>
-        </form>
     }
 }

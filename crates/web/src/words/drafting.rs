@@ -1,17 +1,23 @@
 //! What the page says of recording among what is drawn already, and of solutions.
 
 /// The class of a parameter.
-pub const PARAMETER_CLASS: &str = "Class of the parameter: without one, that of its example";
-/// The class is taken from the example.
-pub const CLASS_OF_EXAMPLE: &str = "class";
+pub const PARAMETER_CLASS: &str = "Class";
 /// The field for the values that are allowed.
-pub const RANGE: &str = "allowed";
+pub const RANGE: &str = "Allowed";
 /// What the fields for a parameter are for, while a program has none.
-pub const FIRST_PARAMETER: &str =
-    "A parameter is a name and an example: r, 30 mm. The other fields may stay empty.";
-/// How that is written.
-pub const RANGE_HELP: &str =
-    "The values that are allowed: a range, 1 mm..100 mm, or a table, 3, 4, 5 mm";
+pub const FIRST_PARAMETER: &str = "What shall differ from part to part? Give it a name and the value of this example.";
+/// What may be typed as a name.
+pub const NAME_HINT: &str = "as inner";
+/// What may be typed as an example.
+pub const EXAMPLE_HINT: &str = "as 84, 30 deg, yes, 3,4";
+/// What may be typed as a question.
+pub const QUESTION_HINT: &str = "may stay empty";
+/// What may be typed as the values that are allowed.
+pub const RANGE_HINT: &str = "all";
+/// Opens what is seldom said of a parameter.
+pub const FURTHER: &str = "Class and allowed values";
+/// How the values that are allowed are written.
+pub const RANGE_HELP: &str = "A range, 1 mm..100 mm, or a table, 3, 4, 5 mm";
 /// Something older becomes a parameter.
 pub const AS_PARAMETER: &str = "A parameter";
 /// Something older is copied into the program.
@@ -32,6 +38,20 @@ pub const NO_CONSTRUCTION: &str = "No construction has these words.";
 pub const CHANGE: &str = "Change";
 /// Takes a parameter away.
 pub const REMOVE_PARAMETER: &str = "Delete";
+
+/// How an example is understood: `Length, 84 mm`; nothing where none is typed.
+pub fn understood(class: &str, value: &str) -> String {
+    let class = class_of_parameter(class);
+    if value.is_empty() { String::new() } else { format!("{class}: {value}") }
+}
+
+/// The class that the example has by itself.
+pub fn class_of_example(class: &str) -> String {
+    match class {
+        "" => "that of the example".into(),
+        class => format!("that of the example: {}", class_of_parameter(class)),
+    }
+}
 
 /// A class of parameters, as it is chosen.
 pub fn class_of_parameter(class: &str) -> String {

@@ -1,0 +1,32 @@
+//! Figures that are made of others: a rectangle of its sides. Its sides and corners are picked like lines and points, and
+//! a pick of a side may mean the whole.
+
+use kernel::{ClassId, Document};
+
+/// What a figure that is made of others is picked by.
+#[derive(Debug)]
+pub(crate) struct Compound {
+    /// The class.
+    class: &'static str,
+    /// Its sides, each a line or a list of lines.
+    pub(crate) sides: &'static [&'static str],
+    /// Its points.
+    pub(crate) places: &'static [&'static str],
+}
+
+const ALL: [Compound; 2] = [
+    Compound {
+        class: "Rectangle",
+        sides: &["side1", "side2", "side3", "side4"],
+        places: &["corner", "corner2", "far", "corner4", "center"],
+    },
+    Compound { class: "RegularPolygon", sides: &["edges"], places: &["center"] },
+];
+
+/// Returns what things of a class are picked by, where they are made of other figures.
+pub(crate) fn of(document: &Document, class: ClassId) -> Option<&'static Compound> {
+    let is_it = |of: &&Compound| {
+        document.class_named(of.class).is_some_and(|known| document.is_a(class, known))
+    };
+    ALL.iter().find(is_it)
+}
