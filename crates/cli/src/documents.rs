@@ -29,6 +29,10 @@ impl Host for FilesBeside {
         let plain = |part: &str| {
             !part.is_empty() && part.chars().all(|c| c.is_alphanumeric() || c == '_' || c == '-')
         };
+        if let Some(table) = name.strip_suffix(".csv") {
+            let is_beside = table.split('/').all(plain);
+            return fs::read_to_string(self.folder.join(name)).ok().filter(|_| is_beside);
+        }
         if !name.split('.').all(plain) {
             return None;
         }

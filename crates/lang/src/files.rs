@@ -82,6 +82,7 @@ impl Lowerer<'_> {
                 _ => {}
             }
         }
+        self.read_tables(id);
         self.reading.pop();
         self.order.push(id);
         id

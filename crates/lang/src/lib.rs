@@ -69,6 +69,7 @@ mod scope;
 mod settle;
 mod statics;
 mod switches;
+pub mod tables;
 mod terms;
 mod trails;
 mod uses;

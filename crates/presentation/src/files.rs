@@ -13,13 +13,21 @@ pub struct FileSet {
     pub wanted: BTreeSet<String>,
 }
 
+/// Whether a file is a table: `bolts.csv`.
+pub fn is_table(name: &str) -> bool {
+    name.ends_with(".csv")
+}
+
 impl FileSet {
     /// Returns the text of a library, or of a document by its name in a folder; or notes that this is wanted.
     pub fn find(&mut self, folder: &str, name: &str) -> Option<String> {
         if let Some(library) = self.libraries.get(name) {
             return Some(library.clone());
         }
-        let path = format!("{folder}{}.thing", name.replace('.', "/"));
+        let path = match is_table(name) {
+            true => format!("{folder}{name}"),
+            false => format!("{folder}{}.thing", name.replace('.', "/")),
+        };
         match self.texts.get(&path) {
             Some(known) => known.clone(),
             None => {
@@ -47,5 +55,7 @@ mod tests {
         assert_eq!(files.find("", "parts.bolts"), None, "another folder has others");
         assert_eq!(files.find("", "parts.bolts"), None);
         assert_eq!(files.wanted.iter().collect::<Vec<_>>(), ["parts/bolts.thing"]);
+        assert_eq!(files.find("shop/", "bolts.csv"), None, "a table is called as its file is");
+        assert!(files.wanted.contains("shop/bolts.csv"));
     }
 }

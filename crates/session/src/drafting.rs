@@ -98,6 +98,8 @@ pub(crate) struct Recording {
     pub(crate) asks_condition: bool,
     /// The step that what is drawn next takes the place of, by its address.
     pub(crate) replaces: Option<String>,
+    /// Where one was before a step was to be replaced, and is afterwards: the open blocks, the step before which is drawn.
+    pub(crate) returns: Option<(Vec<blocks::Block>, Option<String>)>,
     /// The deletion whose dependents are asked about.
     pub(crate) removing: Option<remove::Removing>,
     /// What of a step is changed.

@@ -217,7 +217,7 @@ fn read_table(
         .from_reader(table.as_bytes());
     let refused = |e: &csv::Error| words::refuse(format!("the table cannot be read: {e}"));
     let headers = reader.headers().map_err(|e| refused(&e))?.clone();
-    let columns: Vec<(String, String)> = headers.iter().map(name_and_unit).collect();
+    let columns: Vec<(String, String)> = headers.iter().map(lang::tables::name_and_unit).collect();
     let fields = document.layout(program);
     let field = |name: &str| {
         fields.iter().find(|&&f| *document.field_name(f) == *name).map(|&f| document.field_class(f))
@@ -260,16 +260,6 @@ fn read_table(
         note_disorder(column, numbers, read);
     }
     Ok(())
-}
-
-/// Returns the name and the unit of a header: `outer [mm]`.
-fn name_and_unit(header: &str) -> (String, String) {
-    match header.split_once('[') {
-        Some((name, unit)) => {
-            (name.trim().to_string(), unit.trim_end_matches([']', ' ']).trim().to_string())
-        }
-        None => (header.trim().to_string(), String::new()),
-    }
 }
 
 /// Returns a cell with the unit of its column, where it is a bare number.

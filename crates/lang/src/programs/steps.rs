@@ -5,6 +5,7 @@ use super::{members_of, nothing, step_name, with_of};
 use crate::kinds::{Kind, measured};
 use crate::lower::Lowerer;
 use crate::scope::Scope;
+use crate::tables;
 use base::{Diagnostic, Name, Place, Span};
 use kernel::program::{Allowed, Asked, Block, Carried, Says, Step};
 use kernel::{BinaryOperator, ClassId, Constraint, Program, Term};
@@ -68,9 +69,11 @@ impl Lowerer<'_> {
                 let each = list.elements().map(|one| self.expr_of(scope, &one, kind));
                 Some(Allowed::OneOf(each.collect::<Vec<_>>().into_iter().collect::<Option<_>>()?))
             }
+            Expr::Field(_) if let Some(column) = tables::column_of(domain) => {
+                self.allowed_by(scope, (&column, domain.span()), kind)
+            }
             _ => {
-                let message =
-                    "what is allowed of a parameter is `least..largest`, or a list of values";
+                let message = "what is allowed of a parameter is `least..largest`, a list of values, or a column of a table, `\"bolts.csv\".d`";
                 self.error("not-a-domain", scope.file, domain.span(), message.into());
                 None
             }

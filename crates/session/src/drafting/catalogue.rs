@@ -154,7 +154,7 @@ pub(crate) fn pattern_of(formula: &Expr) -> Option<Written> {
 }
 
 /// An expression without the brackets around all of it.
-fn unbracketed(text: &str) -> String {
+pub(crate) fn unbracketed(text: &str) -> String {
     let text = text.trim();
     let inner = text.strip_prefix('(').and_then(|t| t.strip_suffix(')'));
     inner.filter(|inner| bracketed(inner) == text).unwrap_or(text).into()
@@ -449,7 +449,8 @@ fn moved(document: &Document) -> Option<Tool> {
         id: ":moved(by)".into(),
         class: Name::new(""),
         label: "Moved so far to the right and up".into(),
-        base: "moved".into(),
+        // every thing is `moved` by itself: no step can be called so
+        base: "shifted".into(),
         doc: doc.into(),
         call: Call::Message("moved".into()),
         slots: slots.into(),

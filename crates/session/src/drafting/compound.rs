@@ -14,13 +14,21 @@ pub(crate) struct Compound {
     pub(crate) places: &'static [&'static str],
 }
 
-const ALL: [Compound; 2] = [
+impl Compound {
+    /// Whether it has a place of a name.
+    pub(crate) fn has(&self, place: &str) -> bool {
+        self.places.contains(&place)
+    }
+}
+
+const ALL: [Compound; 3] = [
     Compound {
         class: "Rectangle",
         sides: &["side1", "side2", "side3", "side4"],
         places: &["corner", "corner2", "far", "corner4", "center"],
     },
     Compound { class: "RegularPolygon", sides: &["edges"], places: &["center"] },
+    Compound { class: "Caption", sides: &[], places: &["at"] },
 ];
 
 /// Returns what things of a class are picked by, where they are made of other figures.

@@ -124,9 +124,9 @@ impl Session {
     }
 
     /// Returns how what is typed so far of a parameter is understood, and what is wrong in which field.
-    pub fn read_parameter(&self, id: DocumentId, new: &NewParameter) -> ParameterReading {
-        let open = self.document(id);
-        reading::read(open, &home(open), new)
+    pub fn read_parameter(&mut self, id: DocumentId, new: &NewParameter) -> ParameterReading {
+        let (open, beside) = self.beside_others(id);
+        reading::read(open, &beside, (&home(open), new))
     }
 
     /// Defines a parameter of the program that is recorded, or says anew what one is.

@@ -101,6 +101,7 @@ impl Dialogue {
                     n => format!("{n} edges; pick the next, Enter ends it"),
                 },
                 SlotKind::Value if *slot.class == *"Bool" => "type `yes` or `no`".to_string(),
+                SlotKind::Value if *slot.class == *"Text" => "type the words".to_string(),
                 SlotKind::Value if !slot.options.is_empty() => {
                     format!("take one of {}", slot.options.join(", "))
                 }
@@ -178,6 +179,8 @@ impl Dialogue {
                     let is_whole = |class| slot.takes(state, class);
                     found.at_level(level, found.side_of.is_some_and(is_whole))
                 }
+                // where a rectangle is wanted, any side of it is meant as all of it
+                SlotKind::Curve if !slot.takes(state, found.class) => found.at_level(0, true),
                 SlotKind::Point | SlotKind::Curve | SlotKind::Edges => found.text.clone(),
             };
             return Ok(Operand::new(text, Some(pointer.at)));
@@ -283,7 +286,10 @@ pub(crate) fn nearest<'f>(
     let fits = |f: &&Found| match slot.kind {
         SlotKind::Value => measure::usual(state, f).is_some(),
         SlotKind::Edges => f.side.is_none() && f.curve.ends().is_some(),
-        SlotKind::Point | SlotKind::Curve | SlotKind::Set => slot.takes(state, f.class),
+        // a copy is one of all of it, never of a place in it
+        SlotKind::Set if f.is_place && f.side_of.is_some() => false,
+        SlotKind::Curve => slot.takes(state, f.class) || f.side_of.is_some_and(|c| slot.takes(state, c)),
+        SlotKind::Point | SlotKind::Set => slot.takes(state, f.class),
     };
     scene::nearest(all.iter().filter(fits), pointer)
 }

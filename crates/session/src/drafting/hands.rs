@@ -117,6 +117,9 @@ fn give(open: &mut Open, host: &dyn Host, operand: Operand) -> Result<Turn, Refu
         open.dialogue = None;
         if let Some(recording) = &mut open.recording {
             recording.replaces = None;
+            if let Some((blocks, before)) = recording.returns.take() {
+                (recording.blocks, recording.before) = (blocks, before);
+            }
         }
         let next = prompt(open);
         let change = Box::new(change);
@@ -698,6 +701,11 @@ fn entered(open: &mut Open, host: &dyn Host, typed: &str) -> Result<Turn, Refusa
             (typed::operand(slot, typed, dialogue.last_point.as_deref())?, slot.clone());
         let text = match slot.kind {
             SlotKind::Edges => edges::joined(&dialogue.edges, &text),
+            // words are typed as they are
+            SlotKind::Value if *wanted.class == *"Text" => {
+                let fits = outcome::fits(&open.state, &home, (&text, &wanted));
+                if fits.is_ok() { text } else { lang::quoted(&text) }
+            }
             _ => text,
         };
         let again = |open: &mut Open| {

@@ -55,7 +55,8 @@ fn add(
     let from = into.len();
     for (slot, value) in operands.drain(..) {
         let first = value.syntax().text().to_string().trim().to_string();
-        if speaks_of_outside(&first, own) {
+        // a place on the sheet may be another one in the next turn: a number that is typed is a constant
+        if speaks_of_outside(&first, own) || is_place(&value) {
             let span = syntax::ast::span_without_doc(value.syntax());
             let it = Occurrence { step: step.into(), slot, first, span, again: None };
             join(into, from, it);
@@ -158,6 +159,16 @@ fn operands_of(value: &Expr) -> Vec<(String, Expr)> {
 /// What an operand without a label is called.
 fn ordinal(i: usize) -> String {
     ["first", "second", "third"].get(i).map_or_else(|| format!("operand{}", i + 1), |n| (*n).into())
+}
+
+/// Whether an operand is a place that is written by numbers: `Point(3, 4)`.
+fn is_place(value: &Expr) -> bool {
+    let Expr::Call(call) = value else { return false };
+    let is_number = |argument: syntax::ast::Arg| {
+        argument.value().is_some_and(|x| super::typed::is_number(&x.syntax().text().to_string()))
+    };
+    let is_point = call.name().is_some_and(|word| word.text() == "Point");
+    is_point && call.args().is_some_and(|list| list.args().all(is_number))
 }
 
 /// Whether an operand speaks of something that its turn has not made: not a literal, not a class or function.

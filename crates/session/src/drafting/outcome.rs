@@ -98,10 +98,11 @@ pub(crate) fn fits(
         outcome = match answer {
             Err(fault) => Err(words::refuse(format!("{operand}: {}", fault.message))),
             Ok(Answer::Number(..) | Answer::Bool(_) | Answer::Option(..))
-                if kind == SlotKind::Value =>
+                if kind == SlotKind::Value && **class != *"Text" =>
             {
                 Ok(())
             }
+            Ok(Answer::Text(_)) if kind == SlotKind::Value && **class == *"Text" => Ok(()),
             Ok(Answer::List(_) | Answer::Context(_))
                 if matches!(kind, SlotKind::Set | SlotKind::Edges) || **class == *"Planar" =>
             {

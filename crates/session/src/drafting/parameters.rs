@@ -47,11 +47,26 @@ pub(crate) enum Allowed {
     },
     /// A table of values.
     OneOf(Vec<String>),
+    /// The values of a column of a table beside the document.
+    Column {
+        /// The name of the file.
+        file: String,
+        /// The name of the column.
+        column: String,
+        /// Its values; none before the file is looked at.
+        values: Vec<String>,
+    },
 }
 
+/// Where the values of a column may be said to be many: then they are not listed in words.
+const MANY: usize = 12;
+
 impl Allowed {
-    /// Reads `1..10`, `1..<10`, `[3 mm, 4 mm]` and `3, 4, 5 mm`; nothing else.
+    /// Reads `1..10`, `1..<10`, `[3 mm, 4 mm]` and `3, 4, 5 mm`, `"bolts.csv".d` and `bolts.csv.d`; nothing else.
     pub(crate) fn of(text: &str) -> Option<Self> {
+        if let Some(column) = column_of(text) {
+            return Some(column);
+        }
         let said = |of: Expr| of.syntax().text().to_string().trim().to_string();
         match typed::expression(text) {
             Some(Expr::Range(range)) => Some(Self::Range {
@@ -85,13 +100,39 @@ impl Allowed {
         }
     }
 
+    /// Looks its values up, where they are those of a column: in the texts that stand beside a document.
+    ///
+    /// # Errors
+    /// There is no such file, or no such column.
+    pub(crate) fn looked_up(self, read: &dyn Fn(&str) -> Option<String>) -> Result<Self, String> {
+        let Self::Column { file, column, .. } = self else { return Ok(self) };
+        let text = read(&file).ok_or_else(|| format!("there is no table {file} beside the document"))?;
+        let cells = lang::tables::cells(&text, &column)
+            .map_err(|why| format!("{file} has no column {column}: {why}"))?;
+        let values = cells.into_iter().map(|(_, cell)| cell).collect();
+        Ok(Self::Column { file, column, values })
+    }
+
+    /// The same in what a document has read.
+    fn known(self, state: &State) -> Option<Self> {
+        let read = |name: &str| {
+            let mut files = state.lowered.files.iter().map(|(_, file)| file);
+            let is_it = |own: &str| own == name || own.strip_suffix(name).is_some_and(|f| f.ends_with('/'));
+            files.find(|file| is_it(&file.name)).map(|file| file.text.to_string())
+        };
+        self.looked_up(&read).ok()
+    }
+
     /// Says it: `1 to 10`, `1 to less than 10`, `3 mm, 4 mm or 5 mm`.
     pub(crate) fn in_words(&self) -> String {
         match self {
             Self::Range { least, most, is_open } => {
                 format!("{least} to {}{most}", if *is_open { "less than " } else { "" })
             }
-            Self::OneOf(values) => match values.split_last() {
+            Self::Column { file, column, values } if values.is_empty() || values.len() > MANY => {
+                format!("those of column {column} of {file}")
+            }
+            Self::OneOf(values) | Self::Column { values, .. } => match values.split_last() {
                 Some((last, rest)) if !rest.is_empty() => format!("{} or {last}", rest.join(", ")),
                 _ => values.concat(),
             },
@@ -109,6 +150,7 @@ impl Allowed {
             Self::OneOf(values) => {
                 format!("[{}]", values.iter().map(own).collect::<Vec<_>>().join(", "))
             }
+            Self::Column { file, column, .. } => format!("{}.{column}", lang::quoted(file)),
         }
     }
 
@@ -119,7 +161,9 @@ impl Allowed {
                 let less = if *is_open { "<" } else { "<=" };
                 format!("{least} <= ({value}) and ({value}) {less} {most}")
             }
-            Self::OneOf(values) => format!("({value}) in [{}]", values.join(", ")),
+            Self::OneOf(values) | Self::Column { values, .. } => {
+                format!("({value}) in [{}]", values.join(", "))
+            }
         }
     }
 
@@ -127,17 +171,36 @@ impl Allowed {
     fn values(&self) -> Vec<&String> {
         match self {
             Self::Range { least, most, .. } => vec![least, most],
-            Self::OneOf(values) => values.iter().collect(),
+            Self::OneOf(values) | Self::Column { values, .. } => values.iter().collect(),
+        }
+    }
+
+    /// The values of a table; none of a range.
+    fn table(self) -> Vec<String> {
+        match self {
+            Self::OneOf(values) | Self::Column { values, .. } => values,
+            Self::Range { .. } => Vec::new(),
         }
     }
 }
 
-/// Lists the values of a table of those that are allowed; none where all are, or those of a range.
-pub(crate) fn table_of(allowed: &str) -> Vec<String> {
-    match Allowed::of(allowed) {
-        Some(Allowed::OneOf(values)) => values,
-        Some(Allowed::Range { .. }) | None => Vec::new(),
+/// Reads the column of a table: `"bolts.csv".d`, or as it is typed, `bolts.csv.d`.
+fn column_of(text: &str) -> Option<Allowed> {
+    let text = text.trim();
+    let column = |file: String, column: String| Allowed::Column { file, column, values: Vec::new() };
+    if let Some(found) = typed::expression(text).and_then(|e| lang::tables::column_of(&e)) {
+        return Some(column(found.file(), found.name().into()));
     }
+    let (stem, name) = text.split_once(".csv")?;
+    let name = name.trim_start_matches(['.', ' ', ':']);
+    let is_file = !stem.is_empty() && !stem.contains(['"', ',', '[']);
+    (is_file && is_name(name)).then(|| column(format!("{stem}.csv"), name.into()))
+}
+
+/// Lists the values of a table of those that are allowed; none where all are, or those of a range.
+pub(crate) fn table_of(state: &State, allowed: &str) -> Vec<String> {
+    let known = Allowed::of(allowed).and_then(|allowed| allowed.known(state));
+    known.map_or_else(Vec::new, Allowed::table)
 }
 
 /// An angle as it is typed: a number without a unit is one of degrees.
@@ -189,7 +252,7 @@ pub(crate) fn asked(state: &State, program: &str) -> Vec<(String, Asks)> {
     };
     let one = |d: &Declared| {
         let usual = Some(d.example.clone()).filter(|example| is_here(d, example));
-        let range = Allowed::of(&d.range);
+        let range = Allowed::of(&d.range).and_then(|range| range.known(state));
         let range = range.filter(|range| range.values().into_iter().all(|text| is_here(d, text)));
         (d.name.clone(), Asks { prompt: d.prompt.clone(), usual, range })
     };
@@ -199,10 +262,7 @@ pub(crate) fn asked(state: &State, program: &str) -> Vec<(String, Asks)> {
 impl Asks {
     /// The values of the table of those that are allowed.
     pub(crate) fn choices(&self) -> Vec<String> {
-        match &self.range {
-            Some(Allowed::OneOf(values)) => values.clone(),
-            Some(Allowed::Range { .. }) | None => Vec::new(),
-        }
+        self.range.clone().map_or_else(Vec::new, Allowed::table)
     }
 
     /// Checks that a value is allowed.
@@ -271,7 +331,7 @@ pub(crate) fn is_name(name: &str) -> bool {
 }
 
 /// What is wrong with what is no range.
-pub(crate) const NO_RANGE: &str = "no range and no table: wanted is from..to, as 1 mm..100 mm, or values, as 3, 4, 5 mm";
+pub(crate) const NO_RANGE: &str = "no range and no table: wanted is from..to, as 1 mm..100 mm, values, as 3, 4, 5 mm, or a column, as bolts.csv.d";
 
 /// Returns the class of a parameter and its example, as the language writes it.
 ///

@@ -2,13 +2,18 @@
 
 use super::parameters::{self, Allowed};
 use super::view::{NewParameter, ParameterField, ParameterReading};
-use super::{Home, outcome, text};
+use super::{Home, outcome, text, typed};
 use crate::document::Open;
+use crate::host::Host;
 use outcome::Worth;
 
 /// Reads what is typed so far of a parameter: what its example is, which values are allowed, and what is wrong in which
 /// field. Empty fields are not wrong.
-pub(crate) fn read(open: &Open, home: &Home, new: &NewParameter) -> ParameterReading {
+pub(crate) fn read(
+    open: &Open,
+    host: &dyn Host,
+    (home, new): (&Home, &NewParameter),
+) -> ParameterReading {
     let mut reading = ParameterReading::default();
     let name = new.name.trim();
     if let Some(why) = wrong_name(open, home, (name, new.instead_of.trim())).filter(|_| !name.is_empty()) {
@@ -19,6 +24,13 @@ pub(crate) fn read(open: &Open, home: &Home, new: &NewParameter) -> ParameterRea
     if read.is_none() && !allowed.is_empty() {
         reading.wrong.push((ParameterField::Allowed, parameters::NO_RANGE.into()));
     }
+    let read = read.and_then(|read| match read.looked_up(&|name| host.read(name)) {
+        Ok(read) => Some(read),
+        Err(why) => {
+            reading.wrong.push((ParameterField::Allowed, why));
+            None
+        }
+    });
     let example = new.example.trim();
     if !example.is_empty() {
         match parameters::understood(&open.state, new) {
@@ -33,6 +45,8 @@ pub(crate) fn read(open: &Open, home: &Home, new: &NewParameter) -> ParameterRea
                         let unit = open.state.lowered.document.unit.as_ref();
                         unit.map_or_else(|| example.clone(), |unit| format!("{example} {unit}"))
                     }
+                    // an angle is typed in degrees, and read as it is typed
+                    (Ok(Worth::Number(_)), "Angle") => example.clone(),
                     (Ok(Worth::Number(number)), _) => number,
                     _ => new.example.trim().into(),
                 };
@@ -42,6 +56,11 @@ pub(crate) fn read(open: &Open, home: &Home, new: &NewParameter) -> ParameterRea
                     reading.wrong.push((ParameterField::Allowed, why));
                 }
                 (reading.class, reading.value) = (class, value);
+            }
+            // what cannot be read at all is told by what can
+            Err(_) if typed::expression(example).is_none() => {
+                let why = format!("`{example}` is no value: as 84, 30 deg, yes or a place, 3,4");
+                reading.wrong.push((ParameterField::Example, why));
             }
             Err(refusal) => reading.wrong.push((ParameterField::Example, refusal.message)),
         }
@@ -81,7 +100,9 @@ fn wrong_kind(class: &str, worth: Option<&Worth>) -> Option<String> {
 /// Why an example is not among the values that are allowed.
 fn outside(open: &Open, allowed: &Allowed, (class, example, value): (&str, &str, &str)) -> Option<String> {
     let allowed_here = match class {
-        "Angle" => Allowed::of(&allowed.written(true))?,
+        "Angle" if !matches!(allowed, Allowed::Column { .. }) => {
+            Allowed::of(&allowed.written(true))?
+        }
         _ => allowed.clone(),
     };
     let condition = allowed_here.condition(example);

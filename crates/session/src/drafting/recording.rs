@@ -217,6 +217,7 @@ pub(crate) fn begin(open: &mut Open, host: &dyn Host, name: &str) -> Result<Chan
         before: None,
         asks_condition: false,
         replaces: None,
+        returns: None,
         removing: None,
         changing: None,
         own_values: None,

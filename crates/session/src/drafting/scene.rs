@@ -23,7 +23,7 @@ pub(crate) struct Found {
     pub(crate) curve: Curve,
     /// What it is in, from the nearest: a turn of a loop, the loop.
     pub(crate) wholes: Vec<String>,
-    /// The class of the figure that it is a side of; nothing for what is a figure of its own.
+    /// The class of the figure that it is a side or a place of; nothing for what is a figure of its own.
     pub(crate) side_of: Option<ClassId>,
     /// The edge of it, where it is one of several: of a contour, a surface or a region.
     pub(crate) side: Option<Side>,
@@ -548,14 +548,19 @@ impl<'a> Scene<'_, 'a> {
                 && let (Some(class), Some(curve)) =
                     (self.evaluator.class_of(&part), Curve::of(self.evaluator, &part))
             {
-                self.place(format!("{text}.{name}"), class, curve);
+                self.place(format!("{text}.{name}"), (class, curve), None);
             }
         }
     }
 
-    /// Adds a place of another figure.
-    fn place(&mut self, text: String, class: ClassId, curve: Curve) {
-        let (wholes, side_of, side) = (Vec::new(), None, None);
+    /// Adds a place of another figure, which may be made of others.
+    fn place(
+        &mut self,
+        text: String,
+        (class, curve): (ClassId, Curve),
+        side_of: Option<ClassId>,
+    ) {
+        let (wholes, side) = (Vec::new(), None);
         let (is_place, is_result) = (true, false);
         self.found.push(Found { text, class, curve, wholes, side_of, side, is_place, is_result });
     }
@@ -586,10 +591,10 @@ impl<'a> Scene<'_, 'a> {
         }
         for name in parts.places {
             if let Ok(part) = self.evaluator.of_part(of, name)
-                && let (Some(class), Some(curve)) =
+                && let (Some(point), Some(curve)) =
                     (self.evaluator.class_of(&part), Curve::of(self.evaluator, &part))
             {
-                self.place(format!("{text}.{name}"), class, curve);
+                self.place(format!("{text}.{name}"), (point, curve), Some(class));
             }
         }
     }

@@ -4,7 +4,7 @@ use super::catalogue::{self, Pattern};
 use super::scene::{Curve, elements_of};
 use super::text::StepNode;
 use super::view::{ParameterRow, StepRow, StepsView};
-use super::{Home, blocks, parameters, text, visit};
+use super::{Home, blocks, compound, parameters, text, visit};
 use crate::document::Open;
 use crate::state::State;
 use crate::view::Refusal;
@@ -50,7 +50,7 @@ pub(crate) fn view(open: &Open, home: &Home, thing: Option<&str>) -> Option<Step
         ParameterRow {
             class: of(|said| &said.class),
             range: of(|said| &said.range),
-            choices: said.map_or_else(Vec::new, |said| parameters::table_of(&said.range)),
+            choices: said.map_or_else(Vec::new, |said| parameters::table_of(state, &said.range)),
             example: of(|said| &said.example),
             name: asked.name.to_string(),
             prompt: asked.prompt.clone(),
@@ -197,18 +197,57 @@ fn in_words(step: &StepNode, formula: &str) -> String {
         _ => (None, None),
     };
     let (Some(head), Some(list)) = (head, list) else { return formula.into() };
+    let mut before = String::new();
     let argument = |argument: syntax::ast::Arg| {
         let value = said(argument.value()?.syntax());
+        let typed = as_typed(&value, &before).unwrap_or_else(|| value.clone());
+        before = value;
         Some(match argument.label() {
-            Some(label) => format!("{} {value}", label.text()),
-            None => value,
+            Some(label) => format!("{} {typed}", label.text()),
+            None => typed,
         })
     };
     let arguments: Vec<String> = list.args().filter_map(argument).collect();
     format!("{head}: {}", arguments.join(", "))
 }
 
+/// Says a place as it is typed: `(3, 4)`, and from another one `corner @(w, h)`; from the operand before it `@(w, h)`.
+fn as_typed(place: &str, before: &str) -> Option<String> {
+    let inside = place.strip_prefix("Point(")?.strip_suffix(')')?;
+    let mut depth = 0_i32;
+    let comma = inside.char_indices().find(|(_, c)| {
+        depth += i32::from(*c == '(') - i32::from(*c == ')');
+        depth == 0 && *c == ','
+    });
+    let (x, y) = inside.split_at(comma?.0);
+    let (x, y) = (x.trim(), y[1..].trim());
+    let way = |at: &str, axis: &str| -> Option<(String, String)> {
+        let (from, rest) = at.split_once(axis)?;
+        let step = match rest.split_at_checked(3) {
+            None if rest.is_empty() => "0".into(),
+            Some((" + ", step)) => catalogue::unbracketed(step),
+            Some((" - ", step)) => format!("-{step}"),
+            _ => return None,
+        };
+        from.chars().all(text::is_of_path).then(|| (from.to_string(), step))
+    };
+    match (way(x, ".x"), way(y, ".y")) {
+        (Some((from, right)), Some((base, up))) if from == base => {
+            let from = if from == before { String::new() } else { format!("{from} ") };
+            Some(format!("{from}@({right}, {up})"))
+        }
+        _ => Some(format!("({x}, {y})")),
+    }
+}
+
 fn value_words<'a>(state: &'a State, evaluator: &Evaluator<'a>, answer: &Answer<'a>) -> String {
+    let at = |place: &str| Some(Curve::of(evaluator, &evaluator.of_part(answer, place).ok()?)?.words());
+    let is_box = |class| compound::of(&state.lowered.document, class).is_some_and(|c| c.has("far"));
+    if evaluator.class_of(answer).is_some_and(is_box)
+        && let Some((corner, far)) = at("corner").zip(at("far"))
+    {
+        return format!("{corner} to {far}");
+    }
     if let Some(curve) = Curve::of(evaluator, answer) {
         return curve.words();
     }

@@ -18,6 +18,7 @@ impl Session {
         visit::go(open, go)?;
         if let Some(recording) = &mut open.recording {
             recording.replaces = None;
+            recording.returns = None;
             recording.removing = None;
             recording.changing = None;
         }
@@ -146,6 +147,8 @@ impl Session {
     /// # Errors
     /// Nothing is recorded, a block is demonstrated; there is no such step, or it is a block.
     pub fn begin_replace(&mut self, id: DocumentId, step: &str) -> Result<(), Refusal> {
+        let was = self.document(id).recording.as_ref();
+        let was = was.map(|recording| (recording.blocks.clone(), recording.before.clone()));
         self.visit(id, &Go::To(step.into()))?;
         let open = self.document_mut(id);
         let Some(recording) = &mut open.recording else { return Ok(()) };
@@ -154,6 +157,7 @@ impl Session {
             return Err(words::refuse(format!("{step} is a block: step into it, or delete it")));
         }
         recording.replaces = Some(step.into());
+        recording.returns = was;
         Ok(())
     }
 

@@ -226,7 +226,7 @@ struct Maker<'a> {
     work: &'a mut Work,
 }
 
-impl Maker<'_> {
+impl<'a> Maker<'a> {
     /// Adds the row of a value; of anything else what it is made of is to be added next.
     fn add(&mut self, thing: ThingId, path: String) {
         let state = self.state;
@@ -239,6 +239,10 @@ impl Maker<'_> {
             let Cell { words: Shown { text, unit, exact }, number } =
                 show(state, self.values, slot);
             let is_of_library = is_of_library(state, &path);
+            let options = match options(document, s.primitive) {
+                none if none.is_empty() => self.asked_options(thing, (&text, &unit)),
+                known => known,
+            };
             self.work.rows.push(ValueRow {
                 path,
                 shortest: shortest_path(state, thing),
@@ -247,7 +251,7 @@ impl Maker<'_> {
                 unit,
                 exact,
                 number,
-                options: options(document, s.primitive),
+                options,
                 given: s.given.is_some(),
                 is_virtual: false,
                 anchored: s.anchored,
@@ -272,15 +276,40 @@ impl Maker<'_> {
         self.work.open[from..].reverse();
     }
 
-    /// Returns the range that a program gives the parameter that a thing is.
-    fn asked_range(&self, thing: ThingId) -> Option<(f64, f64)> {
-        let (document, structure) = (&self.state.lowered.document, &self.state.structure);
+    /// What a program allows of the parameter that a thing is, and whose that is.
+    fn asked(&self, thing: ThingId) -> Option<(&'a Allowed, ThingId)> {
+        let state: &'a State = self.state;
+        let (document, structure) = (&state.lowered.document, &state.structure);
         let owner = structure.things[thing].owner?;
         let program = document.program(structure.things[owner].class)?;
         let name = structure.field_name(document, thing)?;
         let asked = program.parameters.iter().find(|asked| asked.name == *name)?;
-        let Some(Allowed::Range { least, most, .. }) = &asked.allowed else { return None };
-        let end = |term| match self.evaluator.evaluate(term, owner) {
+        Some((asked.allowed.as_ref()?, owner))
+    }
+
+    /// Lists the values of the table that a program allows of the parameter that a thing is, in a unit; none where
+    /// they are of other units, or the value itself is not among them.
+    fn asked_options(&self, thing: ThingId, (text, unit): (&str, &str)) -> Vec<String> {
+        let document = &self.state.lowered.document;
+        let Some((Allowed::OneOf(values), owner)) = self.asked(thing) else { return Vec::new() };
+        let class = &document.classes[self.state.structure.things[thing].class].name;
+        let one = |term: &'a Term| match self.evaluator.evaluate(term, owner).ok()? {
+            Answer::Number(x, dimension) => {
+                let quantity = Quantity { dimension, class, written: "" };
+                let shown = kernel::show_quantity(x, quantity, document);
+                (shown.unit == unit).then_some(shown.text)
+            }
+            Answer::Text(text) => Some(text.to_string()),
+            _ => None,
+        };
+        let all: Option<Vec<String>> = values.iter().map(one).collect();
+        all.filter(|all| all.iter().any(|known| known == text)).unwrap_or_default()
+    }
+
+    /// Returns the range that a program gives the parameter that a thing is.
+    fn asked_range(&self, thing: ThingId) -> Option<(f64, f64)> {
+        let (Allowed::Range { least, most, .. }, owner) = self.asked(thing)? else { return None };
+        let end = |term: &'a Term| match self.evaluator.evaluate(term, owner) {
             Ok(Answer::Number(x, _)) => Some(x),
             _ => None,
         };

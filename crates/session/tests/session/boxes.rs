@@ -1,11 +1,11 @@
 //! Rectangles and regular polygons as steps: drawn from corner to corner, picked by their sides and corners, copied whole.
 
 use crate::desk::Desk;
-use session::drafting::view::{NewParameter, Turn};
+use session::drafting::view::{Ends, NewParameter, Turn};
 use session::view::Pointer;
 
 fn record(parameters: &[(&str, &str)]) -> Desk {
-    let mut desk = Desk::of("use geometry\nunit mm\n");
+    let mut desk = Desk::of("use contours\nunit mm\n");
     desk.session.record(desk.id, "Floor").expect("a new program");
     for (name, example) in parameters {
         let new = NewParameter {
@@ -50,7 +50,7 @@ fn a_rectangle_is_a_step_from_corner_to_corner() {
     begin(&mut desk, "Rectangle.between(first,second)");
     enter(&mut desk, "0,0");
     let room = text(enter(&mut desk, "@width, depth"));
-    assert_eq!(room, "Rectangle.between(Point(0, 0), Point(0 + width, 0 + depth))");
+    assert_eq!(room, "Rectangle.between(Point(0, 0), Point(width, depth))");
     // the other one goes on from its corner, and has a third of its width
     begin(&mut desk, "Rectangle");
     pick(&mut desk, 0.0, 0.0);
@@ -63,6 +63,15 @@ fn a_rectangle_is_a_step_from_corner_to_corner() {
     assert_eq!(desk.wrong(), [], "{}", desk.text());
     desk.set("floor.width", 120.0).expect("a parameter can be set");
     assert_eq!(value(&desk, "floor.rectangle2.far.x"), "40 mm");
+    // it is told as it is typed, and by its corners
+    let steps = desk.session.steps(desk.id, None).expect("it is recorded");
+    assert_eq!(steps.rows[0].words, "rectangle between: (0, 0), (width, depth)");
+    assert_eq!(steps.rows[0].value.as_deref(), Some("(0, 0) to (120, 48)"));
+    begin(&mut desk, "Rectangle.between(first,second)");
+    pick(&mut desk, 120.0, 48.0);
+    text(enter(&mut desk, "@-width / 2, depth"));
+    let steps = desk.session.steps(desk.id, None).expect("it is recorded");
+    assert_eq!(steps.rows[2].words, "rectangle between: rectangle.far, @(-width / 2, depth)");
 }
 
 #[test]
@@ -78,7 +87,7 @@ fn a_side_of_a_rectangle_is_a_line_and_a_copy_takes_all_of_it() {
     let across = text(pick(&mut desk, 20.0, 7.0));
     assert_eq!(across, "Line.perpendicular(from: Point(30, 10), to: rectangle.side2)");
     begin(&mut desk, ":pattern(by,count)");
-    pick(&mut desk, 7.0, 20.0);
+    pick(&mut desk, 19.5, 20.0);
     enter(&mut desk, "w, w");
     let row = text(enter(&mut desk, "n"));
     assert!(row.contains("rectangle.moved(by: Point("), "{row}");
@@ -90,6 +99,24 @@ fn a_side_of_a_rectangle_is_a_line_and_a_copy_takes_all_of_it() {
     assert_eq!(desk.wrong(), [], "{}", desk.text());
     assert_eq!(value(&desk, "floor.pattern[1].far.x"), "60 mm");
     assert_eq!(value(&desk, "floor.mirrored[1].p1.x"), "-40 mm");
+}
+
+#[test]
+fn a_rounded_outline_is_taken_by_a_side_of_its_rectangle() {
+    let mut desk = record(&[("w", "60"), ("r", "8")]);
+    begin(&mut desk, "Rectangle.between(first,second)");
+    enter(&mut desk, "0, 0");
+    text(enter(&mut desk, "w, w / 2"));
+    begin(&mut desk, "Contour.rounded(of,radius)");
+    pick(&mut desk, 30.0, 0.0);
+    let outline = text(enter(&mut desk, "r"));
+    assert_eq!(outline, "Contour.rounded(of: rectangle, radius: r)");
+    // words are typed as they are
+    begin(&mut desk, "Caption");
+    pick(&mut desk, 60.0, 30.0);
+    let words = text(enter(&mut desk, "Cover, left"));
+    assert_eq!(words, "Caption(at: rectangle.far, words: \"Cover, left\")");
+    assert_eq!(desk.wrong(), [], "{}", desk.text());
 }
 
 #[test]
@@ -105,6 +132,9 @@ fn one_side_alone_is_copied_after_tab() {
     pick(&mut desk, 7.0, 20.0);
     let moved = text(enter(&mut desk, "0, w"));
     assert_eq!(moved, "rectangle.side3.moved(by: Point(0, w))");
+    // what was moved is a step like any other
+    assert_eq!(desk.wrong(), [], "{}", desk.text());
+    assert_eq!(value(&desk, "floor.shifted.p1.y"), "40 mm");
 }
 
 #[test]
@@ -125,4 +155,51 @@ fn a_polygon_is_picked_by_its_sides_and_turned_whole() {
     let turned = text(enter(&mut desk, "90 deg"));
     assert!(turned.starts_with("regularPolygon.turned("), "{turned}");
     assert_eq!(desk.wrong(), [], "{}", desk.text());
+}
+
+#[test]
+fn what_is_drawn_after_a_replacement_stands_at_the_end_again() {
+    let mut desk = record(&[("w", "20")]);
+    begin(&mut desk, "Circle");
+    enter(&mut desk, "0, 0");
+    text(enter(&mut desk, "w"));
+    begin(&mut desk, "Circle");
+    enter(&mut desk, "50, 0");
+    text(enter(&mut desk, "w"));
+    desk.session.begin_replace(desk.id, "circle").expect("it is no block");
+    begin(&mut desk, "Rectangle.between(first,second)");
+    enter(&mut desk, "0, 0");
+    text(enter(&mut desk, "@w, w"));
+    begin(&mut desk, "Circle");
+    enter(&mut desk, "90, 0");
+    text(enter(&mut desk, "w"));
+    let steps = desk.session.steps(desk.id, None).expect("it is recorded");
+    let names: Vec<&str> = steps.rows.iter().map(|row| row.name.as_str()).collect();
+    assert_eq!(names, ["circle", "circle2", "circle3"]);
+    assert!(steps.rows[0].words.starts_with("rectangle between"), "{}", steps.rows[0].words);
+}
+
+#[test]
+fn a_stair_begins_its_next_step_where_the_last_one_ends() {
+    let mut desk = record(&[("rise", "17"), ("going", "29"), ("n", "5")]);
+    desk.session.begin_loop(desk.id, "").expect("a program is recorded");
+    begin(&mut desk, "Line.vertical(from,length)");
+    enter(&mut desk, "0, 0");
+    text(enter(&mut desk, "rise"));
+    begin(&mut desk, "Line.horizontal(from,length)");
+    pick(&mut desk, 0.0, 17.0);
+    text(enter(&mut desk, "going"));
+    desk.session.give_up(desk.id);
+    desk.session.end_turn(desk.id, Ends::Times).expect("a turn is drawn");
+    // the place where it began is asked for, too
+    let asked = desk.session.prompt(desk.id).expect("it asks").words;
+    assert!(asked.contains("was Point(0, 0)"), "{asked}");
+    pick(&mut desk, 29.0, 17.0);
+    for _ in 0..2 {
+        desk.session.same(desk.id).expect("it may be the same");
+    }
+    enter(&mut desk, "n");
+    assert_eq!(desk.wrong(), [], "{}", desk.text());
+    assert_eq!(value(&desk, "floor.turns"), "5 turns");
+    assert_eq!(value(&desk, "floor.turns.last.line2.p2"), "(145, 85)");
 }

@@ -36,6 +36,7 @@ mod saving;
 mod sheets;
 mod showing;
 mod sides;
+mod tables;
 mod undoing;
 mod updating;
 mod viewing;

@@ -435,7 +435,7 @@ fn a_parameter_allows_the_values_of_a_table() {
 }
 
 /// What is understood of a parameter that is typed: class, value, what is allowed; and what is wrong.
-fn read(desk: &Desk, fields: [&str; 4]) -> (String, String, String, Vec<String>) {
+fn read(desk: &mut Desk, fields: [&str; 4]) -> (String, String, String, Vec<String>) {
     let [name, example, class, range] = fields.map(String::from);
     let new = NewParameter { name, example, class, range, ..NewParameter::default() };
     let reading = desk.session.read_parameter(desk.id, &new);
@@ -445,7 +445,7 @@ fn read(desk: &Desk, fields: [&str; 4]) -> (String, String, String, Vec<String>)
 
 #[test]
 fn what_is_typed_of_a_parameter_is_understood_before_it_is_defined() {
-    let desk = flange();
+    let mut desk = flange();
     let none = Vec::<String>::new;
     for (fields, class, value, allowed) in [
         (["inner", "84", "", ""], "Length", "84 mm", ""),
@@ -458,13 +458,13 @@ fn what_is_typed_of_a_parameter_is_understood_before_it_is_defined() {
         (["", "", "", ""], "", "", ""),
     ] {
         let understood = (class.to_string(), value.to_string(), allowed.to_string(), none());
-        assert_eq!(read(&desk, fields), understood, "{fields:?}");
+        assert_eq!(read(&mut desk, fields), understood, "{fields:?}");
     }
 }
 
 #[test]
 fn what_is_wrong_of_a_parameter_is_said_of_its_field() {
-    let desk = flange();
+    let mut desk = flange();
     for (fields, wrong) in [
         (["3x", "84", "", ""], "Name: `3x` is no name"),
         (["round", "84", "", ""], "Name: Flange has round already"),
@@ -475,7 +475,7 @@ fn what_is_wrong_of_a_parameter_is_said_of_its_field() {
         (["inner", "84", "", "many"], "Allowed: no range and no table"),
         (["inner", "84", "", "1 mm..9 mm"], "Allowed: the example, 84 mm, is not among these"),
     ] {
-        let (.., all) = read(&desk, fields);
+        let (.., all) = read(&mut desk, fields);
         assert!(all.iter().any(|said| said.starts_with(wrong)), "{fields:?}: {all:?}");
     }
 }

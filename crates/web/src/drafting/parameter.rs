@@ -52,12 +52,26 @@ impl Form {
 pub fn Define(
     /// The lab.
     lab: Lab,
+    /// Whether the program has steps already: then there is room for these.
+    is_drawn: Memo<bool>,
 ) -> impl IntoView {
     let new = lab.drafting.parameter;
+    let folded = RwSignal::new(false);
+    Effect::new(move |_| folded.set(is_drawn.get()));
+    Effect::new(move |_| {
+        if new.with(|n| !n.instead_of.is_empty()) {
+            folded.set(false);
+        }
+    });
     let reading = Memo::new(move |_| {
         lab.drafting.turned.track();
         let typed = new.get();
-        lab.ask_of_shown(|session, id| session.read_parameter(id, &typed)).unwrap_or_default()
+        lab.tell(|session, id| session.read_parameter(id, &typed)).unwrap_or_default()
+    });
+    // a table that is named is fetched, and then looked into
+    Effect::new(move |_| {
+        reading.track();
+        lab.fetch_table(move || lab.drafting.turned.update(|n| *n += 1));
     });
     let form = Form { new, reading, left: RwSignal::new(Vec::new()) };
     // the next one is not wrong before it is typed
@@ -84,7 +98,12 @@ pub fn Define(
         steps.is_some_and(|steps| steps.parameters.is_empty())
     });
     view! {
-        <form class="define" aria-label=words::DEFINE on:submit=define>
+        <button type="button" class="unfold" data-draft="unfold" aria-expanded=move || (!folded.get()).to_string()
+            on:click=move |_| {
+                folded.update(|folded| *folded = !*folded);
+                request_animation_frame(|| focus(".define input[name='parameter']"));
+            }>{words::NEW_PARAMETER}</button>
+        <form class="define" aria-label=words::DEFINE hidden=move || folded.get() on:submit=define>
             <Show when=move || is_first.get()><p class="quiet">{words::FIRST_PARAMETER}</p></Show>
             <Field form=form at=ParameterField::Name input="parameter" label=words::PARAMETER_NAME
                 hint=words::NAME_HINT get=|n| &n.name set=|n, typed| n.name = typed />

@@ -156,6 +156,14 @@ impl Lab {
         let wanted = self.files.try_update_value(|f| std::mem::take(&mut f.wanted));
         let mut found = false;
         for path in wanted.unwrap_or_default() {
+            if presentation::files::is_table(&path) {
+                let table = server::table(&path).await.ok();
+                found |= table.is_some();
+                self.files.update_value(|files| {
+                    files.texts.insert(path, table);
+                });
+                continue;
+            }
             // a server that does not answer is asked again
             if let Ok(stored) = server::document(&path).await {
                 let text = stored.map(|stored| stored.text);
@@ -166,6 +174,18 @@ impl Lab {
             }
         }
         found
+    }
+
+    /// Fetches a table that was just named beside the shown document, and does something once it is there.
+    pub fn fetch_table(self, then: impl FnOnce() + 'static) {
+        if self.files.with_value(|files| files.wanted.is_empty()) {
+            return;
+        }
+        leptos::task::spawn_local(async move {
+            if self.fetch_used().await {
+                then();
+            }
+        });
     }
 
     /// Fetches what the shown document was found to use just now, and reads it with that.

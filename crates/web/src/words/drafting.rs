@@ -6,6 +6,8 @@ pub const PARAMETER_CLASS: &str = "Class";
 pub const RANGE: &str = "Allowed";
 /// What the fields for a parameter are for, while a program has none.
 pub const FIRST_PARAMETER: &str = "What shall differ from part to part? Give it a name and the value of this example.";
+/// Shows the fields for a further parameter, or hides them.
+pub const NEW_PARAMETER: &str = "A parameter";
 /// What may be typed as a name.
 pub const NAME_HINT: &str = "as inner";
 /// What may be typed as an example.
@@ -17,7 +19,7 @@ pub const RANGE_HINT: &str = "all";
 /// Opens what is seldom said of a parameter.
 pub const FURTHER: &str = "Class and allowed values";
 /// How the values that are allowed are written.
-pub const RANGE_HELP: &str = "A range, 1 mm..100 mm, or a table, 3, 4, 5 mm";
+pub const RANGE_HELP: &str = "A range, 1 mm..100 mm, a table, 3, 4, 5 mm, or a column of a file beside the document, bolts.csv.d";
 /// Something older becomes a parameter.
 pub const AS_PARAMETER: &str = "A parameter";
 /// Something older is copied into the program.
@@ -48,8 +50,8 @@ pub fn understood(class: &str, value: &str) -> String {
 /// The class that the example has by itself.
 pub fn class_of_example(class: &str) -> String {
     match class {
-        "" => "that of the example".into(),
-        class => format!("that of the example: {}", class_of_parameter(class)),
+        "" => "by the example".into(),
+        class => format!("{} (by the example)", class_of_parameter(class)),
     }
 }
 
