@@ -174,8 +174,9 @@ impl Lowerer<'_> {
         for (line, cell) in all {
             let Some(value) = self.cell(scope, &cell, kind) else {
                 let wanted = kind.words(&self.document);
-                let message =
-                    format!("found `{cell}` in line {line} of {file}, column {named}, wanted {wanted}");
+                let message = format!(
+                    "found `{cell}` in line {line} of {file}, column {named}, wanted {wanted}"
+                );
                 self.report(Diagnostic::error("wrong-cell", place, message));
                 return None;
             };

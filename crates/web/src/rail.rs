@@ -85,7 +85,8 @@ impl Lab {
         let all = self.ask_of_shown(session::Session::constructions).unwrap_or_default();
         // a rectangle is drawn from corner to corner, as without a program
         let by_corners = format!("{class}.between(first,second)");
-        let tool = [by_corners.as_str(), class].into_iter().find(|id| all.iter().any(|row| row.id == *id));
+        let tool =
+            [by_corners.as_str(), class].into_iter().find(|id| all.iter().any(|row| row.id == *id));
         if let Some(tool) = tool {
             self.begin_construction(tool);
         } else {

@@ -504,3 +504,39 @@ async fn a_washer_is_recorded_on_a_narrow_page() {
     has(&visit, "circle2 = Circle(center: circle.center, radius: outer)").await;
     visit.picture("washer-narrow").await;
 }
+
+#[tokio::test]
+async fn a_column_of_a_file_beside_the_document_says_what_is_allowed() {
+    let visit = hands::begin().await;
+    visit.put("bolts.csv", "name, d [mm]\nM3, 3\nM8, 8\nM10, 10\n");
+    record(&visit, "Bolt", &[]).await;
+    fill(&visit, "input[name='parameter']", "d").await;
+    fill(&visit, "input[name='example']", "8 mm").await;
+    press(&visit, "[data-draft='further']").await;
+    // what is wrong is said below its field
+    fill(&visit, "input[name='range']", "bolts.csv.diameter").await;
+    press(&visit, "input[name='question']").await;
+    visit
+        .until("document.querySelector('#wrong-range').innerText.includes('it has name, d')")
+        .await;
+    fill(&visit, "input[name='range']", "bolts.csv.d").await;
+    visit.until("document.querySelector('.define details .understood').innerText === '3 mm, 8 mm or 10 mm'").await;
+    visit.picture("parameter").await;
+    press(&visit, "[data-draft='define']").await;
+    has(&visit, "d: Length in \"bolts.csv\".d = 8 mm").await;
+    construct(&visit, "Circle").await;
+    enter(&visit, "0,0").await;
+    enter(&visit, "d / 2").await;
+    press(&visit, "[data-draft='stop']").await;
+    // what is shown of it offers the values, and another one is refused
+    visit.until("[...document.querySelectorAll('select.field option')].map(o => o.value).join() === '3,8,10'").await;
+    set(&visit, "d", "9 mm").await;
+    visit.until("document.querySelector('.parameter .wrong')?.innerText").await;
+    set(&visit, "d", "10 mm").await;
+    has(&visit, "bolt: Bolt { d = 10 mm }").await;
+    // where it is applied they are keys
+    construct(&visit, "Bolt").await;
+    press(&visit, ".prompt [data-choice='3 mm']").await;
+    enter(&visit, "40, 0").await;
+    has(&visit, "d = 3 mm").await;
+}

@@ -86,7 +86,9 @@ impl Hand {
             self.fill("input[name='parameter']", name).await;
             self.fill("input[name='example']", example).await;
             self.draft("define").await;
-            self.visit.until(&format!("document.querySelector(\"[data-parameter='{name}']\")")).await;
+            self.visit
+                .until(&format!("document.querySelector(\"[data-parameter='{name}']\")"))
+                .await;
         }
     }
 
@@ -100,7 +102,9 @@ impl Hand {
     /// Sees the sheet smaller or larger; that is no action.
     async fn zoom(&self, by: &str, times: usize) {
         for _ in 0..times {
-            self.visit.script(&format!("document.querySelector('.corner button:{by}').click()")).await;
+            self.visit
+                .script(&format!("document.querySelector('.corner button:{by}').click()"))
+                .await;
         }
     }
 
@@ -280,7 +284,8 @@ async fn terminals_become_workstations_wherever_they_stand() {
     hand.pick(0.0, 0.0).await;
     hand.enter("@0, 10").await;
     hand.draft("stop").await;
-    hand.has("rectangle = Rectangle(corner: Point(at.x - 14, at.y + 10), width: 28, height: 20)").await;
+    hand.has("rectangle = Rectangle(corner: Point(at.x - 14, at.y + 10), width: 28, height: 20)")
+        .await;
     assert_eq!(hand.actions.get(), 25 + 11);
     hand.visit.picture("workstations").await;
 }

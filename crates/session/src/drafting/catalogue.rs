@@ -417,7 +417,8 @@ fn join(known: &mut Tool, other: Tool) {
 
 /// Lets copies take figures that are made of others, where these answer to them.
 fn take_compounds(document: &Document, all: &mut [Tool]) {
-    let compounds = || document.classes.iter().filter(|(id, _)| compound::of(document, *id).is_some());
+    let compounds =
+        || document.classes.iter().filter(|(id, _)| compound::of(document, *id).is_some());
     for tool in all {
         let Call::Message(word) = &tool.call else { continue };
         let Some((slot, rest)) = tool.slots.split_first_mut() else { continue };

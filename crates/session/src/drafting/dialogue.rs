@@ -288,7 +288,9 @@ pub(crate) fn nearest<'f>(
         SlotKind::Edges => f.side.is_none() && f.curve.ends().is_some(),
         // a copy is one of all of it, never of a place in it
         SlotKind::Set if f.is_place && f.side_of.is_some() => false,
-        SlotKind::Curve => slot.takes(state, f.class) || f.side_of.is_some_and(|c| slot.takes(state, c)),
+        SlotKind::Curve => {
+            slot.takes(state, f.class) || f.side_of.is_some_and(|c| slot.takes(state, c))
+        }
         SlotKind::Point | SlotKind::Set => slot.takes(state, f.class),
     };
     scene::nearest(all.iter().filter(fits), pointer)

@@ -106,7 +106,8 @@ impl Allowed {
     /// There is no such file, or no such column.
     pub(crate) fn looked_up(self, read: &dyn Fn(&str) -> Option<String>) -> Result<Self, String> {
         let Self::Column { file, column, .. } = self else { return Ok(self) };
-        let text = read(&file).ok_or_else(|| format!("there is no table {file} beside the document"))?;
+        let text =
+            read(&file).ok_or_else(|| format!("there is no table {file} beside the document"))?;
         let cells = lang::tables::cells(&text, &column)
             .map_err(|why| format!("{file} has no column {column}: {why}"))?;
         let values = cells.into_iter().map(|(_, cell)| cell).collect();
@@ -117,7 +118,8 @@ impl Allowed {
     fn known(self, state: &State) -> Option<Self> {
         let read = |name: &str| {
             let mut files = state.lowered.files.iter().map(|(_, file)| file);
-            let is_it = |own: &str| own == name || own.strip_suffix(name).is_some_and(|f| f.ends_with('/'));
+            let is_it =
+                |own: &str| own == name || own.strip_suffix(name).is_some_and(|f| f.ends_with('/'));
             files.find(|file| is_it(&file.name)).map(|file| file.text.to_string())
         };
         self.looked_up(&read).ok()
@@ -187,7 +189,8 @@ impl Allowed {
 /// Reads the column of a table: `"bolts.csv".d`, or as it is typed, `bolts.csv.d`.
 fn column_of(text: &str) -> Option<Allowed> {
     let text = text.trim();
-    let column = |file: String, column: String| Allowed::Column { file, column, values: Vec::new() };
+    let column =
+        |file: String, column: String| Allowed::Column { file, column, values: Vec::new() };
     if let Some(found) = typed::expression(text).and_then(|e| lang::tables::column_of(&e)) {
         return Some(column(found.file(), found.name().into()));
     }

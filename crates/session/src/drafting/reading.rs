@@ -16,7 +16,9 @@ pub(crate) fn read(
 ) -> ParameterReading {
     let mut reading = ParameterReading::default();
     let name = new.name.trim();
-    if let Some(why) = wrong_name(open, home, (name, new.instead_of.trim())).filter(|_| !name.is_empty()) {
+    if let Some(why) =
+        wrong_name(open, home, (name, new.instead_of.trim())).filter(|_| !name.is_empty())
+    {
         reading.wrong.push((ParameterField::Name, why));
     }
     let allowed = new.range.trim();
@@ -98,7 +100,11 @@ fn wrong_kind(class: &str, worth: Option<&Worth>) -> Option<String> {
 }
 
 /// Why an example is not among the values that are allowed.
-fn outside(open: &Open, allowed: &Allowed, (class, example, value): (&str, &str, &str)) -> Option<String> {
+fn outside(
+    open: &Open,
+    allowed: &Allowed,
+    (class, example, value): (&str, &str, &str),
+) -> Option<String> {
     let allowed_here = match class {
         "Angle" if !matches!(allowed, Allowed::Column { .. }) => {
             Allowed::of(&allowed.written(true))?

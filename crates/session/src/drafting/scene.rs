@@ -554,12 +554,7 @@ impl<'a> Scene<'_, 'a> {
     }
 
     /// Adds a place of another figure, which may be made of others.
-    fn place(
-        &mut self,
-        text: String,
-        (class, curve): (ClassId, Curve),
-        side_of: Option<ClassId>,
-    ) {
+    fn place(&mut self, text: String, (class, curve): (ClassId, Curve), side_of: Option<ClassId>) {
         let (wholes, side) = (Vec::new(), None);
         let (is_place, is_result) = (true, false);
         self.found.push(Found { text, class, curve, wholes, side_of, side, is_place, is_result });

@@ -241,7 +241,8 @@ fn as_typed(place: &str, before: &str) -> Option<String> {
 }
 
 fn value_words<'a>(state: &'a State, evaluator: &Evaluator<'a>, answer: &Answer<'a>) -> String {
-    let at = |place: &str| Some(Curve::of(evaluator, &evaluator.of_part(answer, place).ok()?)?.words());
+    let at =
+        |place: &str| Some(Curve::of(evaluator, &evaluator.of_part(answer, place).ok()?)?.words());
     let is_box = |class| compound::of(&state.lowered.document, class).is_some_and(|c| c.has("far"));
     if evaluator.class_of(answer).is_some_and(is_box)
         && let Some((corner, far)) = at("corner").zip(at("far"))

@@ -56,10 +56,7 @@ fn a_rectangle_is_a_step_from_corner_to_corner() {
     pick(&mut desk, 0.0, 0.0);
     enter(&mut desk, "width / 3");
     let table = text(enter(&mut desk, "depth"));
-    assert_eq!(
-        table,
-        "Rectangle(corner: rectangle.corner, width: width / 3, height: depth)"
-    );
+    assert_eq!(table, "Rectangle(corner: rectangle.corner, width: width / 3, height: depth)");
     assert_eq!(desk.wrong(), [], "{}", desk.text());
     desk.set("floor.width", 120.0).expect("a parameter can be set");
     assert_eq!(value(&desk, "floor.rectangle2.far.x"), "40 mm");

@@ -19,7 +19,8 @@ pub fn Recorder(
     let recorded = Memo::new(move |_| {
         steps.with(|s| s.as_ref().filter(|s| s.is_recorded).map(|s| s.program.clone()))
     });
-    let is_drawn = Memo::new(move |_| steps.with(|s| s.as_ref().is_some_and(|s| !s.rows.is_empty())));
+    let is_drawn =
+        Memo::new(move |_| steps.with(|s| s.as_ref().is_some_and(|s| !s.rows.is_empty())));
     let begin = move |e: leptos::ev::SubmitEvent| {
         e.prevent_default();
         lab.record(&name.get_untracked());

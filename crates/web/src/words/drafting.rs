@@ -5,7 +5,8 @@ pub const PARAMETER_CLASS: &str = "Class";
 /// The field for the values that are allowed.
 pub const RANGE: &str = "Allowed";
 /// What the fields for a parameter are for, while a program has none.
-pub const FIRST_PARAMETER: &str = "What shall differ from part to part? Give it a name and the value of this example.";
+pub const FIRST_PARAMETER: &str =
+    "What shall differ from part to part? Give it a name and the value of this example.";
 /// Shows the fields for a further parameter, or hides them.
 pub const NEW_PARAMETER: &str = "A parameter";
 /// What may be typed as a name.
