@@ -54,6 +54,7 @@ async fn record(visit: &Visit, program: &str, parameters: &[(&str, &str, &str)])
         fill(visit, "input[name='parameter']", name).await;
         fill(visit, "input[name='example']", example).await;
         if !class.is_empty() {
+            visit.script("document.querySelector('.define details').open = true").await;
             press(visit, &format!("select[name='class'] option[value='{class}']")).await;
         }
         press(visit, "[data-draft='define']").await;
