@@ -136,7 +136,7 @@ impl Lowerer<'_> {
                 let span = column.file.span();
                 let span = Span::new(span.start + 1, span.end.max(span.start + 2) - 1);
                 let message = format!("there is no table {} beside this one", column.file());
-                self.error("missing-file", file, span, message);
+                self.error("missing-table", file, span, message);
             }
         }
     }

@@ -94,7 +94,8 @@ impl State {
     }
     /// Returns the names of what is used and was not there.
     fn missing(&self) -> impl Iterator<Item = &str> {
-        let missing = self.lowered.diagnostics.iter().filter(|d| d.code == "missing-file");
+        let is_missing = |code: &str| matches!(code, "missing-file" | "missing-table");
+        let missing = self.lowered.diagnostics.iter().filter(move |d| is_missing(d.code));
         missing.filter_map(|d| {
             let file = self.lowered.files.get(d.place.file)?;
             file.text.get(d.place.span.start as usize..d.place.span.end as usize)

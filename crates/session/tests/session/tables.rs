@@ -70,7 +70,7 @@ fn the_values_of_a_column_are_those_that_are_allowed() {
 #[test]
 fn what_is_wrong_with_a_table_is_told_where_it_is_named() {
     for (allowed, wanted) in [
-        ("\"nuts.csv\".d", "missing-file: there is no table nuts.csv beside this one"),
+        ("\"nuts.csv\".d", "missing-table: there is no table nuts.csv beside this one"),
         ("\"bolts.csv\".e", "no-column: bolts.csv has no column e"),
         ("\"empty.csv\".d", "no-column: column d of empty.csv has no values"),
         (
