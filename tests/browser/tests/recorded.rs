@@ -187,7 +187,7 @@ async fn a_retaining_ring_has_the_lug_that_its_size_asks_for() {
     }";
     assert!(text.contains(wanted), "{text}");
     press(&visit, "[data-action='tool-rectangle']").await;
-    visit.until("document.querySelector('.notice').innerText.includes('is no step of Ring')").await;
+    asked(&visit, "Box between two opposite corners").await;
     construct(&visit, "Circle").await;
     visit.book_picture("ring").await;
 }
@@ -508,8 +508,10 @@ async fn a_washer_is_recorded_on_a_narrow_page() {
 
 #[tokio::test]
 async fn a_column_of_a_file_beside_the_document_says_what_is_allowed() {
-    let visit = hands::begin().await;
+    let visit = Visit::open_new("gallery/bolts.thing").await;
     visit.put("bolts.csv", "name, d [mm]\nM3, 3\nM8, 8\nM10, 10\n");
+    visit.until("window.__thinglab && window.__thinglab.state().path === 'gallery/bolts.thing'").await;
+    visit.until("document.getElementById('picture').width > 10").await;
     record(&visit, "Bolt", &[]).await;
     fill(&visit, "input[name='parameter']", "d").await;
     fill(&visit, "input[name='example']", "8 mm").await;
@@ -534,7 +536,7 @@ async fn a_column_of_a_file_beside_the_document_says_what_is_allowed() {
     set(&visit, "d", "9 mm").await;
     visit.until("document.querySelector('.parameter .wrong')?.innerText").await;
     set(&visit, "d", "10 mm").await;
-    has(&visit, "bolt: Bolt { d = 10 mm }").await;
+    has(&visit, "bolt: Bolt { d = 10").await;
     // where it is applied they are keys
     construct(&visit, "Bolt").await;
     press(&visit, ".prompt [data-choice='3 mm']").await;
