@@ -42,8 +42,7 @@ pub struct Alone {
 /// Reads expressions as if each were the answer of a message of a class that the document's own text declares, or of
 /// the document. Cost: a copy of the document and of its names; the text is not looked at.
 pub fn read_alone(lowered: &Lowered, class: ClassId, texts: &[String]) -> Alone {
-    let load = |_: &str| None;
-    let mut l = Lowerer::empty(&load, None);
+    let mut l = Lowerer::empty(None);
     let names = Names::clone(&lowered.names);
     l.document = lowered.document.clone();
     l.parts = lowered.parts.clone();

@@ -58,8 +58,13 @@ impl Lowerer<'_> {
         known.map_or_else(|| syntax::parse(id, text), |f| f.parse.clone())
     }
 
-    /// Reads a text and what it uses; returns its id.
-    pub(crate) fn read(&mut self, name: &str, text: &str) -> FileId {
+    /// Reads a text and what it uses, whose texts `load` returns by their names; returns its id.
+    pub(crate) fn read(
+        &mut self,
+        load: &dyn Fn(&str) -> Option<String>,
+        name: &str,
+        text: &str,
+    ) -> FileId {
         let id = self.files.next_id();
         let parse = self.parse(id, name, text);
         for diagnostic in parse.diagnostics() {
@@ -73,7 +78,7 @@ impl Lowerer<'_> {
         let kinds = [SyntaxKind::Use, SyntaxKind::UnitLine, SyntaxKind::YLine];
         for member in self.files[id].members_of(&kinds) {
             match member {
-                Member::Use(used) => self.read_used(id, &used),
+                Member::Use(used) => self.read_used(load, id, &used),
                 Member::Unit(unit) if id == OWN => self.set_unit(&unit),
                 Member::Y(y) if id == OWN => {
                     self.document.vertical =
@@ -82,13 +87,13 @@ impl Lowerer<'_> {
                 _ => {}
             }
         }
-        self.read_tables(id);
+        self.read_tables(load, id);
         self.reading.pop();
         self.order.push(id);
         id
     }
 
-    fn read_used(&mut self, file: FileId, used: &ast::Use) {
+    fn read_used(&mut self, load: &dyn Fn(&str) -> Option<String>, file: FileId, used: &ast::Use) {
         let Some(path) = used.path() else { return };
         let name = name_of(&path);
         let known = self.files.iter().find(|(_, f)| f.name == name).map(|(id, _)| id);
@@ -99,9 +104,9 @@ impl Lowerer<'_> {
             }
             return self.visible.add_use(file, known);
         }
-        match (self.load)(&name) {
+        match load(&name) {
             Some(text) => {
-                let used = self.read(&name, &text);
+                let used = self.read(load, &name, &text);
                 self.visible.add_use(file, used);
             }
             None => {
@@ -112,8 +117,8 @@ impl Lowerer<'_> {
         }
     }
 
-    /// Declares the top level of a file in a class: its members, and the things of what it uses.
-    pub(crate) fn declare_file(&mut self, file: FileId, class: ClassId) {
+    /// Declares the things of what a file uses in a class.
+    pub(crate) fn declare_used(&mut self, file: FileId, class: ClassId) {
         self.using.push(file);
         for member in self.files[file].members_of(&[SyntaxKind::Use]) {
             let Member::Use(used) = member else { continue };
@@ -144,14 +149,6 @@ impl Lowerer<'_> {
             }
         }
         self.using.pop();
-        let scope = Scope::of(file, class);
-        match file {
-            OWN => self.declare_own(&scope),
-            _ => {
-                let members = self.files[file].parse.file().members().collect();
-                self.declare_body(&scope, members);
-            }
-        }
     }
 
     /// Makes the class of a file that has things, of its own or by what it uses.
@@ -163,7 +160,9 @@ impl Lowerer<'_> {
         let object = self.object;
         let class = self.add_unnamed_class(&name, object, origin);
         self.document.classes[class].is_of_one = true;
-        self.declare_file(file, class);
+        self.declare_used(file, class);
+        let members = self.files[file].parse.file().members().collect();
+        self.declare_body(&Scope::of(file, class), members);
         Some(class)
     }
 

@@ -36,6 +36,29 @@ pub(crate) struct Run {
     shift: i64,
 }
 
+/// The members at the top of the document's own text, of which some are declared.
+#[derive(Debug)]
+pub(crate) struct OwnMembers {
+    scope: Scope,
+    members: Vec<Span>,
+    next: usize,
+    /// Whether what the text meant before says what members say that are as they were.
+    is_known: bool,
+    /// How many classes there were before.
+    classes: usize,
+}
+
+impl OwnMembers {
+    /// How many members there are.
+    pub(crate) fn count(&self) -> usize {
+        self.members.len()
+    }
+    /// How many are not declared yet.
+    pub(crate) fn left(&self) -> usize {
+        self.members.len() - self.next
+    }
+}
+
 /// Returns which member of the text before a member is, and how far it has moved; nothing for another one.
 fn member_before(changed: &[Changed], member: usize) -> Option<(usize, i64)> {
     match &changed[..changed.partition_point(|c| c.after.start <= member)] {
@@ -84,21 +107,29 @@ impl<'l> Lowerer<'l> {
         (!is_other).then_some(before)
     }
 
-    /// Declares what the document's own text adds to the document's class.
-    pub(crate) fn declare_own(&mut self, scope: &Scope) {
+    /// Begins to declare what the document's own text adds to the document's class.
+    pub(crate) fn begin_own(&mut self, scope: Scope) -> OwnMembers {
         let before = self.known();
-        let parse = self.files[OWN].parse.clone();
-        let file = parse.file();
-        self.added = vec![None; parse.outline().count()];
+        let members: Vec<Span> = self.files[OWN].parse.outline().map(|(_, span)| span).collect();
+        self.added = vec![None; members.len()];
         if let Some(before) = before {
             self.reserve(before);
         }
         let classes = self.document.classes.len();
-        for (member, (_, span)) in parse.outline().enumerate() {
+        OwnMembers { scope, members, next: 0, is_known: before.is_some(), classes }
+    }
+
+    /// Declares so many more of these members; returns whether any are left.
+    pub(crate) fn declare_own(&mut self, own: &mut OwnMembers, most: usize) -> bool {
+        let file = self.files[OWN].parse.file();
+        let before = self.before.filter(|_| own.is_known);
+        let to = own.members.len().min(own.next + most);
+        for member in own.next..to {
+            let span = own.members[member];
             let known = before.zip(member_before(&self.changed, member));
-            let part = self.document.classes[scope.class()].parts.len() as u32;
+            let part = self.document.classes[own.scope.class()].parts.len() as u32;
             if let Some((before, (was, shift))) = known
-                && self.keep_part(scope, before, was, span)
+                && self.keep_part(&own.scope, before, was, span)
             {
                 match self.pending.last_mut() {
                     Some(Pending::Kept(run)) if run.goes_on(member, was, shift) => {
@@ -111,23 +142,30 @@ impl<'l> Lowerer<'l> {
                 }
                 continue;
             }
-            let Some(node) = file.member_at(span) else { continue };
-            let effects =
-                |l: &Self| (l.pending.len(), l.document.classes.len(), l.diagnostics.len());
-            let (from, made, said) = effects(self);
-            let is_plain = is_plain(&node);
-            self.declare_body(scope, vec![node]);
-            let (to, made_now, said_now) = effects(self);
-            let is_one = match &self.document.classes[scope.class()].parts[part as usize..] {
-                // how many elements a list is given is counted where it is declared
-                [part] => part.class.index() < classes && part.count != Some(Count::Given),
-                _ => false,
-            };
-            if is_plain && is_one && (made, said) == (made_now, said_now) {
-                let givens = (to - from) as u32;
-                self.pending.insert(from, Pending::Note);
-                self.pending.push(Pending::Noted { member, part, givens });
+            if let Some(node) = file.member_at(span) {
+                self.declare_anew(own, (member, part), node);
             }
+        }
+        own.next = to;
+        own.left() > 0
+    }
+
+    /// Declares a member that is not as it was; `part` is the next part's index.
+    fn declare_anew(&mut self, own: &OwnMembers, (member, part): (usize, u32), node: Member) {
+        let effects = |l: &Self| (l.pending.len(), l.document.classes.len(), l.diagnostics.len());
+        let (from, made, said) = effects(self);
+        let is_plain = is_plain(&node);
+        self.declare_body(&own.scope, vec![node]);
+        let (to, made_now, said_now) = effects(self);
+        let is_one = match &self.document.classes[own.scope.class()].parts[part as usize..] {
+            // how many elements a list is given is counted where it is declared
+            [part] => part.class.index() < own.classes && part.count != Some(Count::Given),
+            _ => false,
+        };
+        if is_plain && is_one && (made, said) == (made_now, said_now) {
+            let givens = (to - from) as u32;
+            self.pending.insert(from, Pending::Note);
+            self.pending.push(Pending::Noted { member, part, givens });
         }
     }
 

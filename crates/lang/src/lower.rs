@@ -5,7 +5,7 @@
 //! speaks of parts is lowered.
 
 use crate::alone::Names;
-use crate::checks::{self, Check};
+use crate::checks::Check;
 use crate::counts::Counts;
 use crate::families::Family;
 use crate::files::File;
@@ -13,7 +13,7 @@ use crate::hints::instead_of_abstract;
 use crate::kept::Added;
 use crate::kin::Kin;
 use crate::kinds::Kind;
-use crate::lessons::{self, Lesson};
+use crate::lessons::Lesson;
 use crate::loops::Repeated;
 use crate::members::{Definition, Pending};
 use crate::mentions::Mention;
@@ -25,10 +25,10 @@ use crate::references::References;
 use crate::refine::Made;
 use crate::restore::{Grain, Patch};
 use crate::rules::Mask;
-use crate::scale::{self, Counting};
+use crate::scale::Counting;
 use crate::scope::Scope;
 use crate::switches::PendingSwitch;
-use crate::views::{self, PlotOf, Toolbox};
+use crate::views::{PlotOf, Toolbox};
 use crate::visible::Visible;
 use base::{Diagnostic, FileId, IdVec, Mixer, Name, Place, Severity, Span};
 use indexmap::IndexMap;
@@ -160,17 +160,17 @@ fn errors(lowered: &Lowered) -> usize {
 ///
 /// What has an error names what it can. Cost: that of lowering the text once.
 pub fn mentions(text: &str, load: &dyn Fn(&str) -> Option<String>) -> Vec<Mention> {
-    let mut l = Lowerer::new(load, None);
+    let mut l = Lowerer::new(None);
     l.references = Some(References::default());
-    l.run(text);
+    l.run(text, load);
     l.mentions()
 }
 
 /// Finds what of a text speaks of a member of a class.
 pub(crate) fn references(text: &str, load: &dyn Fn(&str) -> Option<String>) -> References {
-    let mut l = Lowerer::new(load, None);
+    let mut l = Lowerer::new(None);
     l.references = Some(References::default());
-    l.run(text);
+    l.run(text, load);
     l.references.unwrap_or_default()
 }
 
@@ -179,59 +179,22 @@ pub(crate) fn lower_text(
     load: &dyn Fn(&str) -> Option<String>,
     (before, counting): (Option<&Lowered>, Option<Counting>),
 ) -> Lowered {
-    let mut l = Lowerer::new(load, before);
+    let mut l = Lowerer::new(before);
     l.counting = counting;
-    let Blocks { checks, lessons, views, toolboxes, families } = l.run(text);
-    let doc = l.first_doc();
-    let own = &l.files[OWN];
-    let classes = own.members_of(&[SyntaxKind::Class, SyntaxKind::Program]);
-    let (effective, effective_parse) = (own.text.clone(), own.parse.clone());
-    Lowered {
-        masters: l.placed.masters.map(|(name, _)| name),
-        document: l.document,
-        checks,
-        lessons,
-        views,
-        toolboxes,
-        families,
-        origins: l.origins,
-        diagnostics: l.diagnostics,
-        doc,
-        effective,
-        effective_parse,
-        class_spans: classes.iter().map(|class| syntax::span_of(class.syntax())).collect(),
-        patches: Vec::new(),
-        files: l.files,
-        parts: l.parts,
-        added: l.added,
-        names: Rc::new(Names {
-            visible: l.visible,
-            object: l.object,
-            messages: l.messages,
-            message_kinds: l.message_kinds,
-            primary_names: l.primary_names,
-            constants: l.constants,
-            broken: l.broken,
-            file_things: l.file_things,
-            choices: l.choices,
-            made: l.made,
-            counted: l.counted,
-            drawing: l.programs.classes(),
-        }),
-    }
+    let blocks = l.run(text, load);
+    l.lowered(blocks)
 }
 
 /// What a text says beside classes and members.
-struct Blocks {
-    checks: Vec<Check>,
-    lessons: Vec<Lesson>,
-    views: Vec<PlotOf>,
-    toolboxes: Vec<Toolbox>,
-    families: Vec<Family>,
+pub(crate) struct Blocks {
+    pub(crate) checks: Vec<Check>,
+    pub(crate) lessons: Vec<Lesson>,
+    pub(crate) views: Vec<PlotOf>,
+    pub(crate) toolboxes: Vec<Toolbox>,
+    pub(crate) families: Vec<Family>,
 }
 
 pub(crate) struct Lowerer<'l> {
-    pub(crate) load: &'l dyn Fn(&str) -> Option<String>,
     /// What an earlier text meant.
     pub(crate) before: Option<&'l Lowered>,
     /// Which members at the top of the text are others than in the earlier one.
@@ -323,23 +286,19 @@ pub(crate) struct Lowerer<'l> {
     /// What words speak of, where that is asked for.
     pub(crate) references: Option<References>,
     /// How it counts, where the text does not decide on it.
-    counting: Option<Counting>,
+    pub(crate) counting: Option<Counting>,
 }
 
 impl<'l> Lowerer<'l> {
-    fn new(load: &'l dyn Fn(&str) -> Option<String>, before: Option<&'l Lowered>) -> Self {
-        let mut l = Self::empty(load, before);
+    pub(crate) fn new(before: Option<&'l Lowered>) -> Self {
+        let mut l = Self::empty(before);
         l.own_classes();
         l
     }
 
     /// Makes one that knows no class yet, not even the language's own.
-    pub(crate) fn empty(
-        load: &'l dyn Fn(&str) -> Option<String>,
-        before: Option<&'l Lowered>,
-    ) -> Self {
+    pub(crate) fn empty(before: Option<&'l Lowered>) -> Self {
         Self {
-            load,
             before,
             changed: Vec::new(),
             added: Vec::new(),
@@ -404,30 +363,46 @@ impl<'l> Lowerer<'l> {
         }
     }
 
-    /// Lowers a text, and returns what it says beside classes and members.
-    fn run(&mut self, text: &str) -> Blocks {
-        self.read("", text);
-        let before = self.before.map(|before| before.document.scale);
-        let known = self.counting.take();
-        let counting = known.unwrap_or_else(|| scale::of(&self.files[OWN].parse, before));
-        self.document.scale = counting.scale;
-        self.document.writes_lengths = counting.writes_lengths;
-        self.document.usual = counting.usual;
-        let scale = self.document.scale;
-        // what was read in other units is read anew
-        self.before = self.before.filter(|before| before.document.scale == scale);
-        self.declare_classes();
-        self.declare_counts();
-        self.make_root();
-        self.declare_members();
-        self.define_members();
-        let checks = checks::lower(self);
-        let lessons = lessons::lower(self);
-        let (views, toolboxes) = (views::lower(self), views::toolboxes(self));
-        let families = crate::families::lower(self);
-        self.refine_parts();
-        self.settle();
-        Blocks { checks, lessons, views, toolboxes, families }
+    /// Returns what the text means, with what it says beside classes and members.
+    pub(crate) fn lowered(self, blocks: Blocks) -> Lowered {
+        let Blocks { checks, lessons, views, toolboxes, families } = blocks;
+        let doc = self.first_doc();
+        let own = &self.files[OWN];
+        let classes = own.members_of(&[SyntaxKind::Class, SyntaxKind::Program]);
+        let (effective, effective_parse) = (own.text.clone(), own.parse.clone());
+        Lowered {
+            masters: self.placed.masters.map(|(name, _)| name),
+            document: self.document,
+            checks,
+            lessons,
+            views,
+            toolboxes,
+            families,
+            origins: self.origins,
+            diagnostics: self.diagnostics,
+            doc,
+            effective,
+            effective_parse,
+            class_spans: classes.iter().map(|class| syntax::span_of(class.syntax())).collect(),
+            patches: Vec::new(),
+            files: self.files,
+            parts: self.parts,
+            added: self.added,
+            names: Rc::new(Names {
+                visible: self.visible,
+                object: self.object,
+                messages: self.messages,
+                message_kinds: self.message_kinds,
+                primary_names: self.primary_names,
+                constants: self.constants,
+                broken: self.broken,
+                file_things: self.file_things,
+                choices: self.choices,
+                made: self.made,
+                counted: self.counted,
+                drawing: self.programs.classes(),
+            }),
+        }
     }
 
     /// Returns what the comment for readers above the first `use` or line of units says; one above anything
@@ -469,7 +444,7 @@ impl<'l> Lowerer<'l> {
         self.report(d.hint("the rest of the document works without it"));
     }
 
-    fn make_root(&mut self) {
+    pub(crate) fn make_root(&mut self) {
         let end = self.files[OWN].text.len() as u32;
         let origin = self.origin(OWN, Span::new(0, end));
         let object = self.object;
@@ -477,17 +452,14 @@ impl<'l> Lowerer<'l> {
         self.add_unnamed_class("", object, origin);
     }
 
-    /// Declares parts and messages of all classes, and of the document.
-    fn declare_members(&mut self) {
+    /// Declares parts and messages of all classes.
+    pub(crate) fn declare_members_of_classes(&mut self) {
         for (id, file, class) in self.declared.clone() {
             let members = class.body().into_iter().flat_map(|b| b.members()).collect();
             self.declare_body(&Scope::of(file, id), members);
         }
         self.declare_programs();
         self.declare_object();
-        let root = self.document.root;
-        self.declare_file(OWN, root);
-        self.declare_for_counts();
     }
 
     /// Returns a class's own definition of a message.

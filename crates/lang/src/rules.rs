@@ -3,6 +3,7 @@
 use crate::hints::{is_a_unit, unit_before_equals};
 use crate::kinds::{Kind, measured};
 use crate::lower::Lowerer;
+use crate::lowering::Waiting;
 use crate::members::{Definition, Pending};
 use crate::scope::Scope;
 use crate::terms::code_for;
@@ -47,8 +48,8 @@ pub(crate) struct Heading {
 }
 
 impl Lowerer<'_> {
-    /// Lowers every expression that waits.
-    pub(crate) fn define_members(&mut self) {
+    /// Declares what can be declared only once all members were seen.
+    pub(crate) fn begin_members(&mut self) {
         self.declare_repeated();
         self.declare_for_counts_from_outside();
         self.continue_loops();
@@ -56,7 +57,10 @@ impl Lowerer<'_> {
         self.prepare_modifications();
         self.define_programs();
         self.forward_programs();
-        self.define_pending();
+    }
+
+    /// Ends what was lowered.
+    pub(crate) fn end_members(&mut self) {
         self.finish_programs();
         self.drop_broken_messages();
     }
@@ -73,65 +77,53 @@ impl Lowerer<'_> {
         }
     }
 
-    fn define_pending(&mut self) {
-        let mut noted = self.so_far();
-        let mut pending = std::mem::take(&mut self.pending);
-        // what things are merged with decides which names they know; what speaks of a message whose
-        // answer is wrong goes with it, and says no more
-        pending.sort_by_key(|p| match p {
-            Pending::Member(_, Member::Merge(_)) => 0,
-            Pending::Answer { .. } => 1,
-            _ => 2,
-        });
-        // merges come first, so that what is known of their paths stays true
-        let mut trails = Trails::default();
-        let is_merge = |p: &Pending| matches!(p, Pending::Member(_, Member::Merge(_)));
-        let merges = pending.partition_point(is_merge);
-        let mut pending = pending.into_iter();
-        for pending in pending.by_ref().take(merges) {
-            if let Pending::Member(scope, member) = pending {
-                self.define(&scope, &member, &mut trails);
+    /// Lowers what a member says that waited; returns a loop, whose turns follow, from which on.
+    pub(crate) fn define_one(
+        &mut self,
+        mut pending: Pending,
+        among: &mut Waiting,
+    ) -> Option<(Rc<Scope>, ast::For, u32)> {
+        self.look_outwards(&mut pending);
+        if self.connect(&pending) {
+            return None;
+        }
+        match pending {
+            Pending::Kept(run) => self.keep_values(run),
+            Pending::Note => among.noted = self.so_far(),
+            Pending::Noted { member, part, givens } => {
+                self.note(member, part, givens, among.noted);
+            }
+            Pending::Each { scope, each, from } => return Some((scope, each, from)),
+            Pending::Member(scope, member) => self.define(&scope, &member, &mut among.trails),
+            Pending::Value { scope, prefix, target, value } => {
+                self.define_value(&scope, prefix, target.as_ref(), &value);
+            }
+            Pending::Absolute { scope, path, target } => {
+                self.define_absolute(&scope, path, &target);
+            }
+            Pending::Answer { scope, index, definition } => {
+                self.define_answer(&scope, index, &definition);
             }
         }
-        for mut pending in pending {
-            self.look_outwards(&mut pending);
-            if self.connect(&pending) {
-                continue;
+        None
+    }
+
+    fn define_answer(&mut self, scope: &Scope, index: usize, definition: &Definition) {
+        let class = scope.class();
+        let name = self.document.classes[class].messages[index].name.clone();
+        let wanted = self.message_kind(class, &name);
+        let Definition { answer, loops, .. } = definition;
+        match self.answer_of(scope, loops, answer, &wanted) {
+            Some(term) => {
+                self.speaks_of_no_thing(scope, &name, answer, &term);
+                self.document.classes[class].messages[index].answer = term;
+                if loops.is_empty() {
+                    self.tell_angle(scope, index, answer);
+                }
             }
-            match pending {
-                Pending::Kept(run) => self.keep_values(run),
-                Pending::Note => noted = self.so_far(),
-                Pending::Noted { member, part, givens } => self.note(member, part, givens, noted),
-                Pending::Each { scope, each, from } => {
-                    self.take_turns(&scope, &each, from);
-                    self.define_pending();
-                }
-                Pending::Member(scope, member) => self.define(&scope, &member, &mut trails),
-                Pending::Value { scope, prefix, target, value } => {
-                    self.define_value(&scope, prefix, target.as_ref(), &value);
-                }
-                Pending::Absolute { scope, path, target } => {
-                    self.define_absolute(&scope, path, &target);
-                }
-                Pending::Answer { scope, index, definition } => {
-                    let class = scope.class();
-                    let name = self.document.classes[class].messages[index].name.clone();
-                    let wanted = self.message_kind(class, &name);
-                    let Definition { answer, loops, .. } = &*definition;
-                    match self.answer_of(&scope, loops, answer, &wanted) {
-                        Some(term) => {
-                            self.speaks_of_no_thing(&scope, &name, answer, &term);
-                            self.document.classes[class].messages[index].answer = term;
-                            if loops.is_empty() {
-                                self.tell_angle(&scope, index, answer);
-                            }
-                        }
-                        None => {
-                            self.messages.shift_remove(&(class, name.clone()));
-                            self.broken.insert((class, name));
-                        }
-                    }
-                }
+            None => {
+                self.messages.shift_remove(&(class, name.clone()));
+                self.broken.insert((class, name));
             }
         }
     }
@@ -338,7 +330,7 @@ impl Lowerer<'_> {
         }
     }
 
-    fn define(&mut self, scope: &Scope, member: &Member, trails: &mut Trails) {
+    pub(crate) fn define(&mut self, scope: &Scope, member: &Member, trails: &mut Trails) {
         let origin = self.rule_origin(scope, span_without_doc(member.syntax()));
         let class = scope.class();
         match member {

@@ -110,23 +110,28 @@ fn beside(user: &str, file: &str) -> String {
 }
 
 impl Lowerer<'_> {
-    /// Reads the tables that the parameters of a text's programs name.
-    pub(crate) fn read_tables(&mut self, file: FileId) {
+    /// Reads the tables that the parameters of a text's programs name; `load` returns their texts.
+    pub(crate) fn read_tables(&mut self, load: &dyn Fn(&str) -> Option<String>, file: FileId) {
         for member in self.files[file].members_of(&[SyntaxKind::Program]) {
             let Member::Program(program) = member else { continue };
             let params = program.params().into_iter().flat_map(|list| list.params());
             for column in params.filter_map(|param| column_of(&param.domain()?)) {
-                self.read_table(file, &column);
+                self.read_table(load, file, &column);
             }
         }
     }
 
-    fn read_table(&mut self, file: FileId, column: &Column) {
+    fn read_table(
+        &mut self,
+        load: &dyn Fn(&str) -> Option<String>,
+        file: FileId,
+        column: &Column,
+    ) {
         let name = beside(&self.files[file].name, &column.file());
         if self.files.iter().any(|(_, known)| known.name == name) {
             return;
         }
-        match (self.load)(&name) {
+        match load(&name) {
             Some(text) => {
                 let parse = syntax::parse(self.files.next_id(), "");
                 self.files.push(File { name, text: text.as_str().into(), parse });

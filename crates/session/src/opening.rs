@@ -3,7 +3,7 @@
 use crate::document::Open;
 use crate::host::Host;
 use crate::state::{Planned, Solved, State, Structured};
-use lang::Lowered;
+use lang::{Lowered, Lowering};
 use plan::{Planner, Plans};
 
 /// A document that is being opened.
@@ -15,6 +15,7 @@ pub struct Opening {
 /// What there is of it.
 enum Stage {
     Text(String),
+    Lowering(String, Box<Lowering>),
     Lowered(String, Box<Lowered>),
     Structured(Box<Structured>),
     Planned(Box<Planned>),
@@ -42,19 +43,20 @@ impl Opening {
     }
 
     /// How many stages there are.
-    pub const STAGES: usize = 7;
+    pub const STAGES: usize = 8;
 
-    /// Returns how many stages are done.
-    pub fn done(&self) -> usize {
-        match self.stage {
-            Stage::Text(_) => 0,
-            Stage::Lowered(..) => 1,
-            Stage::Structured(_) => 2,
-            Stage::Planned(_) => 3,
-            Stage::Solved(_) => 4,
-            Stage::Told(_) => 5,
-            Stage::Open(_) => 6,
-            Stage::Drawn(_) => Self::STAGES,
+    /// Returns how many stages are done, and how much of the one that it is in.
+    pub fn done(&self) -> f64 {
+        match &self.stage {
+            Stage::Text(_) => 0.0,
+            Stage::Lowering(_, lowering) => 1.0 + lowering.done(),
+            Stage::Lowered(..) => 2.0,
+            Stage::Structured(_) => 3.0,
+            Stage::Planned(_) => 4.0,
+            Stage::Solved(_) => 5.0,
+            Stage::Told(_) => 6.0,
+            Stage::Open(_) => 7.0,
+            Stage::Drawn(_) => Self::STAGES as f64,
         }
     }
 
@@ -63,14 +65,18 @@ impl Opening {
         matches!(self.stage, Stage::Drawn(_))
     }
 
-    /// Goes through the next stage.
+    /// Goes through the next stage, or a part of it.
     pub(crate) fn go_on(self, host: &dyn Host) -> Self {
         let Self { name, stage } = self;
         let stage = match stage {
             Stage::Text(text) => {
-                let lowered = lang::lower(&text, &|name: &str| host.read(name), None);
-                Stage::Lowered(text, Box::new(lowered))
+                let lowering = Lowering::of(&text, &|name: &str| host.read(name));
+                Stage::Lowering(text, Box::new(lowering))
             }
+            Stage::Lowering(text, lowering) if lowering.is_over() => {
+                Stage::Lowered(text, Box::new(lowering.lowered()))
+            }
+            Stage::Lowering(text, lowering) => Stage::Lowering(text, Box::new(lowering.go_on())),
             Stage::Lowered(text, of) => {
                 Stage::Structured(Box::new(Structured::of(text, *of, None)))
             }

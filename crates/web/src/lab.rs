@@ -202,7 +202,7 @@ pub struct Lab {
     /// While a class is made of the selection, the points by which its things are placed.
     pub attachers: RwSignal<Option<Vec<String>>>,
     /// How many stages of a long opening are done, while there is one.
-    pub opening: RwSignal<Option<usize>>,
+    pub opening: RwSignal<Option<f64>>,
     /// How often long openings were given up: one goes on as long as this is what it was when it began.
     pub given_up: StoredValue<usize>,
     /// The class whose prototype is shown instead of the document.

@@ -410,3 +410,22 @@ fn what_let_binds_is_no_angle_by_a_name_further_out() {
     let answer = root(&lowered).messages.iter().find(|m| m.name == *"x").and_then(|m| m.class);
     assert_ne!(answer, lowered.document.class_named("Angle"));
 }
+
+#[test]
+fn a_long_text_is_lowered_in_many_parts_and_means_what_it_means_at_once() {
+    let mut text = String::from("use shapes\nrow: List of 300 Point\nfor p in row { p.x = 1 }\n");
+    for i in 0..300 {
+        text += &format!("p{i}: Point = ({i}, 0)\n");
+    }
+    let mut lowering = lang::Lowering::of(&text, &load);
+    let (mut parts, mut done) = (0, 0.0);
+    while !lowering.is_over() {
+        assert!(lowering.done() >= done, "{} comes after {done}", lowering.done());
+        done = lowering.done();
+        lowering = lowering.go_on();
+        parts += 1;
+    }
+    assert!(parts > 30 && done == 1.0, "{parts} parts, {done} done");
+    let (in_parts, at_once) = (lowering.lowered(), right(&text));
+    assert_eq!(format!("{:?}", in_parts.document), format!("{:?}", at_once.document));
+}

@@ -18,6 +18,11 @@ use wasm_bindgen::closure::Closure;
 /// What a new document is called before it is saved.
 const UNTITLED: &str = "untitled";
 
+/// A document is opened for so many milliseconds before the page has its turn.
+const A_WHILE: f64 = 12.0;
+/// How far it is, is shown again after so many.
+const BETWEEN_SIGHTS: f64 = 100.0;
+
 /// A text with more bytes takes long to open.
 const LONG: usize = 200_000;
 
@@ -137,15 +142,20 @@ impl Lab {
     ) -> Result<DocumentId, String> {
         let is_long = text.len() > LONG;
         let mut opening = self.ask(|session| session.begin_opening(path, text));
+        let mut shown = f64::NEG_INFINITY;
         while !opening.is_over() {
-            if is_long {
+            if is_long && js::now() - shown > BETWEEN_SIGHTS {
                 self.opening.set(Some(opening.done()));
                 js::painted().await;
+                shown = js::now();
             }
             if !goes_on() {
                 return Err(String::from(words::OPENING_GIVEN_UP));
             }
-            opening = self.ask(|session| session.go_on_opening(opening));
+            let until = js::now() + A_WHILE;
+            while !opening.is_over() && js::now() < until {
+                opening = self.ask(|session| session.go_on_opening(opening));
+            }
             js::pause().await;
         }
         Ok(self.order(|session| session.end_opening(opening)))
