@@ -99,15 +99,6 @@ impl Hand {
         tokio::time::sleep(Duration::from_millis(80)).await;
     }
 
-    /// Sees the sheet smaller or larger; that is no action.
-    async fn zoom(&self, by: &str, times: usize) {
-        for _ in 0..times {
-            self.visit
-                .script(&format!("document.querySelector('.corner button:{by}').click()"))
-                .await;
-        }
-    }
-
     async fn has(&self, text: &str) {
         self.visit.until(&format!("window.__thinglab.state().text.includes('{text}')")).await;
     }
