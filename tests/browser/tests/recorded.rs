@@ -510,7 +510,9 @@ async fn a_washer_is_recorded_on_a_narrow_page() {
 async fn a_column_of_a_file_beside_the_document_says_what_is_allowed() {
     let visit = Visit::open_new("gallery/bolts.thing").await;
     visit.put("bolts.csv", "name, d [mm]\nM3, 3\nM8, 8\nM10, 10\n");
-    visit.until("window.__thinglab && window.__thinglab.state().path === 'gallery/bolts.thing'").await;
+    visit
+        .until("window.__thinglab && window.__thinglab.state().path === 'gallery/bolts.thing'")
+        .await;
     visit.until("document.getElementById('picture').width > 10").await;
     record(&visit, "Bolt", &[]).await;
     fill(&visit, "input[name='parameter']", "d").await;
