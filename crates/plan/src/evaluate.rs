@@ -3,6 +3,7 @@
 //! Messages and virtual parts are opened into their definitions, lists are expanded, conditions
 //! become selections. Nothing here looks at a value: the result serves every state.
 
+use crate::counting::whole;
 use crate::course::Decision;
 use crate::fault::{FaultKind, Trouble};
 use crate::meaning::{Closure, Drawn, Frame, Meaning, Opaque, collect_slots};
@@ -49,7 +50,11 @@ pub(crate) struct Opening<'a> {
     pub(crate) opened: Vec<Frame<'a>>,
     /// What was decided on the way.
     pub(crate) decisions: Vec<Decision>,
-    /// True once a rule spoke of what a program draws.
+    /// Whole numbers that count something in the rule at hand: they are as they stand.
+    pub(crate) counted: BTreeMap<SlotId, f64>,
+    /// True if the rule at hand speaks of as many as a value says, and there is no state that has one.
+    pub(crate) awaits_count: bool,
+    /// True once a rule spoke of what a program draws, or of as many as a value says.
     pub(crate) meets_programs: bool,
     depth: u32,
     nested: u32,
@@ -85,6 +90,8 @@ impl<'a> Opening<'a> {
             drawn: BTreeMap::new(),
             opened: Vec::new(),
             decisions: Vec::new(),
+            counted: BTreeMap::new(),
+            awaits_count: false,
             meets_programs: false,
             depth: 0,
             nested: 0,
@@ -145,9 +152,8 @@ impl<'a> Opening<'a> {
                 Ok(Meaning::List(items?.into()))
             }
             Term::Range(from, to) => {
-                let from = self.whole(from, frame)?;
-                let to = self.whole(to, frame)?;
-                Ok(Meaning::List((from..=to).map(|i| self.number(i as f64)).collect()))
+                let ends = [self.meaning(from, frame)?, self.meaning(to, frame)?];
+                self.range(&ends)
             }
             Term::Index(list, index) => self.indexed(list, index, frame),
             Term::Unary(operator, operand) => {
@@ -208,10 +214,10 @@ impl<'a> Opening<'a> {
         }
         let count = self.count(&list)?;
         let at = self.meaning(index, frame)?;
-        if self.constant(&at).is_none() {
+        let Some(index) = self.constant(&at) else {
             return self.chosen(&list, count, &at);
-        }
-        let index = self.whole(index, frame)?;
+        };
+        let index = whole(index).ok_or_else(|| Trouble::wrong("an index is a whole number"))?;
         match usize::try_from(index).ok().filter(|&i| i < count) {
             Some(i) => self.item(&list, i),
             None => Err(self.missing_element(&list, count, index)),
@@ -285,6 +291,8 @@ impl<'a> Opening<'a> {
         self.drawn.clear();
         self.opened.clear();
         self.decisions.clear();
+        self.counted.clear();
+        self.awaits_count = false;
         self.terms = 0;
         self.depth = 0;
         self.nested = 0;
@@ -311,16 +319,6 @@ impl<'a> Opening<'a> {
         frame: &Frame<'a>,
     ) -> Result<Vec<Given<'a>>, Trouble> {
         arguments.iter().map(|a| Ok((a.label.clone(), self.meaning(&a.value, frame)?))).collect()
-    }
-
-    /// Evaluates a term that must be a whole constant.
-    fn whole(&mut self, term: &'a Term, frame: &Frame<'a>) -> Result<i64, Trouble> {
-        let meaning = self.meaning(term, frame)?;
-        match self.constant(&meaning) {
-            Some(x) if x == x.trunc() && x.abs() < 1e15 => Ok(x as i64),
-            Some(_) => Err(Trouble::wrong("an index is a whole number")),
-            None => Err(Trouble::not_yet("a count that depends on values is not planned yet")),
-        }
     }
 
     /// Returns the element that a number chooses: one after the other, each where the number is its place. Beyond them
@@ -370,6 +368,9 @@ impl<'a> Opening<'a> {
     /// Returns what is stored in a part, or the part itself where it has parts.
     pub(crate) fn part(&mut self, thing: ThingId) -> Answer<'a> {
         if let Some(slot) = self.reach.slot(thing) {
+            if let Some(&count) = self.counted.get(&slot) {
+                return Ok(self.number(count));
+            }
             return Ok(if self.structure.slots[slot].primitive.is_number() {
                 Meaning::Number(self.arena.var(Var(slot.0)))
             } else {

@@ -36,6 +36,7 @@
 pub mod rule;
 
 mod builtin;
+mod counting;
 mod course;
 mod equality;
 mod evaluate;

@@ -177,7 +177,7 @@ impl<'a> Opening<'a> {
     }
 
     /// Decides what a number is at the state whose courses are taken, and notes that.
-    fn decide(&mut self, meaning: &Meaning<'a>, place: Place) -> Result<f64, Trouble> {
+    pub(crate) fn decide(&mut self, meaning: &Meaning<'a>, place: Place) -> Result<f64, Trouble> {
         let id = self.expression(meaning)?;
         if let Some(value) = self.constant(meaning) {
             return Ok(value);

@@ -233,6 +233,8 @@ pub(crate) fn lower_all(
             continue;
         }
         let (lowered, is_guard) = match lower_constraint(&mut opening, patterns, instance) {
+            // how many it speaks of is known once the document has values
+            _ if opening.awaits_count => continue,
             Ok(lowered) => {
                 let is_guard = !lowered.things.is_empty();
                 let said_here = |when: Vec<When<SlotId>>| {

@@ -137,31 +137,38 @@ pub(crate) fn at_once(
     drag.release(open, host)
 }
 
-/// Begins a drag of several things, which move as one.
+/// Begins a drag of several things, which move as one. What is computed goes along with what it is computed from.
 fn begin_several(open: &mut Open, paths: &[Path]) -> Result<(f64, f64), Refusal> {
     let state = open.state.clone();
     let figures = state.evaluator(&state.values).computed_figures(DOCUMENT);
+    // one that cannot be made now is nothing to aim at
     let is_figure = |path: &Path| match path.0.as_slice() {
         [Step::Part(name)] => figures.contains(name),
         _ => false,
     };
-    let mut things = Vec::new();
-    for path in paths {
-        // what is computed goes along with what it is computed from
-        if paths.len() > 1 && is_figure(path) {
-            continue;
-        }
+    let mut moving: Vec<(Path, ThingId)> = Vec::new();
+    for path in paths.iter().filter(|path| !is_figure(path)) {
         match apply::aim(&state, path)? {
             Aim::Thing(thing) if !places(&state.structure, &[thing]).is_empty() => {
-                things.push(thing);
+                moving.push((path.clone(), thing));
             }
-            Aim::Thing(_) | Aim::Term(_) => {
+            Aim::Thing(_) => {
                 let message =
                     format!("{path} has no place of its own: it is not dragged with others");
                 return Err(words::refuse(message));
             }
+            Aim::Term(_) => {}
         }
     }
+    let alone = match moving.as_slice() {
+        [] => paths.first(),
+        [(path, _)] => Some(path),
+        _ => None,
+    };
+    if let Some(path) = alone {
+        return begin(open, std::slice::from_ref(path));
+    }
+    let (paths, things): (Vec<Path>, Vec<ThingId>) = moving.into_iter().unzip();
     let Some(path) = paths.first() else { return Err(words::refuse("nothing is selected".into())) };
     let drag = press(&state, &mut open.planner, &things, path.clone());
     let mut drag =
@@ -509,6 +516,9 @@ impl Drag {
         for change in &report.courses {
             message += &format!("; beyond it {}", words::course(state, change));
         }
+        if let Some(whole) = self.keeping.as_ref().and_then(|keeping| keeping.flat_whole()) {
+            message += &format!("; beyond it {whole} would be inside out");
+        }
         DragState { reached: false, message: Some(message), limit: Some(limit), modes }
     }
     /// Returns the numbers that are wished of the planner. An angle that is computed goes on past half a turn: near there
@@ -557,12 +567,12 @@ impl Drag {
     pub(crate) fn release(mut self, open: &mut Open, host: &dyn Host) -> Result<Change, Refusal> {
         let state = open.state.clone();
         let mut texts = Texts::new(&state.lowered.document, &state.structure);
+        let dragged = std::iter::once(self.held_path()).chain(&self.others);
+        let dragged: Vec<String> = dragged.map(Path::to_string).collect();
         let report = open.planner.release(state.model(), self.press, &mut self.values, &mut texts);
         if let Some(reason) = &report.refusal {
             return Err(words::refusal_for(&state, reason, &report));
         }
-        let dragged: Vec<String> =
-            std::iter::once(&self.path).chain(&self.others).map(Path::to_string).collect();
         let label = format!("move {}", words::listed(&dragged));
         // a handle speaks of the whole thing: what stays was wished as well
         let whole = self.keeping.as_ref().map(|keeping| keeping.slots(&state));

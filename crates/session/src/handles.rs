@@ -2,15 +2,17 @@
 //! a rectangle resizes it, since the one opposite stays.
 //!
 //! Dragged across what stays, a thing is not turned inside out: the handle that lies there is held instead. The corner
-//! at the upper right becomes the one at the upper left, and the width is positive again.
+//! at the upper right becomes the one at the upper left, and the width is positive again. Where that one is locked, or
+//! joined to something else, the handle stops where the thing is flat.
 
 use crate::apply::Aim;
 use crate::by_hand::class_at;
 use crate::drag::{coordinates, numbers_of};
+use crate::prototype::Lone;
 use crate::session::thing_at;
 use crate::state::State;
-use eval::Answer;
-use kernel::{DOCUMENT, Path, SlotId, Step, Term, ThingId, Values};
+use eval::{Answer, Evaluator};
+use kernel::{ClassId, DOCUMENT, Handle, Path, SlotId, Step, Term, ThingId, Values};
 use plan::{EditReport, Host, Planner, Press, Target};
 use std::collections::BTreeSet;
 
@@ -33,6 +35,8 @@ pub(crate) struct Keeping {
     present: usize,
     /// Where what stays was at the press.
     stays: Vec<f64>,
+    /// Whether the handle stopped where the thing is flat, as of the last event.
+    is_flat: bool,
     /// The values at the press.
     start: Values,
 }
@@ -49,7 +53,8 @@ pub(crate) fn keeping(state: &State, path: &Path, aim: &Aim) -> Option<Keeping> 
     for name in &names {
         for (whole, way) in ways_at(state, name) {
             if !wholes.contains(&whole) {
-                wholes.push(whole);
+                // what is merged as a whole is one, whatever it is called
+                wholes.extend(names_of(state, &whole));
                 ways.push(way);
             }
         }
@@ -68,12 +73,21 @@ pub(crate) fn keeping(state: &State, path: &Path, aim: &Aim) -> Option<Keeping> 
         }
     };
     let (stays, start) = (Vec::new(), state.values.clone());
-    let mut keeping = Keeping { wholes, ways, present: 0, stays, start };
+    let mut keeping = Keeping { wholes, ways, present: 0, stays, is_flat: false, start };
     let kept = &keeping.ways[0].keeps;
     let stays: Option<Vec<Vec<f64>>> =
         kept.iter().map(|path| place_at(state, &state.values, path)).collect();
     keeping.stays = stays?.concat();
     Some(keeping)
+}
+
+/// Returns the paths to what is merged with the thing at a path, which comes first; of what is computed, the path.
+fn names_of(state: &State, path: &Path) -> Vec<Path> {
+    let thing = thing_at(state, path);
+    let merged = thing.map(|thing| state.structure.merged_with(thing)).unwrap_or_default();
+    let others = merged.into_iter().map(|t| state.structure.path(&state.lowered.document, t));
+    let others: Vec<Path> = others.filter(|other| other != path).collect();
+    std::iter::once(path.clone()).chain(others).collect()
 }
 
 /// Returns the handles that a path leads to, each with the thing whose it is.
@@ -101,12 +115,15 @@ fn handles_of(state: &State, whole: &Path) -> impl Iterator<Item = Way> {
         None => class_at(state, whole),
     };
     let handles = class.map(|class| document.handles(class)).unwrap_or_default();
-    let way = |handle: &kernel::Handle| {
+    let way = |handle: &Handle| {
         let dragged = whole.join(&handle.place);
         let kept = handle.keeps.iter().map(|kept| whole.join(kept));
         let keeps: Vec<Path> = kept.flat_map(|kept| elements(state, kept)).collect();
-        let side = match keeps.as_slice() {
-            [kept] => side_of(state, &state.values, (&dragged, kept)).unwrap_or_default(),
+        let side = match (keeps.as_slice(), class) {
+            ([kept], Some(class)) => {
+                let side = side_of(state, &state.values, (&dragged, kept)).unwrap_or_default();
+                as_in_class(state, class, handle, side)
+            }
             _ => Vec::new(),
         };
         Way { dragged, keeps, side }
@@ -134,6 +151,39 @@ fn place_at(state: &State, values: &Values, path: &Path) -> Option<Vec<f64>> {
     Some(numbers.into_iter().map(|(x, _)| x).collect())
 }
 
+/// Returns on which side a handle lies, where a thing that is flat does not say it: the one of the class's prototype.
+fn as_in_class(state: &State, class: ClassId, handle: &Handle, mut side: Vec<i8>) -> Vec<i8> {
+    if !side.contains(&0) {
+        return side;
+    }
+    let Some(lone) = Lone::of(&state.lowered.document, class) else { return side };
+    let (values, _) = eval::given_values(&lone.document, &lone.structure);
+    let evaluator = Evaluator::new(&lone.document, &lone.structure, &values);
+    let whole = lone.structure.path(&lone.document, lone.thing);
+    let place = |place: &Path| {
+        let path = whole.join(place);
+        if let Ok(thing) = lone.structure.follow(DOCUMENT, &path) {
+            let slots = coordinates(&lone.structure, thing)?;
+            return Some(slots.map(|(_, slot)| values.numbers[slot]).to_vec());
+        }
+        let numbers = numbers_of(&evaluator.at(&path).ok()?)?;
+        Some(numbers.into_iter().map(|(x, _)| x).collect())
+    };
+    if let (Some(held), Some(kept)) = (place(&handle.place), handle.keeps.first().and_then(place)) {
+        for (sign, (a, b)) in side.iter_mut().zip(held.iter().zip(&kept)) {
+            if *sign == 0 {
+                *sign = i8::from(a > b) - i8::from(a < b);
+            }
+        }
+    }
+    side
+}
+
+/// Returns true for the signs of a coordinate on two sides.
+fn is_turned((now, was): &(&i8, &i8)) -> bool {
+    **now * **was < 0
+}
+
 /// Returns on which side of another a place lies.
 fn side_of(state: &State, values: &Values, (place, other): (&Path, &Path)) -> Option<Vec<i8>> {
     let (place, other) = (place_at(state, values, place)?, place_at(state, values, other)?);
@@ -152,7 +202,7 @@ impl Keeping {
         planner.press_keeping(state.model(), &self.start, &dragged, &kept).ok()
     }
 
-    /// Follows the pointer; what is dragged across what stays is held by the handle that lies there.
+    /// Follows the pointer; what is dragged across what stays is held by the handle that lies there, or stops at it.
     pub(crate) fn follow(
         &mut self,
         state: &State,
@@ -162,8 +212,12 @@ impl Keeping {
         host: &mut dyn Host,
     ) -> EditReport {
         let wished: Vec<f64> = to.iter().chain(&self.stays).copied().collect();
+        self.is_flat = false;
         let report = planner.drag(state.model(), press, values, &wished, host);
-        let Some(across) = self.other_side(state, values) else { return report };
+        let Some(turned) = self.turned(state, values) else { return report };
+        let Some(across) = self.beyond(&turned) else {
+            return self.flat(state, planner, (press, values), (&wished, report), host);
+        };
         let turned = report.reached.then(|| values.clone());
         let before = self.present;
         self.present = across;
@@ -171,26 +225,62 @@ impl Keeping {
             let mut there = self.start.clone();
             let found = planner.drag(state.model(), &mut other, &mut there, &wished, host);
             let leads = turned.is_some_and(|turned| self.leads_others(state, &turned, &there));
-            if found.reached && !leads && self.other_side(state, &there).is_none() {
+            if found.reached && !leads && self.turned(state, &there).is_none() {
                 (*press, *values) = (other, there);
                 return found;
             }
         }
         self.present = before;
-        report
+        self.flat(state, planner, (press, values), (&wished, report), host)
     }
 
-    /// Returns the handle that lies where the one that is held has come to, if that is another.
-    fn other_side(&self, state: &State, values: &Values) -> Option<usize> {
+    /// Stops at what stays, along the coordinates in which the handle has been dragged across it.
+    fn flat(
+        &mut self,
+        state: &State,
+        planner: &mut Planner,
+        (press, values): (&mut Press, &mut Values),
+        (wished, report): (&[f64], EditReport),
+        host: &mut dyn Host,
+    ) -> EditReport {
+        let way = &self.ways[self.present];
+        let (Some(side), [kept]) = (self.turned(state, values), way.keeps.as_slice()) else {
+            return report;
+        };
+        let Some(kept) = place_at(state, values, kept) else { return report };
+        let mut nearer = wished.to_vec();
+        for (i, pair) in side.iter().zip(&way.side).enumerate() {
+            if is_turned(&pair) && kept.len() == side.len() {
+                nearer[i] = kept[i];
+            }
+        }
+        let mut there = values.clone();
+        let found = planner.drag(state.model(), press, &mut there, &nearer, host);
+        if self.turned(state, &there).is_some() {
+            return report;
+        }
+        *values = there;
+        self.is_flat = true;
+        EditReport { reached: false, ..found }
+    }
+
+    /// Returns on which side of what stays the handle that is held has come to, if it was dragged across it.
+    fn turned(&self, state: &State, values: &Values) -> Option<Vec<i8>> {
         let way = &self.ways[self.present];
         let [kept] = way.keeps.as_slice() else { return None };
         let side = side_of(state, values, (&way.dragged, kept))?;
-        let is_turned = |(now, was): (&i8, &i8)| now * was < 0;
-        if !side.iter().zip(&way.side).any(is_turned) {
-            return None;
-        }
-        let fits = |way: &Way| side.iter().zip(&way.side).all(|pair| !is_turned(pair));
+        side.iter().zip(&way.side).any(|pair| is_turned(&pair)).then_some(side)
+    }
+
+    /// Returns the handle that lies on a side.
+    fn beyond(&self, side: &[i8]) -> Option<usize> {
+        let fits = |way: &Way| side.iter().zip(&way.side).all(|pair| !is_turned(&pair));
         self.ways.iter().position(fits)
+    }
+
+    /// Returns the thing that stopped where it is flat, if it did.
+    pub(crate) fn flat_whole(&self) -> Option<&Path> {
+        self.wholes.first().filter(|_| self.is_flat)
     }
 
     /// Returns true where a place that is no part of the thing alone would lie elsewhere than if the thing were turned

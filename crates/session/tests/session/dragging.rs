@@ -388,7 +388,7 @@ fn a_corner_dragged_across_stops_where_that_corner_stops() {
 }
 
 #[test]
-fn a_rectangle_dragged_across_what_it_is_joined_to_leaves_that_where_it_is() {
+fn a_rectangle_dragged_across_what_it_is_joined_to_stops_there_and_leaves_that_where_it_is() {
     let mut desk = Desk::of(
         "use geometry\na: Rectangle { corner = (0, 0)  width = 30  height = 40 }\n\
          b: Rectangle { width = 20  height = 10 }\nmerge a.corner = b.corner\n\
@@ -398,8 +398,8 @@ fn a_rectangle_dragged_across_what_it_is_joined_to_leaves_that_where_it_is() {
     desk.drag("a.far", &[(-5.0, -15.0)]);
     let of_b = ["a.corner.x", "a.corner.y", "b.width", "b.height"].map(|path| desk.number(path));
     assert_eq!(of_b, [0.0, 0.0, 20.0, 10.0]);
-    assert_eq!(desk.place("a.far"), (-5.0, -15.0));
-    assert_eq!(desk.place("l.p2"), (-5.0, -15.0));
+    assert_eq!(desk.place("a.far"), (0.0, 0.0));
+    assert_eq!(desk.place("l.p2"), (0.0, 0.0));
     desk.undo();
     assert_eq!(desk.moment(), before);
 }
@@ -411,11 +411,68 @@ fn an_anchored_corner_stays_while_the_others_resize() {
     desk.session.press(desk.id, &at("box.corner")).expect_err("it is anchored");
     desk.drag("box.far", &[(60.1, 90.2)]);
     assert_eq!(sizes(&desk, "box"), [10.1, 10.2, 50.0, 80.0]);
-    desk.drag("box.far", &[(-9.9, 90.2)]);
-    assert_eq!(sizes(&desk, "box"), [10.1, 10.2, -20.0, 80.0]);
-    desk.undo();
     desk.undo();
     assert_eq!(desk.moment(), before);
+}
+
+#[test]
+fn a_rectangle_dragged_across_a_locked_corner_has_no_negative_width_and_says_why_it_stops() {
+    let mut desk = Desk::of(&format!("{BOX}anchor box.corner\n"));
+    let came = desk.hold("box.far", &[(30.1, 60.2), (-9.9, 90.2)]);
+    assert!(!came.reached);
+    let message = came.message.unwrap_or_default();
+    assert_eq!(message, "(10.1, 90.2) is the limit of box.far; beyond it box would be inside out");
+    desk.drag("box.far", &[(-9.9, 90.2)]);
+    assert_eq!(sizes(&desk, "box"), [10.1, 10.2, 0.0, 80.0]);
+    // flat as it is, it is the same box
+    desk.drag("box.far", &[(-20.0, 90.2)]);
+    assert_eq!(sizes(&desk, "box"), [10.1, 10.2, 0.0, 80.0]);
+    desk.drag("box.far", &[(40.1, 90.2)]);
+    assert_eq!(sizes(&desk, "box"), [10.1, 10.2, 30.0, 80.0]);
+}
+
+#[test]
+fn rectangles_that_are_merged_as_wholes_change_sides_and_the_step_names_the_corner_that_is_held() {
+    let mut desk = Desk::of(&format!("{BOX}other: Rectangle\nmerge other = box\n"));
+    desk.drag("box.far", &[(-9.9, 90.2)]);
+    assert_eq!(sizes(&desk, "box"), [-9.9, 10.2, 20.0, 80.0]);
+    assert_eq!(desk.undo_label().as_deref(), Some("move box.corner4"));
+}
+
+#[test]
+fn a_corner_of_a_regular_polygon_is_gripped_and_turns_it_about_its_centre() {
+    let mut desk =
+        Desk::of("use geometry\nhex: RegularPolygon { center = (0, 0)  corner = (50, 0) }\n");
+    let grips = desk.session.picture(desk.id).grips;
+    let grips: Vec<&str> = grips.iter().map(|grip| grip.path.as_str()).collect();
+    let all =
+        ["center", "corner", "corners[1]", "corners[2]", "corners[3]", "corners[4]", "corners[5]"];
+    assert_eq!(grips, all.map(|path| format!("hex.{path}")));
+    desk.drag("hex.corners[3]", &[(-60.0, 10.0), (0.0, -80.0)]);
+    for (path, x, y) in
+        [("hex.center", 0.0, 0.0), ("hex.corners[3]", 0.0, -80.0), ("hex.corner", 0.0, 80.0)]
+    {
+        let (a, b) = desk.place(path);
+        assert!((a - x).abs() < 1e-9 && (b - y).abs() < 1e-9, "{path}: {a}, {b}");
+    }
+    assert_eq!(desk.number("hex.sides"), 6.0);
+}
+
+#[test]
+fn a_computed_corner_that_is_selected_with_the_point_upon_it_does_not_keep_that_from_being_dragged()
+{
+    let mut desk = Desk::of(
+        "use geometry\nhex: RegularPolygon { center = (0, 0)  corner = (50, 0) }\np: Point = (-50, 0)\n\
+         constraint hex.corners[3] = p\n",
+    );
+    for paths in [["hex.corners[3]", "p"], ["p", "hex.corners[3]"]] {
+        desk.session.press_all(desk.id, &paths.map(at)).expect("the point can be dragged");
+        assert!(desk.session.drag(desk.id, (-60.0, 20.0)).reached);
+        desk.session.release(desk.id).expect("it is kept");
+        let (x, y) = desk.place("hex.corners[3]");
+        assert!((x + 60.0).abs() < 1e-9 && (y - 20.0).abs() < 1e-9, "{x}, {y}");
+        desk.undo();
+    }
 }
 
 #[test]

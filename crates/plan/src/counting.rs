@@ -1,0 +1,67 @@
+//! Counts that depend on values: `0..sides - 1`, on the course that is taken at a state.
+//!
+//! In: the ends of a range. Out: its numbers, and as decisions what they follow from. A whole number that counts is as
+//! it stands: no rule that speaks of so many things changes how many there are.
+
+use crate::course::{Block, Decided, Decision};
+use crate::evaluate::{Answer, Opening};
+use crate::fault::Trouble;
+use crate::meaning::{Meaning, slots_of_expression};
+use expr::Var;
+use kernel::Primitive;
+
+/// Returns a whole number, if it is one that counts.
+pub(crate) fn whole(x: f64) -> Option<i64> {
+    (x == x.trunc() && x.abs() < 1e15).then_some(x as i64)
+}
+
+impl<'a> Opening<'a> {
+    /// Answers the whole numbers from one to another. Where only values say which, those of the state whose courses
+    /// are taken; without such a state the rule waits for one.
+    ///
+    /// # Errors
+    /// An end that is no whole number; more of them than a rule may speak of.
+    pub(crate) fn range(&mut self, ends: &[Meaning<'a>; 2]) -> Answer<'a> {
+        let [from, to] = match [self.constant(&ends[0]), self.constant(&ends[1])] {
+            [Some(from), Some(to)] => [from, to],
+            _ => {
+                self.meets_programs = true;
+                // how many there are no other thing says
+                self.reach.looks_around();
+                let is_number = |end: &Meaning<'a>| matches!(end, Meaning::Number(_));
+                self.awaits_count = self.at.is_none();
+                if self.awaits_count || !ends.iter().all(is_number) {
+                    return Ok(self.opaque(ends));
+                }
+                [self.count_at(&ends[0])?, self.count_at(&ends[1])?]
+            }
+        };
+        let (Some(from), Some(to)) = (whole(from), whole(to)) else {
+            return Err(Trouble::wrong("the ends of a range are whole numbers"));
+        };
+        let mut numbers = Vec::new();
+        for i in from..=to {
+            self.count_term()?;
+            numbers.push(self.number(i as f64));
+        }
+        Ok(Meaning::List(numbers.into()))
+    }
+
+    /// Decides what a count is at the state whose courses are taken: by the whole numbers that it follows from, else
+    /// as it comes out.
+    fn count_at(&mut self, count: &Meaning<'a>) -> Result<f64, Trouble> {
+        let place = || Block { of: None, path: String::new(), what: Decided::Parameter };
+        let id = self.expression(count)?;
+        let slots = slots_of_expression(&self.arena, id);
+        let is_whole = |slot| self.structure.slots[slot].primitive == Primitive::Integer;
+        let Some(at) = self.at.filter(|_| slots.iter().copied().all(is_whole)) else {
+            return self.decide(count, place());
+        };
+        for slot in slots {
+            let (of, is) = (self.arena.var(Var(slot.0)), at.numbers[slot]);
+            self.decisions.push(Decision { of, is, place: place() });
+            self.counted.insert(slot, is);
+        }
+        Ok(self.arena.evaluate(id, at.numbers.as_slice()))
+    }
+}
