@@ -85,6 +85,23 @@ impl View {
         is_outside || size > 0.0 && size < SMALLEST
     }
 
+    /// Whether a box of the sheet lies wholly on a canvas of that size.
+    pub fn holds(&self, drawn: Bounds, (width, height): (f64, f64)) -> bool {
+        let ((ax, ay), (bx, by)) =
+            (self.screen_from_sheet(drawn.least), self.screen_from_sheet(drawn.most));
+        f64::min(ax, bx) >= 0.0
+            && f64::min(ay, by) >= 0.0
+            && f64::max(ax, bx) <= width
+            && f64::max(ay, by) <= height
+    }
+
+    /// The same of one that is besides a good part of the canvas: wide or high enough to work on.
+    pub fn shows_well(&self, drawn: Bounds, (width, height): (f64, f64)) -> bool {
+        let (wide, high) = (drawn.most.x - drawn.least.x, drawn.most.y - drawn.least.y);
+        let part = self.scale * f64::max(wide / width, high / height);
+        self.holds(drawn, (width, height)) && (part >= GOOD || part == 0.0)
+    }
+
     /// Returns how many decimals a position has that a pointer can tell apart: a pixel or less.
     pub fn decimals(&self) -> usize {
         let (mut step, mut decimals) = (1.0, 0);
@@ -108,6 +125,9 @@ impl View {
         [step / 5.0, step / 2.0].into_iter().find(|s| *s >= least).unwrap_or(step)
     }
 }
+
+/// What is a smaller part of a canvas is not looked at comfortably.
+const GOOD: f64 = 0.2;
 
 /// What is smaller as a whole is not seen as what it is, in pixels.
 const SMALLEST: f64 = 12.0;
@@ -249,6 +269,19 @@ mod tests {
         assert!(lost(&[(500.0, 100.0), (700.0, 200.0)]));
         assert!(!lost(&[(100.0, 100.0), (100.0, 160.0)]));
         assert!(!lost(&[(100.0, 100.0)]));
+    }
+
+    #[test]
+    fn a_small_part_of_a_sheet_in_millimetres_is_not_shown_well() {
+        let size = (1000.0, 800.0);
+        let box_of = |w: f64, h: f64| {
+            super::bounds(&dots(&[(10.0, 10.0), (10.0 + w, 10.0 + h)], Vertical::Down))
+        };
+        let at = |scale: f64| View { scale, vertical: Vertical::Down, ..View::default() };
+        assert!(!at(1.0).shows_well(box_of(30.0, 20.0), size));
+        assert!(at(10.0).shows_well(box_of(30.0, 20.0), size));
+        assert!(!at(40.0).shows_well(box_of(30.0, 20.0), size), "it reaches over the side");
+        assert!(at(1.0).shows_well(box_of(0.0, 0.0), size), "a place has no size");
     }
 
     #[test]

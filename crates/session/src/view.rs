@@ -218,10 +218,21 @@ pub struct PictureView {
     pub freedom: Vec<Option<Freedom>>,
     /// What a pointer can grip, in the order of picking: points first.
     pub grips: Vec<Grip>,
+    /// What the sheet counts in; nothing where its lengths have no unit.
+    pub unit: Option<SheetUnit>,
     /// How often it was made since the document was opened.
     pub made: u32,
     /// How often it was brought up to date since then.
     pub times: u32,
+}
+
+/// What a sheet counts in.
+#[derive(Clone, PartialEq, Debug)]
+pub struct SheetUnit {
+    /// How it is spelled: `mm`.
+    pub name: String,
+    /// How wide a piece of the sheet is looked at while nothing is drawn, in this unit.
+    pub across: f64,
 }
 
 /// What of a picture moves with a drag: all that has moved since the press, and what is counted with that.

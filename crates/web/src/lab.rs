@@ -217,6 +217,8 @@ pub struct Lab {
     pub view: RwSignal<View>,
     /// Whether the view is one that fits, and shall fit when the panel's size changes.
     pub fits: StoredValue<bool>,
+    /// Whether a person has zoomed since all of it was brought into sight.
+    pub zoomed: StoredValue<bool>,
     /// The page's colours.
     pub colors: theme::Colors,
 }
@@ -258,6 +260,8 @@ pub enum Zoom {
     Fit,
     /// Everything in sight, if it lies outside or is too small to see.
     Seen,
+    /// Everything in sight and a good part of it, after a length was typed, unless a person has zoomed.
+    Sized,
     /// A box of the sheet in sight, unless it is.
     Over(drawing::Bounds),
     /// Larger or smaller by this factor.
@@ -353,6 +357,7 @@ impl Lab {
             zoom: RwSignal::new(None),
             view: RwSignal::new(View::default()),
             fits: StoredValue::new(true),
+            zoomed: StoredValue::new(false),
             colors: theme::start(),
         }
     }
@@ -415,7 +420,11 @@ impl Lab {
     /// Changes the part of the sheet that one sees, as a person does by hand.
     pub fn look_at(self, change: impl FnOnce(View) -> View) {
         self.fits.set_value(false);
+        let before = self.view.with_untracked(|view| view.scale);
         self.view.update(|view| *view = change(*view));
+        if self.view.with_untracked(|view| view.scale) != before {
+            self.zoomed.set_value(true);
+        }
     }
 
     /// Selects a thing alone, or nothing.

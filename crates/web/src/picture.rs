@@ -10,7 +10,7 @@ use crate::lab::{Lab, Zoom, first_path};
 use crate::paint::{
     DisplayList, Part, arrows, caught, display_list, ghosts, grid, guides, loci, preview,
 };
-use crate::sheet::{View, bounds, fit_box, with_words};
+use crate::sheet::{Bounds, View, bounds, fit_box, with_words};
 use crate::words;
 use drawing::{Drawing, Point, Vertical};
 use js_sys::Array;
@@ -50,11 +50,20 @@ pub fn Picture(
         }
     });
     on_cleanup(move || painter.with_value(|p| p.as_ref().map(Painter::stop)).unwrap_or_default());
-    Effect::new(move |_| {
-        size.track();
+    Effect::new(move |before: Option<(f64, f64)>| {
+        let now = size.get();
+        let lost = || {
+            let view = lab.view.get_untracked();
+            let all = drawn(lab)?;
+            // what was wholly in sight does not go behind a panel that opens
+            (view.holds(all, before?) && !view.holds(all, now)).then_some(all)
+        };
         if lab.fits.get_value() {
             lab.zoom.set(Some(Zoom::Fit));
+        } else if let Some(all) = lost() {
+            lab.zoom.set(Some(Zoom::Over(all)));
         }
+        now
     });
     Effect::new(move |_| zoom_as_asked(lab, size.get()));
     Effect::new(move |_| {
@@ -66,6 +75,12 @@ pub fn Picture(
     let label = Memo::new(move |_| {
         let title = lab.document.with(|d| d.as_ref().map_or_else(String::new, |d| d.title.clone()));
         words::picture_of(&title, lab.picture.with(|picture| picture.grips.len()))
+    });
+    // how large things are on the sheet, where that is said in a unit
+    let grid_step = Memo::new(move |_| {
+        let unit = lab.picture.with(|picture| Some(picture.unit.as_ref()?.name.clone()));
+        let step = base::number::significant(lab.view.get().grid_step(), 6);
+        unit.filter(|_| lab.grid.get()).map(|unit| words::grid_step(&step, &unit))
     });
     let caught = Memo::new(move |_| {
         lab.tool_view.with(|tool| tool.caught.as_ref().map(|caught| caught.word.clone()))
@@ -127,6 +142,9 @@ pub fn Picture(
             })}
             <p id="picture-live" class="unseen" aria-live="polite">{live}</p>
             <div class="corner" role="group" aria-label=words::TOOLS>
+                {move || grid_step.get().map(|step| view! {
+                    <span class="step" title=words::GRID_STEP>{step}</span>
+                })}
                 <button title=words::ZOOM_OUT aria-label=words::ZOOM_OUT
                     on:click=move |_| lab.zoom.set(Some(Zoom::By(0.8)))>"−"</button>
                 <button title=words::FIT
@@ -308,14 +326,22 @@ fn zoom_as_asked(lab: Lab, size: (f64, f64)) {
         }
         Zoom::Fit => {
             lab.fits.set_value(true);
+            lab.zoomed.set_value(false);
             show_all(lab, size, (room, margin));
         }
-        Zoom::Seen => {
-            let drawn = lab
-                .picture
-                .with_untracked(|p| (!p.drawing.elements.is_empty()).then(|| bounds(&p.drawing)));
+        Zoom::Sized if !lab.zoomed.get_value() => {
             let view = lab.view.get_untracked();
-            if drawn.is_some_and(|drawn| view.loses(drawn, size)) {
+            if drawn(lab).is_some_and(|drawn| !view.shows_well(drawn, (size.0, room))) {
+                show_all(lab, size, (room, margin));
+                // what is drawn next has room beside it
+                let middle = (size.0 / 2.0, room / 2.0);
+                lab.view.update(|view| *view = view.zoomed(GOOD_PART, middle));
+                lab.keep_cursor(view);
+            }
+        }
+        Zoom::Seen | Zoom::Sized => {
+            let view = lab.view.get_untracked();
+            if drawn(lab).is_some_and(|drawn| view.loses(drawn, size)) {
                 show_all(lab, size, (room, margin));
             }
         }
@@ -324,6 +350,14 @@ fn zoom_as_asked(lab: Lab, size: (f64, f64)) {
             lab.look_at(|view| view.zoomed(factor, (size.0 / 2.0, room / 2.0)));
         }
     }
+}
+
+/// So much of the picture what is drawn fills where a length that was typed gives it its size.
+const GOOD_PART: f64 = 0.6;
+
+/// Returns the box around what is drawn, if anything is.
+fn drawn(lab: Lab) -> Option<Bounds> {
+    lab.picture.with_untracked(|p| (!p.drawing.elements.is_empty()).then(|| bounds(&p.drawing)))
 }
 
 /// Brings all that is drawn into sight, and what is to be traced; `room` is the height that nothing lies over.
@@ -336,7 +370,15 @@ fn show_all(lab: Lab, size: (f64, f64), (room, margin): (f64, f64)) {
         boxes.into_iter().reduce(|a, b| a.with(b.least).with(b.most))
     });
     let vertical = lab.picture.with_untracked(|p| p.drawing.vertical);
-    let all = all.unwrap_or_else(|| bounds(&Drawing::default()));
+    let mut all = all.unwrap_or_else(|| bounds(&Drawing::default()));
+    if all.least == all.most
+        && let Some(across) =
+            lab.picture.with_untracked(|p| p.unit.as_ref().map(|unit| unit.across))
+    {
+        // a place alone has no size: the unit says how much of the sheet is worth looking at
+        all.least.x -= across / 2.0;
+        all.most.x += across / 2.0;
+    }
     let fitting = fit_box(all, vertical, (size.0, room), margin);
     let view = lab.picture.with_untracked(|p| with_words(&p.drawing, fitting, size));
     lab.view.set(view);

@@ -6,6 +6,7 @@
 use crate::dock::Tab;
 use crate::field;
 use crate::lab::{Lab, Notice};
+use crate::sheet::bounds;
 use crate::{icons, js, values, words};
 use chart::Chart;
 use leptos::ev::KeyboardEvent;
@@ -225,7 +226,8 @@ impl Lab {
             // as the number is shown: an angle in degrees, unless a unit says otherwise
             let scale = if row.unit == "deg" { 180.0 / std::f64::consts::PI } else { 1.0 };
             let turn = values::whole_turn(row).map(|ends| (ends.0 * scale, ends.1 * scale));
-            let (least, most) = slider_range(number, turn, None);
+            let natural = turn.or_else(|| self.drawn_range(&row.path, number));
+            let (least, most) = slider_range(number, natural, None);
             let end = |x: f64| words::with_unit(&base::number::significant(x, 6), &row.unit);
             Some((end(least), end(most)))
         });
@@ -234,6 +236,22 @@ impl Lab {
             self.plotting.to.set(most);
         }
         self.plotting.of.set(String::from(path));
+    }
+
+    /// The range of a coordinate of a point in which something is drawn, in the unit of the number that it is shown as.
+    fn drawn_range(self, path: &str, number: f64) -> Option<(f64, f64)> {
+        let (place, coordinate) = path.rsplit_once('.')?;
+        self.picture.with_untracked(|picture| {
+            let grip = picture.grips.iter().find(|grip| grip.path == place)?;
+            let drawn = bounds(&picture.drawing);
+            let (now, least, most) = match coordinate {
+                "x" => (grip.x, drawn.least.x, drawn.most.x),
+                "y" => (grip.y, drawn.least.y, drawn.most.y),
+                _ => return None,
+            };
+            let scale = if now == 0.0 { 1.0 } else { number / now };
+            (least < most).then_some((least * scale, most * scale))
+        })
     }
 }
 

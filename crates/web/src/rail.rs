@@ -167,6 +167,9 @@ impl Lab {
             self.renew_tool();
             return;
         }
+        if pointer.length.is_some() {
+            self.look_at_size();
+        }
         self.select(Some(view.makes.clone()));
         if class.as_deref() == Some("Caption") {
             // what it says is typed at once
@@ -241,6 +244,14 @@ impl Lab {
     fn set_cursor(self, (x, y): (f64, f64)) {
         let at = self.view.with_untracked(|v| v.screen_from_sheet(drawing::Point { x, y }));
         self.cursor.set(Some(at));
+    }
+
+    /// Keeps the pointer of the keyboard where it was on the sheet, since the view was another.
+    pub fn keep_cursor(self, before: crate::sheet::View) {
+        if let Some(at) = self.cursor.get_untracked() {
+            let place = before.sheet_from_screen(at);
+            self.set_cursor((place.x, place.y));
+        }
     }
 
     /// The pointer of the keyboard: where the arrow keys, or the mouse, have brought it.

@@ -188,6 +188,8 @@ pub const REDO: &str = "Redo";
 pub const FIT: &str = "Fit the picture";
 pub const ZOOM_IN: &str = "Zoom in";
 pub const ZOOM_OUT: &str = "Zoom out";
+/// What the step of the grid is beside the zoom.
+pub const GRID_STEP: &str = "From one line of the grid to the next";
 pub const GRID: &str = "Show or hide the grid";
 pub const PLAY: &str = "Play the selected number, or stop";
 pub const NO_NUMBER: &str = "select a number that can change";
@@ -424,6 +426,11 @@ pub fn name_taken(path: &str) -> String {
 /// What is asked of a thing that gets another name.
 pub fn new_name_of(path: &str) -> String {
     format!("New name of {path}")
+}
+
+/// How far the lines of the grid are apart.
+pub fn grid_step(step: &str, unit: &str) -> String {
+    format!("grid {step} {unit}")
 }
 
 /// What the button that fits the picture says: its scale, which it shows, and what it does.

@@ -12,6 +12,7 @@ mod in_the_browser {
     mod recorded;
     mod server;
     mod six;
+    mod sizes;
     mod tasks;
     mod touch;
     mod views;

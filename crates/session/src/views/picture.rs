@@ -2,7 +2,7 @@
 
 use crate::session::{parse_path, thing_at};
 use crate::state::State;
-use crate::view::{Grip, MovedView, PictureView};
+use crate::view::{Grip, MovedView, PictureView, SheetUnit};
 use crate::views::drawn;
 use crate::words;
 use base::IdVec;
@@ -153,6 +153,10 @@ impl Shown {
             drawn_by: vec![None; made.things.len()],
             freedom: made.things.iter().map(|&t| words::freedom_of(structure, status, t)).collect(),
             grips: self.grips.iter().map(grip).chain(self.drawn.iter().cloned()).collect(),
+            unit: document.unit.as_ref().map(|name| SheetUnit {
+                name: name.to_string(),
+                across: across(document.units_per_metre),
+            }),
             made: self.made,
             times: self.times,
         };
@@ -350,4 +354,10 @@ pub(crate) fn unpictured(state: &State, picture: &PictureView) -> Vec<String> {
     let parts = structure.parts(DOCUMENT).filter(|&part| structure.merged[part] == part);
     let is_bare = |path: &String| !is_pictured(path) && !super::values::is_of_library(state, path);
     parts.filter(is_thing).map(own).filter(is_bare).collect()
+}
+
+/// Returns how wide a piece of a sheet is looked at while nothing is drawn: some 20 centimetres, as of a sheet of paper,
+/// and of a sheet that counts in more or in less than that a good number of its units.
+fn across(units_per_metre: f64) -> f64 {
+    (0.2 * units_per_metre).clamp(20.0, 200.0)
 }

@@ -60,9 +60,18 @@ impl Lab {
         match self.tell(|session, id| session.set_typed(id, path, typed)) {
             Some(Err(refusal)) => Err(refusal),
             outcome => {
-                self.settle(outcome);
+                if self.settle(outcome) {
+                    self.look_at_size();
+                }
                 Ok(())
             }
+        }
+    }
+
+    /// Brings what is drawn into sight where a length that was typed has made it another size.
+    pub fn look_at_size(self) {
+        if self.zoom.with_untracked(|zoom| !matches!(zoom, Some(Zoom::Fit))) {
+            self.zoom.set(Some(Zoom::Sized));
         }
     }
 
@@ -386,6 +395,9 @@ impl Lab {
                     self.forget_gone();
                     let zoom = if self.fits.get_value() { Zoom::Fit } else { Zoom::Seen };
                     self.zoom.set(Some(zoom));
+                }
+                if change.unit.is_some() {
+                    self.look_at_size();
                 }
                 self.notice.set(words::done(&change).map(Notice::Said));
                 true

@@ -1,0 +1,130 @@
+//! How large things are on the screen, and corners that are computed: what a person drags, types and sees of them.
+
+use browser::Visit;
+use browser::hands::{begin, chord, drag, grip, key, keys, middle, point, select, state};
+use fantoccini::actions::MOUSE_BUTTON_LEFT;
+use serde_json::Value;
+
+/// Where a place of the picture lies in the window, by parts of its width and height.
+async fn at(visit: &Visit, x: f64, y: f64) -> (f64, f64) {
+    let script = "const r = document.getElementById('picture').getBoundingClientRect();
+        return [r.left, r.top, r.width, r.height]";
+    let rect = visit.script(script).await;
+    let number = |n: usize| rect[n].as_f64().expect("a number");
+    (number(0) + x * number(2), number(1) + y * number(3))
+}
+
+async fn click(visit: &Visit, place: (f64, f64)) {
+    point(visit, place, MOUSE_BUTTON_LEFT).await;
+}
+
+/// Lays the tool down that is in the hand, and what it has begun.
+async fn lay_down(visit: &Visit) {
+    for _ in 0..2 {
+        chord(visit, &[], key::ESCAPE).await;
+    }
+    visit.until("document.querySelector('[data-action=select][aria-pressed=true]')").await;
+}
+
+fn scale(state: &Value) -> f64 {
+    state["sheet"]["scale"].as_f64().expect("a number")
+}
+
+/// Tells something of the selection a number, by the offer of the strip.
+async fn tell(visit: &Visit, offer: &str, typed: &str) {
+    let button = middle(visit, &format!("[data-offer=\"{offer}\"]")).await;
+    click(visit, button).await;
+    visit.until("document.activeElement.id === 'asked'").await;
+    keys(visit, typed).await;
+    chord(visit, &[], key::ENTER).await;
+    visit.until("!document.getElementById('asked')").await;
+}
+
+#[tokio::test]
+async fn corners_of_a_regular_polygon_are_dragged_and_told_to_be_level() {
+    let visit = begin().await;
+    chord(&visit, &[], 'n').await;
+    visit
+        .until("document.querySelector('[data-action=tool-regularpolygon][aria-pressed=true]')")
+        .await;
+    click(&visit, at(&visit, 0.5, 0.5).await).await;
+    click(&visit, at(&visit, 0.7, 0.5).await).await;
+    visit.until("window.__thinglab.state().grips.length === 7").await;
+    lay_down(&visit).await;
+    let drawn = state(&visit).await;
+    let path = |part: &str| {
+        let grips = drawn["grips"].as_array().expect("a list").iter();
+        let mut paths = grips.filter_map(|grip| grip["path"].as_str());
+        paths.find(|path| path.ends_with(part)).expect("it has a grip").to_string()
+    };
+    let (corner, other, center) = (path("corners[2]"), path("corners[4]"), path("center"));
+    let (from, before) = (grip(&drawn, &corner), grip(&drawn, &center));
+    let to = (from.0 + 40.0, from.1 - 60.0);
+    drag(&visit, from, to).await;
+    visit.until(&format!("window.__thinglab.state().status.undo === 'move {corner}'")).await;
+    let moved = state(&visit).await;
+    let now = grip(&moved, &corner);
+    assert!((now.0 - to.0).abs() < 2.0 && (now.1 - to.1).abs() < 2.0, "{now:?}, not {to:?}");
+    assert_eq!(grip(&moved, &center), before, "it turns about its centre");
+    select(&visit, &[now, grip(&moved, &other)]).await;
+    visit.until("document.querySelector('[data-offer=horizontal]')").await;
+    visit.script("document.querySelector('[data-offer=horizontal]').click()").await;
+    visit.until("window.__thinglab.state().status.freedom === 3").await;
+    let told = state(&visit).await;
+    let (one, two) = (grip(&told, &corner), grip(&told, &other));
+    assert!((one.1 - two.1).abs() < 1e-6, "{one:?}, {two:?}");
+}
+
+#[tokio::test]
+async fn the_first_length_that_is_typed_is_a_good_part_of_the_picture_until_a_person_zooms() {
+    let visit = begin().await;
+    chord(&visit, &[], 'l').await;
+    visit.until("document.querySelector('[data-action=tool-line][aria-pressed=true]')").await;
+    let (from, to) = (at(&visit, 0.3, 0.6).await, at(&visit, 0.7, 0.4).await);
+    click(&visit, from).await;
+    click(&visit, to).await;
+    visit.until("window.__thinglab.state().grips.length === 2").await;
+    lay_down(&visit).await;
+    assert_eq!(scale(&state(&visit).await), 1.0);
+    click(&visit, (from.0.midpoint(to.0), from.1.midpoint(to.1))).await;
+    tell(&visit, "length", "12 mm").await;
+    visit.until("window.__thinglab.state().text.includes('unit mm')").await;
+    visit.until("window.__thinglab.state().sheet.scale > 5").await;
+    let seen = state(&visit).await;
+    let (a, b) = (grip(&seen, "line.p1"), grip(&seen, "line.p2"));
+    let long = (a.0 - b.0).hypot(a.1 - b.1);
+    assert!((long / scale(&seen) - 12.0).abs() < 1e-6 && long > 200.0, "{long} px");
+    // who looks closer himself is left alone
+    let nearer = middle(&visit, ".corner [aria-label=\"Zoom in\"]").await;
+    click(&visit, nearer).await;
+    let looked = format!("window.__thinglab.state().sheet.scale > {}", scale(&seen));
+    visit.until(&looked).await;
+    let before = scale(&state(&visit).await);
+    chord(&visit, &[], 'l').await;
+    visit.until("document.querySelector('[data-action=tool-line][aria-pressed=true]')").await;
+    click(&visit, at(&visit, 0.2, 0.2).await).await;
+    chord(&visit, &[key::ALT], '1').await;
+    keys(&visit, "1<30").await;
+    chord(&visit, &[], key::ENTER).await;
+    visit.until("window.__thinglab.state().text.includes('line2')").await;
+    assert_eq!(scale(&state(&visit).await), before);
+}
+
+#[tokio::test]
+async fn a_panel_that_opens_leaves_what_was_in_sight_in_sight() {
+    let visit = begin().await;
+    chord(&visit, &[], 'l').await;
+    visit.until("document.querySelector('[data-action=tool-line][aria-pressed=true]')").await;
+    click(&visit, at(&visit, 0.2, 0.9).await).await;
+    click(&visit, at(&visit, 0.8, 0.1).await).await;
+    visit.until("window.__thinglab.state().grips.length === 2").await;
+    lay_down(&visit).await;
+    visit.script("document.getElementById('tab-plot').click()").await;
+    visit
+        .until(
+            "(r => window.__thinglab.state().sheet.scale < 1 && \
+             window.__thinglab.state().grips.every(g => g.py > r.top && g.py < r.bottom)) \
+             (document.getElementById('picture').getBoundingClientRect())",
+        )
+        .await;
+}
