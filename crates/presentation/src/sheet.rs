@@ -159,7 +159,12 @@ pub fn fit_box(
 
 /// Returns a view in which words of a constant size, which stand beside their places, are in sight as well: a little
 /// smaller, where little hangs over the sides of a canvas.
-pub fn with_words(drawing: &Drawing, view: View, (width, height): (f64, f64)) -> View {
+pub fn with_words(drawing: &Drawing, view: View, size: (f64, f64)) -> View {
+    // places move less than the sides: what is left over is little the second time, and nothing the third
+    (0..3).fold(view, |view, _| nearer_with_words(drawing, view, size))
+}
+
+fn nearer_with_words(drawing: &Drawing, view: View, (width, height): (f64, f64)) -> View {
     let [mut left, mut right, mut above, mut below] = [0.0_f64; 4];
     for element in &drawing.elements {
         let Shape::Text { at, text, anchoring, placement, .. } = &element.shape else { continue };
@@ -329,7 +334,7 @@ mod tests {
         let size = (120.0, 50.0);
         let view = super::with_words(&drawing, fit(&drawing, size, 8.0), size);
         let (_, base) = view.screen_from_sheet(Point { x: 50.0, y: -30.0 });
-        assert!(base >= 13.0, "{base}");
+        assert!(base >= 16.5, "a letter's height and the distance from the side: {base}");
     }
 
     #[test]
