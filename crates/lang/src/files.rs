@@ -189,7 +189,7 @@ impl Lowerer<'_> {
     }
 }
 
-fn name_of(path: &ast::DottedName) -> String {
+pub(crate) fn name_of(path: &ast::DottedName) -> String {
     path.segments().map(|w| w.text().to_string()).collect::<Vec<String>>().join(".")
 }
 

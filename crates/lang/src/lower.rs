@@ -8,7 +8,7 @@ use crate::alone::Names;
 use crate::checks::Check;
 use crate::counts::Counts;
 use crate::families::Family;
-use crate::files::File;
+use crate::files::{File, name_of};
 use crate::hints::instead_of_abstract;
 use crate::kept::Added;
 use crate::kin::Kin;
@@ -536,6 +536,15 @@ impl Lowered {
         let before = self.class_spans.partition_point(|s| s.start <= place.span.start);
         let class = before.checked_sub(1).map(|last| self.class_spans[last]);
         place.file == OWN && class.is_none_or(|class| class.end < place.span.end)
+    }
+    /// Returns the names of what the document's own text uses.
+    pub fn used(&self) -> Vec<String> {
+        let members = self.files[OWN].members_of(&[SyntaxKind::Use]);
+        let name = |member: ast::Member| match member {
+            ast::Member::Use(used) => used.path().map(|path| name_of(&path)),
+            _ => None,
+        };
+        members.into_iter().filter_map(name).collect()
     }
     /// Returns true if the document uses a text of this name, itself or by what it uses.
     pub fn uses(&self, name: &str) -> bool {

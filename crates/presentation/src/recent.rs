@@ -12,6 +12,12 @@ pub fn with(kept: &str, shown: &str) -> String {
     std::iter::once(shown).chain(others).take(KEPT).collect::<Vec<_>>().join("\n")
 }
 
+/// What is to be kept once the document that is shown has another name.
+pub fn renamed(kept: &str, old: &str, new: &str) -> String {
+    let others: Vec<&str> = kept.lines().filter(|path| *path != old).collect();
+    with(&others.join("\n"), new)
+}
+
 /// The paths that are offered: the latest of those that are there.
 pub fn offered(kept: &str, is_there: impl Fn(&str) -> bool) -> Vec<String> {
     kept.lines().filter(|path| is_there(path)).take(OFFERED).map(String::from).collect()
@@ -19,7 +25,7 @@ pub fn offered(kept: &str, is_there: impl Fn(&str) -> bool) -> Vec<String> {
 
 #[cfg(test)]
 mod tests {
-    use super::{offered, with};
+    use super::{offered, renamed, with};
 
     #[test]
     fn the_latest_come_first_and_what_is_gone_is_not_offered() {
@@ -30,5 +36,6 @@ mod tests {
         assert_eq!(many.lines().count(), 12);
         assert_eq!(offered(&many, |_| true), ["19", "18", "17", "16"]);
         assert_eq!(offered("", |_| true), [""; 0]);
+        assert_eq!(renamed("untitled\nb", "untitled", "c"), "c\nb");
     }
 }

@@ -285,6 +285,11 @@ impl Session {
         tools::bin::names(&self.document(id).state)
     }
 
+    /// Returns the names of the libraries and documents that a document's own text uses.
+    pub fn used(&self, id: DocumentId) -> Vec<String> {
+        self.document(id).state.lowered.used()
+    }
+
     /// Returns what a library has that things can be made of, for a document that does not use it yet.
     pub fn bin_of_library(&self, library: &str) -> Vec<BinEntry> {
         let beside = Beside::opening(&*self.host, &self.documents, "");

@@ -74,12 +74,15 @@ pub fn Bin(
             entry.or_else(|| found.first().filter(|_| found.len() == 1)).cloned()
         };
         match (library, document, found.with_untracked(meant), offered.with_untracked(meant)) {
-            (Some(library), ..) => lab.use_library(&library),
+            (Some(library), ..) => {
+                lab.use_library(&library);
+            }
             (_, Some(document), ..) => lab.use_document(document),
             (.., Some(entry), _) => lab.insert(&entry.class),
             (.., Some(entry)) => {
-                lab.use_library(&entry.library);
-                lab.insert(&entry.class);
+                if lab.use_library(&entry.library) {
+                    lab.insert(&entry.class);
+                }
             }
             _ => lab.say_refused(words::nothing_called(&typed)),
         }
@@ -114,7 +117,7 @@ pub fn Bin(
                 </Show>
                 <Show when=move || !libraries.with(Vec::is_empty)>
                     <h3>{words::MORE_LIBRARIES}</h3>
-                    <Uses names=libraries take=move |name: String| lab.use_library(&name) />
+                    <Uses names=libraries take=move |name: String| { lab.use_library(&name); } />
                 </Show>
                 <Show when=move || !beside.with(Vec::is_empty)>
                     <details class="beside" on:toggle=|_| keyboard::one_stop(LIST)>
@@ -190,8 +193,12 @@ fn Tile(lab: Lab, entry: BinEntry, is_used: bool) -> impl IntoView {
     });
     let (class, name) = (StoredValue::new(entry.class.clone()), entry.class.clone());
     let library = StoredValue::new((!is_used).then(|| entry.library.clone()));
-    let begin =
-        move || library.with_value(|library| library.iter().for_each(|l| lab.use_library(l)));
+    let with_library = move |take: fn(Lab, &str)| {
+        let class = class.get_value();
+        if library.get_value().is_none_or(|library| lab.use_library(&library)) {
+            take(lab, &class);
+        }
+    };
     let held = Memo::new(move |_| lab.tool.get() == Some(class.get_value()));
     let is_own = entry.library.is_empty();
     let by_finger = StoredValue::new(false);
@@ -203,16 +210,14 @@ fn Tile(lab: Lab, entry: BinEntry, is_used: bool) -> impl IntoView {
                     by_finger.set_value(e.pointer_type() == "touch");
                     if e.button() == 0 && !by_finger.get_value() {
                         e.prevent_default();
-                        begin();
-                        lab.take_tool(&class.get_value());
+                        with_library(|lab, class| lab.take_tool(class));
                         lab.carried.set_value(true);
                     }
                 }
                 on:click=move |_| {
                     // a finger that comes down may scroll the bin; what it takes is placed where the sheet was
                     if by_finger.get_value() {
-                        begin();
-                        lab.take_tool(&class.get_value());
+                        with_library(|lab, class| lab.take_tool(class));
                         lab.sheet.set(Sheet::Shut);
                     }
                 }
@@ -220,8 +225,7 @@ fn Tile(lab: Lab, entry: BinEntry, is_used: bool) -> impl IntoView {
                     if e.key() == "Enter" || e.key() == " " {
                         e.prevent_default();
                         e.stop_propagation();
-                        begin();
-                        lab.insert(&class.get_value());
+                        with_library(|lab, class| lab.insert(class));
                     }
                 }>
                 {is_drawn.then(|| view! { <canvas node_ref=canvas aria-hidden="true"></canvas> })}

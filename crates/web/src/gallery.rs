@@ -24,6 +24,8 @@ struct Read {
 struct Card {
     listed: Listed,
     read: RwSignal<Option<Read>>,
+    /// Whether no file has it: what is known of it is a draft.
+    is_kept: bool,
 }
 
 impl Card {
@@ -46,7 +48,13 @@ impl Card {
                 }));
             }
         });
-        Self { listed, read }
+        Self { listed, read, is_kept: false }
+    }
+
+    /// A document that is not saved yet, which is not read before it is opened.
+    fn kept(path: &str) -> Self {
+        let listed = Listed { path: path.into(), title: path.into(), in_gallery: false };
+        Self { listed, read: RwSignal::new(None), is_kept: true }
     }
 
     /// Whether it has the wanted words in its title, its first sentence or its path.
@@ -100,9 +108,7 @@ pub fn Gallery(
 fn Shelves(lab: Lab, listed: Vec<Listed>, wanted: RwSignal<String>) -> impl IntoView {
     let recent = lab.recent(&listed);
     let unsaved = recent.iter().filter(|path| !listed.iter().any(|one| one.path == **path));
-    let unsaved =
-        unsaved.map(|path| Listed { path: path.clone(), title: path.clone(), in_gallery: false });
-    let others: Vec<Card> = unsaved.map(|one| Card::begun(lab, one)).collect();
+    let others: Vec<Card> = unsaved.map(|path| Card::kept(path)).collect();
     let all: Vec<Card> = listed.into_iter().map(|one| Card::begun(lab, one)).collect();
     let at = |path: &String| others.iter().chain(&all).find(|card| card.listed.path == *path);
     let recent: Vec<Card> = recent.iter().filter_map(at).cloned().collect();
@@ -152,7 +158,7 @@ fn Shelf(lab: Lab, heading: &'static str, cards: Vec<Card>) -> impl IntoView {
 #[component]
 fn CardView(lab: Lab, card: Card) -> impl IntoView {
     let lively = RwSignal::new(false);
-    let Card { listed, read } = card;
+    let Card { listed, read, is_kept } = card;
     let title = listed.title.clone();
     on_cleanup(move || lively.set(false));
     view! {
@@ -163,6 +169,7 @@ fn CardView(lab: Lab, card: Card) -> impl IntoView {
                 on:focus=move |_| lively.set(true)
                 on:blur=move |_| lively.set(false)>
                 <div class="frame">
+                    {is_kept.then(|| view! { <span class="quiet">{words::KEPT_HERE}</span> })}
                     {move || read.with(|read| read.as_ref().map(|read| (read.id, read.is_blank)))
                         .map(|(id, is_blank)| if is_blank {
                             view! { <span class="quiet">{words::BLANK_CARD}</span> }.into_any()

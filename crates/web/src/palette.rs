@@ -27,7 +27,6 @@ fn Open(lab: Lab) -> impl IntoView {
     let drawn = Memo::new(move |_| drawn(lab));
     lab.read_libraries();
     let found = Memo::new(move |_| {
-        at.set(0);
         let wanted = wanted.get();
         let actions = ACTIONS.iter().map(|action| (action, action.id, action.label));
         let actions: Vec<palette::Named<&'static Action>> = actions.collect();
@@ -59,9 +58,10 @@ fn Open(lab: Lab) -> impl IntoView {
             Choice::Do(action) => actions::run(action, lab),
             Choice::Draw(row) => lab.begin_construction(&row.id),
             Choice::Insert(Makeable { class, unused }) => {
-                unused.inspect(|library| lab.use_library(library));
-                lab.take_tool(&class);
-                crate::keyboard::focus("#picture");
+                if unused.is_none_or(|library| lab.use_library(&library)) {
+                    lab.take_tool(&class);
+                    crate::keyboard::focus("#picture");
+                }
             }
             Choice::Open(listed) => route::go(&route::to(&listed.path)),
         }
@@ -93,7 +93,10 @@ fn Open(lab: Lab) -> impl IntoView {
                     aria-activedescendant=move || format!("action-{}", at.get())
                     aria-label=words::PALETTE placeholder=words::PALETTE
                     spellcheck="false" autocomplete="off"
-                    on:input=move |e| wanted.set(event_target_value(&e))
+                    on:input=move |e| {
+                        wanted.set(event_target_value(&e));
+                        at.set(0);
+                    }
                     on:keydown=key />
                 <ul id="actions" role="listbox" aria-label=words::PALETTE>{rows}</ul>
                 <Show when=move || found.with(Vec::is_empty)>

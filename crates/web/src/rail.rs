@@ -296,15 +296,17 @@ impl Lab {
         }
     }
 
-    /// Has the document use a library.
-    pub fn use_library(self, name: &str) {
+    /// Has the document use a library; returns whether it does.
+    pub fn use_library(self, name: &str) -> bool {
         self.flush_text();
-        let Some(id) = self.id() else { return };
+        let Some(id) = self.id() else { return false };
         let command = self.ask(|session| session.using(id, name));
-        if self.apply_as_meant(&command) {
+        let is_used = self.apply_as_meant(&command);
+        if is_used {
             let shelves = document().query_selector(".bin .scroll").ok().flatten();
             shelves.inspect(|shelves| shelves.set_scroll_top(0));
         }
+        is_used
     }
 }
 

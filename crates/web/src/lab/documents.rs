@@ -11,7 +11,7 @@ use presentation::palette::Listed;
 use presentation::paths::usable;
 use presentation::recent;
 use session::view::{BinEntry, DocumentId};
-use session::{Command, used_as};
+use session::{Command, Session, used_as};
 use wasm_bindgen::JsCast;
 use wasm_bindgen::closure::Closure;
 
@@ -207,7 +207,7 @@ impl Lab {
         leptos::task::spawn_local(async move {
             let found = self.fetch_used().await;
             if found && self.current.get_untracked().is_some_and(|shown| shown == path) {
-                self.tell(session::Session::catch_up);
+                self.tell(Session::catch_up);
                 self.refresh();
                 self.fetch_missing();
             }
@@ -298,16 +298,18 @@ impl Lab {
         self.without_used(self.libraries())
     }
 
-    /// Those of the names that no line of the shown document uses.
+    /// Those of the names that the text of the shown document does not use.
     pub fn without_used(self, mut names: Vec<String>) -> Vec<String> {
-        let text = self.text.with(|text| text.source.clone());
-        names.retain(|name| !text.lines().any(|line| line.trim() == format!("use {name}")));
+        self.text.track();
+        let used = self.ask_of_shown(Session::used).unwrap_or_default();
+        names.retain(|name| !used.contains(name));
         names
     }
 
     /// Begins to read what the libraries have, one after the other, so that it is found there.
     pub fn read_libraries(self) {
-        if self.id().is_none() || self.of_libraries.with_untracked(Option::is_some) {
+        let is_begun = self.of_libraries.with_untracked(Option::is_some);
+        if self.id().is_none() || is_begun || self.libraries().is_empty() {
             return;
         }
         self.of_libraries.set(Some(Vec::new()));
@@ -320,11 +322,13 @@ impl Lab {
         });
     }
 
-    /// What the libraries have that the shown document does not use yet, as far as that was read.
+    /// What the libraries have that the shown document does not use yet, as far as that was read; without what is
+    /// called like something that it has already.
     pub fn in_unused_libraries(self) -> Vec<BinEntry> {
         let unused = self.unused_libraries();
         let mut all = self.of_libraries.get().filter(|_| self.id().is_some()).unwrap_or_default();
-        all.retain(|entry| unused.contains(&entry.library));
+        let known = self.ask_of_shown(Session::bin_names).unwrap_or_default();
+        all.retain(|entry| unused.contains(&entry.library) && !known.contains(&entry.class));
         all
     }
 
@@ -400,6 +404,7 @@ impl Lab {
         match outcome {
             Saved::Done(version) => {
                 self.forget_draft(&old);
+                note_renamed(&old, &path);
                 self.note_saved(&path, &text);
                 self.order(|session| session.rename(document.id, &path));
                 let writable = true;
@@ -504,4 +509,10 @@ async fn stands(path: &str) -> Result<Stored, String> {
 fn note_shown(path: &str) {
     let kept = theme::keep(RECENT).unwrap_or_default();
     theme::put(RECENT, Some(&recent::with(&kept, path)));
+}
+
+/// Keeps in mind that a document has another name now.
+fn note_renamed(old: &str, new: &str) {
+    let kept = theme::keep(RECENT).unwrap_or_default();
+    theme::put(RECENT, Some(&recent::renamed(&kept, old, new)));
 }
