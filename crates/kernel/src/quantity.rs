@@ -129,11 +129,29 @@ pub fn spelling_for(x: f64, quantity: Quantity<'_>, document: &Document) -> Stri
     let digits = |c: char| c.is_ascii_digit() || c == '.';
     let words = last.into_iter().flat_map(|word| [word, word.trim_start_matches(digits)]);
     let fits = |spelling: &&str| units::unit(spelling).is_some_and(|u| u.dimension == dimension);
-    if let Some(spelling) = { words }.find(fits)
-        && (x == 0.0 || (1e-3..1e6).contains(&size(spelling)))
-    {
+    let written = { words }.find(fits);
+    if let Some(spelling) = written.filter(|s| x == 0.0 || (1e-3..1e6).contains(&size(s))) {
         return spelling.into();
     }
+    // millions of light years are no easier to read as billions of terametres
+    let other = spelling_of_text(x, quantity, document);
+    match written {
+        Some(spelling) if awkwardness(size(spelling)) <= awkwardness(size(&other)) => {
+            spelling.into()
+        }
+        _ => other,
+    }
+}
+
+/// How many times a number is larger or smaller than one that is read easily.
+fn awkwardness(size: f64) -> f64 {
+    if size < 1.0 { 1.0 / size } else { (size / 1e3).max(1.0) }
+}
+
+/// Chooses the unit for a number of base units where that in which it was written says nothing.
+fn spelling_of_text(x: f64, quantity: Quantity<'_>, document: &Document) -> String {
+    let Quantity { dimension, class, .. } = quantity;
+    let size = |spelling: &str| in_unit(x, dimension, spelling, document).abs();
     if let Some(spelling) = usual(class, dimension, document, size) {
         return spelling;
     }
