@@ -222,10 +222,13 @@ pub(crate) fn sides_in_words(state: &State, source: Source, values: &Values) -> 
     let evaluator = state.evaluator(values);
     let said = |term, written: &str| {
         let answer = evaluator.evaluate(term, instance.owner).ok()?;
-        let value = views::values::in_words(&state.lowered.document, &answer)?;
+        let value = match &answer {
+            eval::Answer::Text(text) => format!("\"{text}\""),
+            answer => views::values::in_words(&state.lowered.document, answer)?,
+        };
         // a number needs no saying what it is
-        (!written.starts_with(|c: char| c.is_ascii_digit()))
-            .then(|| format!("{written} is {value}"))
+        let number = written.trim_start_matches(['-', ' ']);
+        (!number.starts_with(|c: char| c.is_ascii_digit())).then(|| format!("{written} is {value}"))
     };
     // nor does an option
     let speaks = |term: &Term| !matches!(term, Term::Text(_) | Term::Bool(_) | Term::Option(..));

@@ -4,6 +4,7 @@ use crate::document::Open;
 use crate::state::State;
 use crate::view::{ExplainedStep, Explanation, Refusal};
 use crate::words;
+use eval::FaultKind;
 use indexmap::{IndexMap, IndexSet};
 use kernel::{ConstraintInstance, Path, SlotId, Step, ThingId};
 use plan::{Acting, ExplainedKind, Root, RootKind, Source};
@@ -151,27 +152,39 @@ fn subject(open: &Open, path: &Path) -> Result<Subject, Refusal> {
         }
         Err(astray) => astray,
     };
-    let Some((Step::Part(name), owner)) = path.0.split_last() else { return Err(astray) };
-    let Ok(owner) = words::find(state, &Path(owner.to_vec())) else { return Err(astray) };
     let evaluator = state.evaluator(open.values());
-    let constraints = &state.structure.constraints;
-    let its = |c: &&ConstraintInstance| {
-        c.owner == owner && words::constraint_name(&state.lowered.document, **c) == **name
-    };
-    let (opening, slots) = match constraints.iter().find(its) {
-        Some(&constraint) => {
+    let (opening, slots) = match constraint_at(state, path) {
+        Some(constraint) => {
             let (verdict, slots) = evaluator.listening(|| evaluator.test(constraint));
             (judged(state, path, constraint, verdict.ok()), slots)
         }
         None => {
-            let (answer, slots) = evaluator.listening(|| evaluator.ask(owner, name));
-            let Ok(answer) = answer else { return Err(astray) };
-            let value = super::values::in_words(&state.lowered.document, &answer)
-                .unwrap_or_else(|| evaluator.text_of(&answer));
-            (format!("{path} is {value}"), slots)
+            let (answer, slots) = evaluator.listening(|| evaluator.at(path));
+            let opening = match answer {
+                Ok(answer) => {
+                    let value = super::values::in_words(&state.lowered.document, &answer)
+                        .unwrap_or_else(|| evaluator.text_of(&answer));
+                    format!("{path} is {value}")
+                }
+                Err(fault) if fault.kind == FaultKind::NoAnswer => {
+                    format!("{path} has no value, {}", fault.message)
+                }
+                Err(_) => return Err(astray),
+            };
+            (opening, slots)
         }
     };
     Ok(Subject { opening, slots: slots.into_iter().collect() })
+}
+
+/// Returns the constraint of this path, if there is one.
+fn constraint_at(state: &State, path: &Path) -> Option<ConstraintInstance> {
+    let Some((Step::Part(name), owner)) = path.0.split_last() else { return None };
+    let owner = words::find(state, &Path(owner.to_vec())).ok()?;
+    let its = |c: &&ConstraintInstance| {
+        c.owner == owner && words::constraint_name(&state.lowered.document, **c) == **name
+    };
+    state.structure.constraints.iter().find(its).copied()
 }
 
 /// Says whether a constraint holds, and by how much it does not.

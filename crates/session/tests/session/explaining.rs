@@ -312,3 +312,16 @@ fn a_repair_is_a_command_that_mends_the_contradiction() {
         assert!(desk.session.status(desk.id).satisfied, "{}", choice.label);
     }
 }
+
+#[test]
+fn what_a_message_lists_and_what_has_no_value_is_explained() {
+    let text = "xs: List of 2 Real = [1, 2]\nys => xs.map(x => 3 * x)\nz => 1 / (xs[0] - 1)\n";
+    let desk = Desk::of(text);
+    let why = |path: &str| desk.session.explain(desk.id, Some(&at(path))).summary;
+    assert_eq!(why("ys[1]"), "ys[1] is 6, because xs[0] = 1 and xs[1] = 2 are given in the text.");
+    assert_eq!(
+        why("z"),
+        "z has no value, 1 divided by zero, because xs[0] = 1 is given in the text."
+    );
+    assert_eq!(why("q"), "there is no q here");
+}

@@ -105,3 +105,20 @@ fn what_stands_in_a_contradiction_says_something() {
     assert_eq!(redundant(&format!("{text}constraint r: x = 7\n")), [""; 0]);
     assert_eq!(redundant(&format!("{text}constraint r: x = 5\n")).len(), 1);
 }
+
+#[test]
+fn a_repair_tells_texts_in_quotes_and_nothing_of_a_written_number() {
+    let repairs = |text: &str| {
+        let mut desk = Desk::of(text);
+        let mut found = desk.session.analysis(desk.id).contradictions;
+        found.pop().map_or_else(Vec::new, |c| c.repairs)
+    };
+    assert_eq!(
+        repairs("t: Text\nconstraint own: t = \"a\" + t\n"),
+        ["delete own or switch it off; then t is \"\", \"a\" + t is \"a\""]
+    );
+    assert_eq!(
+        repairs("x: Real\nconstraint root: sqrt(x) = -1\n"),
+        ["delete root or switch it off; then sqrt(x) is 0"]
+    );
+}
