@@ -505,6 +505,17 @@ impl Lowerer<'_> {
             self.report(d.hint(STEPS_OF_TIME));
             return None;
         }
+        if word.text() == "plot"
+            && !labelled
+            && self.find_message(scope.class(), &name, None).is_none()
+        {
+            let place = Place { file: scope.file, span: call.span() };
+            let d = Diagnostic::error("not-a-view", place, "a plot is a view, and no value");
+            let hint =
+                "write `view \"Force\" => plot(force, over: length, from: 0, to: 100)` in a class";
+            self.report(d.hint(hint));
+            return None;
+        }
         if matches!(word.text(), "moved" | "all" | "plot") && !labelled {
             self.not_yet(scope.file, call.span(), &format!("`{name}(…)` is"));
             return None;

@@ -47,7 +47,7 @@ impl Lowerer<'_> {
                 let takes = self.find_message(class, &name, None);
                 let takes = takes.map_or(0, |(_, m)| m.parameters.len());
                 if takes > 0 && self.class_of_part(class, &name).is_none() {
-                    let message = format!("{name} is a message that takes {takes} arguments");
+                    let message = format!("{name} is a message that takes {}", arguments(takes));
                     self.error("wrong-arity", scope.file, word.span(), message);
                     return None;
                 }
@@ -595,4 +595,9 @@ fn per_unit(word: &ast::Word) -> Option<String> {
         None => format!("1/{unit}"),
     };
     Some(format!("a unit stands behind its number: `{} {unit}`", digits.text()))
+}
+
+/// Returns a count of arguments in words.
+fn arguments(count: usize) -> String {
+    if count == 1 { "one argument".into() } else { format!("{count} arguments") }
 }

@@ -324,6 +324,10 @@ impl Lowerer<'_> {
                         "a unit stands behind its number without brackets: `{} {}`",
                         written.0, written.1
                     )),
+                    false if matches!(other, Kind::Text) => d.hint(format!(
+                        "its characters are a list: `{}.characters[{}]`",
+                        written.0, written.1
+                    )),
                     false => d,
                 });
                 return None;

@@ -361,10 +361,12 @@ fn named(p: &mut Parser<'_>) -> u32 {
             p.bump_keyword();
             named(p)
         }
-        "copy" if p.at_word(1, "of") => {
+        "copy" if p.at_word(1, "of") || mistakes::elsewhere::copy_without_of(p) => {
             p.start(CopyExpr);
             p.bump_keyword();
-            p.bump_keyword();
+            if p.at_word(0, "of") {
+                p.bump_keyword();
+            }
             let height = p.nested(|p| {
                 let start = p.checkpoint();
                 operand(p, start)
@@ -471,7 +473,14 @@ pub(super) fn bracketed(
                 break;
             }
         }
-        p.expect(closer, "expected-bracket", wanted);
+        if !super::mistakes::elsewhere::in_brackets(p) {
+            p.expect(closer, "expected-bracket", wanted);
+            return;
+        }
+        while !p.at(closer) && !p.at(Eof) && !p.at(RBrace) && !p.line_ended(0) {
+            p.bump();
+        }
+        p.eat(closer);
     });
     height + 1
 }

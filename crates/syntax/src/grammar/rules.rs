@@ -4,8 +4,8 @@ use super::expressions::{conditional_rest, expression, path};
 use super::types::paths;
 use super::{list, mistakes, outside_brackets};
 use crate::kind::SyntaxKind::{
-    BinaryExpr, Colon, ColonEq, Comma, Constraint, Derived, Ellipsis, ElseKw, Ident, IfKw, IfRule,
-    LBrace, Method, MethodList, RBrace, Reads, RuleBlock, When, Within,
+    BinaryExpr, Colon, ColonEq, Comma, Constraint, Derived, Ellipsis, ElseKw, Eq, Error, Ident,
+    IfKw, IfRule, LBrace, Method, MethodList, RBrace, Reads, RuleBlock, When, Within,
 };
 use crate::parser::Parser;
 
@@ -125,7 +125,14 @@ fn method(p: &mut Parser<'_>) {
         while p.eat(Comma) {
             path(p);
         }
-        if p.expect(ColonEq, "expected-method", "`:=` and a value") {
+        if p.at(Eq) && !p.begins_line(0) {
+            let hint = "a method is written `part := value`; a rule stands before the braces";
+            p.expected_hint("expected-method", "`:=` and a value", Some(hint.into()));
+            p.start(Error);
+            p.bump();
+            expression(p);
+            p.finish();
+        } else if p.expect(ColonEq, "expected-method", "`:=` and a value") {
             expression(p);
         }
         p.finish();

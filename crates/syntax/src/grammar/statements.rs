@@ -84,6 +84,11 @@ fn command(p: &mut Parser<'_>) {
         "rename" => one(p, Rename, |p| {
             path(p);
             into(p, "to", |p| {
+                if p.current().is_reserved() && !p.begins_line(0) {
+                    let message = format!("found the reserved word `{}`, wanted a name", p.word(0));
+                    p.report("reserved-word", message, Some("give it another name".into()));
+                    return p.bump_as(Ident);
+                }
                 p.expect(Ident, "expected-name", "the new name");
             });
         }),

@@ -6,6 +6,11 @@ use crate::kind::SyntaxKind::{
 };
 use crate::parser::Parser;
 
+/// Words that stand between operands, or behind an expression.
+const WORDS: [&str; 13] = [
+    "in", "is", "mod", "union", "subset", "within", "reads", "of", "until", "to", "times", "as",
+    "with",
+];
 /// What a member is, where another word begins one.
 const MEMBER: &str = "a part, constraint, message or value";
 
@@ -90,7 +95,6 @@ fn sign(p: &Parser<'_>) -> Option<String> {
 
 /// `sum x = 3` after `constraint`: a name without its colon. Returns true where it was reported.
 pub(in crate::grammar) fn name_without_colon(p: &mut Parser<'_>) -> bool {
-    const WORDS: [&str; 8] = ["in", "is", "mod", "union", "subset", "within", "reads", "of"];
     let compares = matches!(
         p.nth(2),
         Eq | Less | LessEq | Greater | GreaterEq | NotEq | Plus | Minus | Star | Slash
@@ -161,6 +165,51 @@ pub(in crate::grammar) fn strange_unit(p: &mut Parser<'_>) -> bool {
         && p.names_itself(2);
     if is_one {
         p.expected("expected-member", "a part, constraint, message or value");
+    }
+    is_one
+}
+
+/// `Point(3 4)`, `[2 * i for i in 1..3]`, `Circle(…)` where a parameter stands: what brackets hold elsewhere. Returns true
+/// where it was reported.
+pub(in crate::grammar) fn in_brackets(p: &mut Parser<'_>) -> bool {
+    let at = p.pos();
+    let said = match p.current() {
+        Ident if p.word(0) == "for" && p.nth(1) == Ident => (
+            "expected-bracket",
+            "found `for` in a list, wanted `]`".to_string(),
+            "a list of what is computed is `(1..3).map(i => 2 * i)`".to_string(),
+        ),
+        Number if matches!(p.behind(1), Number | Unit) && !p.begins_line(0) => (
+            "expected-comma",
+            format!("found `{}`, wanted `,` before it", p.word(0)),
+            "what stands in brackets has commas between: `(3, 4)`".to_string(),
+        ),
+        LParen if p.behind(1) == Ident && p.line_first().starts_with(char::is_uppercase) => (
+            "expected-bracket",
+            format!(
+                "found `(` after `{}`, wanted `:` and a parameter's class",
+                p.text_between(at - 1, at - 1)
+            ),
+            "a step stands in the braces, and has a name: `disc = Circle(…)`".to_string(),
+        ),
+        _ => return false,
+    };
+    p.report_mistake((at, at), said, None);
+    true
+}
+
+/// `copy a`: returns true where it was reported.
+pub(in crate::grammar) fn copy_without_of(p: &mut Parser<'_>) -> bool {
+    let is_one =
+        p.nth(1) == Ident && !p.begins_line(1) && !p.names_itself(2) && !WORDS.contains(&p.word(1));
+    if is_one {
+        let (at, of) = (p.pos(), p.word(1));
+        let said = (
+            "expected-word",
+            format!("found `{of}` after `copy`, wanted `of`"),
+            format!("write `copy of {of}`"),
+        );
+        p.report_mistake((at, at), said, Some((p.span_at(at), "copy of".into())));
     }
     is_one
 }
