@@ -35,7 +35,8 @@ pub(crate) fn written(rows: &[&ValueRow], mark: Mark<'_>) -> String {
     let blocks = blocks(rows, mark);
     let alone =
         || blocks.iter().filter_map(|b| if let Block::Rows(rows) = b { Some(rows) } else { None });
-    let width = alone().flatten().map(|r| r.shortest.chars().count()).max().unwrap_or(0);
+    let width =
+        alone().flatten().map(|r| r.shortest.chars().count()).max().unwrap_or(0).min(WIDEST);
     let digits = alone().flatten().map(|r| before_point(r)).max().unwrap_or(0);
     let mut words = String::new();
     for block in &blocks {

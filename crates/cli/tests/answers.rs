@@ -218,3 +218,11 @@ fn a_sweep_is_printed_as_a_table_and_drawn_as_a_chart() {
         "{wrong:?}"
     );
 }
+
+#[test]
+fn a_name_of_more_letters_than_a_line_has_is_printed() {
+    let name = "x".repeat(70_000);
+    let words = printed("long-name", &format!("{name}: Real = 3\ny: Real = 4\n"), "run", &[]);
+    assert!(words.starts_with(&format!("{name} = 3\n")), "{}", words.len());
+    assert!(words.lines().nth(1).is_some_and(|line| line.trim_end().ends_with("= 4")));
+}

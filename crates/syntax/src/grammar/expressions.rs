@@ -473,7 +473,7 @@ pub(super) fn bracketed(
                 break;
             }
         }
-        if !super::mistakes::elsewhere::in_brackets(p) {
+        if !mistakes::elsewhere::in_brackets(p) {
             p.expect(closer, "expected-bracket", wanted);
             return;
         }
