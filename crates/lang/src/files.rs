@@ -73,6 +73,7 @@ impl Lowerer<'_> {
                 None => self.report(diagnostic.clone()),
             }
         }
+        self.warn_of_quotients(id, text, &parse);
         self.files.push(File { name: name.into(), text: text.into(), parse });
         self.reading.push(id);
         let kinds = [SyntaxKind::Use, SyntaxKind::UnitLine, SyntaxKind::YLine];

@@ -343,12 +343,13 @@ pub(crate) fn called_otherwise(word: &str) -> Option<&'static str> {
     })
 }
 
-/// Returns true for `2026-01-31` and `10/11`: digits with one sort of sign between them.
+/// Returns true for `2026-01-31` and `10/2026`: three numbers, or two with a year, and one sort of sign between them.
 fn is_date(written: &str) -> bool {
     let is_of = |sign: char| {
-        let mut fields = written.split(sign);
-        written.contains(sign)
-            && fields.all(|f| !f.is_empty() && f.bytes().all(|b| b.is_ascii_digit()))
+        let fields: Vec<&str> = written.split(sign).collect();
+        let is_dated =
+            fields.len() == 3 || fields.len() == 2 && fields.iter().any(|f| f.len() == 4);
+        is_dated && fields.iter().all(|f| !f.is_empty() && f.bytes().all(|b| b.is_ascii_digit()))
     };
     is_of('-') || is_of('/')
 }

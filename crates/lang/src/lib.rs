@@ -21,7 +21,7 @@
 //! `rules`, `switches`, `kept`, `names`, `hints`, `paths`, `refine`, `terms`, `components`, `calls`, `kin`, `kinds`,
 //! `settle`, `restore`,
 //! `alone`, `checks`, `lessons`, `views`,
-//! `numbers`, `operations`, `mixed`, `write`, `uses`,
+//! `numbers`, `operations`, `mixed`, `quotients`, `write`, `uses`,
 //! `edits`, `references`, `mentions`.
 mod alone;
 mod angles;
@@ -60,6 +60,7 @@ mod outwards;
 mod paths;
 mod placed;
 mod programs;
+mod quotients;
 mod references;
 mod refine;
 mod restore;

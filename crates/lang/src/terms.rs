@@ -201,7 +201,13 @@ impl Lowerer<'_> {
         self.error(code_for(found, wanted), scope.file, span, message);
     }
 
-    fn mismatch(&mut self, scope: &Scope, span: Span, left: &Kind, right: &Kind) {
+    fn mismatch(
+        &mut self,
+        scope: &Scope,
+        span: Span,
+        operator: Option<BinaryOperator>,
+        (left, right): (&Kind, &Kind),
+    ) {
         let (a, b) = (left.words(&self.document), right.words(&self.document));
         let place = Place { file: scope.file, span };
         let apart = match (left, right) {
@@ -223,7 +229,7 @@ impl Lowerer<'_> {
                 "colours are mixed with colours, `c: Color = \"navy\"`; texts are joined by `\"{a}{b}\"`",
             );
         }
-        if let (Kind::List(_), Kind::List(_)) = (left, right) {
+        if let (Kind::List(_), Kind::List(_), Some(BinaryOperator::Add)) = (left, right, operator) {
             d = d.hint("what either list has, each once, is `xs.union(other: ys)`; numbers of two lists are added by `xs.zip(other: ys).map(pair => pair[0] + pair[1])`");
         }
         if (left, right) == (&Kind::Picture, &Kind::Picture) {
@@ -355,7 +361,7 @@ impl Lowerer<'_> {
             let place = Place { file: scope.file, span: at.span() };
             let d = Diagnostic::error("index", place, "an index is a whole number, from 0");
             let written = list.syntax().text();
-            self.report(match i < 0.0 {
+            self.report(match i < 0.0 && i.fract() == 0.0 {
                 true => d.hint(format!("the last element is `{written}.last`")),
                 false => d,
             });
@@ -409,7 +415,7 @@ impl Lowerer<'_> {
         let wanted = if let Kind::Option(_) = kind { &kind } else { wanted };
         let (b, other) = self.expr_wanting(scope, &choice.else_value()?, wanted)?;
         if !other.fits(&kind, &self.document) {
-            self.mismatch(scope, choice.span(), &kind, &other);
+            self.mismatch(scope, choice.span(), None, (&kind, &other));
             return None;
         }
         let (a, b) = (
@@ -647,7 +653,7 @@ impl Lowerer<'_> {
             return None;
         }
         if !ka.fits(&kb, &self.document) {
-            self.mismatch(scope, span, &ka, &kb);
+            self.mismatch(scope, span, None, (&ka, &kb));
             return None;
         }
         let send = |name: &str, value: Term| Term::Send {
@@ -678,7 +684,7 @@ impl Lowerer<'_> {
             BinaryOperator::And | BinaryOperator::Or => Kind::Bool,
             BinaryOperator::Multiply | BinaryOperator::Divide => Kind::Number(None),
             BinaryOperator::Power => Kind::PLAIN,
-            _ => return self.mismatch(scope, span, a, b),
+            _ => return self.mismatch(scope, span, Some(operator), (a, b)),
         };
         let misfit = if a.fits(&wanted, &self.document) { b } else { a };
         self.wrong_kind(scope, span, misfit, &wanted);

@@ -31,7 +31,7 @@ pub(crate) fn file(p: &mut Parser<'_>, scope: Scope) {
     p.start_file(File);
     elements(p, scope);
     while !p.at(Eof) {
-        p.begin_member();
+        p.begin_member(p.pos());
         let hint = "take it away, or write the `{` that it closes";
         p.report("unexpected-brace", "found `}`, which closes nothing".into(), Some(hint.into()));
         p.skip_line();
@@ -101,6 +101,7 @@ fn elements(p: &mut Parser<'_>, scope: Scope) {
 
 /// Elements up to a `}` or the end; `;` may stand between; one that takes nothing is an error.
 fn list(p: &mut Parser<'_>, mut element: impl FnMut(&mut Parser<'_>)) {
+    let mut previous = p.pos();
     while !p.at(Eof) && !p.at(RBrace) {
         if p.eat(Semicolon) {
             continue;
@@ -109,10 +110,11 @@ fn list(p: &mut Parser<'_>, mut element: impl FnMut(&mut Parser<'_>)) {
             break;
         }
         let before = p.pos();
-        p.begin_member();
+        p.begin_member(previous);
         element(p);
         if p.pos() == before {
             p.skip_line();
         }
+        previous = before;
     }
 }

@@ -20,8 +20,6 @@ pub(crate) enum Fault {
     UnterminatedValue,
     UnterminatedComment,
     UnknownCharacter,
-    /// `x // 2`: a number alone behind what could be divided by it.
-    DivisorInComment,
 }
 
 /// The tokens of a text, the last one [`SyntaxKind::Eof`], and what is wrong with some of them.
@@ -56,8 +54,7 @@ fn add_tokens(text: &str, from: usize, lexed: &mut Lexed) {
             continue;
         }
         lexed.tokens.push(RawToken { kind, start: at as u32 });
-        let fault = fault(kind, &text[at..end]).or_else(|| divisor(kind, text, at, end));
-        if let Some(fault) = fault {
+        if let Some(fault) = fault(kind, &text[at..end]) {
             lexed.faults.push((Span::new(at as u32, end as u32), fault));
         }
         let start = at;
@@ -337,17 +334,6 @@ fn fault(kind: SyntaxKind, text: &str) -> Option<Fault> {
         SyntaxKind::Text if !closed(text) => Some(Fault::UnterminatedText),
         _ => None,
     }
-}
-
-/// Finds a comment that is a number alone, on the line of something that it may have been meant to divide.
-fn divisor(kind: SyntaxKind, text: &str, at: usize, end: usize) -> Option<Fault> {
-    let is_comment = kind == SyntaxKind::LineComment;
-    let number = text.get(at + 2..end).filter(|_| is_comment)?.trim();
-    let is_number = number.starts_with(|c: char| c.is_ascii_digit())
-        && number_length(number.as_bytes()) == number.len();
-    let before = text.get(..at).filter(|_| is_number)?.trim_end_matches([' ', '\t']);
-    let is_behind = before.ends_with(|c: char| c.is_alphanumeric() || matches!(c, ')' | ']'));
-    is_behind.then_some(Fault::DivisorInComment)
 }
 
 /// Returns true if a text token has its closing quote.

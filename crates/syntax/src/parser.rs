@@ -42,6 +42,8 @@ pub(crate) struct Parser<'t> {
     too_deep_said: bool,
     /// Where the present member begins: what is wrong with that token is wrong there.
     member: usize,
+    /// Where the member before it begins, in the same body.
+    previous: usize,
     /// Brackets that are open and will be closed: a line end inside them ends nothing.
     pub(crate) brackets: u32,
     /// Brackets that are open and never closed: a line end inside them ends everything.
@@ -81,6 +83,7 @@ impl<'t> Parser<'t> {
             depth: 0,
             too_deep_said: false,
             member: 0,
+            previous: 0,
             brackets: 0,
             unclosed: 0,
             in_bindings: false,
@@ -185,16 +188,23 @@ impl<'t> Parser<'t> {
         }
         self.pos + n
     }
-    /// The text of the first token of this line, or of its body on this line.
-    pub(crate) fn line_first(&self) -> &'t str {
-        let mut first = self.pos.min(self.tokens.len() - 1);
-        while first > 0
-            && !self.tokens[first].newline
-            && !matches!(self.tokens[first - 1].kind, SyntaxKind::LBrace | SyntaxKind::Semicolon)
-        {
-            first -= 1;
+    /// The word that says what the member before this one is: behind its strength, `weak constraint`.
+    pub(crate) fn word_before(&self) -> &'t str {
+        let first = self.text_between(self.previous, self.previous);
+        match first {
+            "required" | "strong" | "medium" | "weak" => {
+                self.text_between(self.previous + 1, self.previous + 1)
+            }
+            word => word,
         }
-        self.text_between(first, first)
+    }
+    /// The first word of the present member.
+    pub(crate) fn member_word(&self) -> &'t str {
+        self.text_between(self.member, self.member)
+    }
+    /// Returns true if a word stands at the beginning of the present member.
+    pub(crate) fn has_said(&self, word: &str) -> bool {
+        (self.member..self.pos).take(8).any(|at| self.text_between(at, at) == word)
     }
     /// How far the line of the token here is indented.
     pub(crate) fn indent(&self) -> usize {
@@ -211,9 +221,9 @@ impl<'t> Parser<'t> {
         self.token(0).closer != 0
     }
 
-    /// Notes that a member, or an element of a body, begins here.
-    pub(crate) fn begin_member(&mut self) {
-        self.member = self.pos;
+    /// Notes that a member, or an element of a body, begins here, and where the one before it did.
+    pub(crate) fn begin_member(&mut self, previous: usize) {
+        (self.member, self.previous) = (self.pos, previous);
     }
 
     // ---- building
@@ -547,15 +557,6 @@ fn token_fault(file: FileId, text: &str, span: Span, fault: Fault) -> Diagnostic
                 "found the end of the text in a comment",
             )
             .hint("close the comment with `*/`")
-        }
-        Fault::DivisorInComment => {
-            let comment = text.get(span.range()).unwrap_or_default();
-            let number = comment.trim_start_matches('/').trim();
-            Diagnostic::warning("comment", place, format!("`{comment}` is a comment")).hint(
-                format!(
-                    "a whole quotient is `floor(x / {number})`; a comment says more than a number"
-                ),
-            )
         }
         Fault::UnknownCharacter => {
             let all = &text[span.range()];

@@ -416,3 +416,16 @@ fn a_row_of_an_inherited_message_is_wrong_where_it_stands() {
         assert_eq!((d.code, at(d)), ("unknown-name", "nowhere"));
     }
 }
+
+#[test]
+fn a_number_in_a_comment_is_a_comment() {
+    let plain = "use shapes // 3\na, b: Real // 1\nq: Quad { side1.p1.x = 3 } // 2\nxs: List of 2 Real = [\n    1, // 1\n    2 // 2\n]\n";
+    right(plain);
+    right("use shapes // 2\nl: Line // 1\n/* y => x // 2 */\n");
+    // one that may have been meant to divide is warned of, and the text can be set in order all the same
+    let text = "x: Real\ny   => x // 2\n";
+    assert_eq!(wrong(text), [("comment", "// 2".to_string())]);
+    let parse = syntax::parse(base::FileId(0), text);
+    assert_eq!(parse.diagnostics(), []);
+    assert!(syntax::format(&parse).contains("\ny => x"));
+}

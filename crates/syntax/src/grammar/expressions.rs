@@ -477,6 +477,9 @@ pub(super) fn bracketed(
             p.expect(closer, "expected-bracket", wanted);
             return;
         }
+        if p.at(LParen) {
+            return;
+        }
         while !p.at(closer) && !p.at(Eof) && !p.at(RBrace) && !p.line_ended(0) {
             p.bump();
         }

@@ -476,7 +476,7 @@ pub(super) fn unknown(p: &mut Parser<'_>) {
         p.skip_line();
         return;
     }
-    if p.line_first() != "constraint" && mistakes::comma_between(p) {
+    if !mistakes::elsewhere::rule_follows(p) && mistakes::comma_between(p) {
         return p.bump();
     }
     if mistakes::elsewhere::strange_unit(p) {

@@ -2,7 +2,7 @@
 
 use crate::kind::SyntaxKind::{
     Caret, Colon, Comma, Eof, Eq, Greater, GreaterEq, Ident, LParen, Less, LessEq, Minus, NotEq,
-    Number, Plus, Slash, Star, Text, Unit,
+    Number, Plus, RBrace, RParen, Semicolon, Slash, Star, Text, Unit,
 };
 use crate::parser::Parser;
 
@@ -68,18 +68,25 @@ fn sign(p: &Parser<'_>) -> Option<String> {
     if p.begins_line(0) {
         return None;
     }
-    let of = p.line_first();
+    let of = p.word_before();
     let before = |n: usize| p.text_between(p.pos().saturating_sub(n), p.pos().saturating_sub(n));
     let hint = match p.current() {
         Comma if of == "use" => format!("each has a line of its own: `use {}`", p.word(1)),
-        Comma if of == "constraint" => "two rules are joined by `and`".into(),
+        Comma if ends_line(p, 1) => "nothing follows the comma: leave it out".into(),
+        Comma if rule_follows(p) => "two rules are joined by `and`".into(),
         Comma if of == "expect" => "each has its own `expect`".into(),
         Colon if of == "constraint" && p.behind(1) == Text => {
             let name = before(1).trim_matches('"');
             format!("the name of a constraint has no quotes: `constraint {name}: …`")
         }
         LParen if of == "class" && p.behind(1) == Ident && p.nth(1) == Ident => {
-            format!("write `class {} is {}`", before(1), p.word(1))
+            let (class, inner) = (before(1), p.word(1));
+            match p.nth(2) {
+                RParen | Comma => format!("write `class {class} is {inner}`"),
+                _ => format!(
+                    "the parts of a class stand in its body: `class {class} {{ {inner}: Real }}`"
+                ),
+            }
         }
         LParen if before(1) == "super" => {
             "the answer of the superclasses has a name: `super.picture`".into()
@@ -123,15 +130,36 @@ pub(super) fn number(p: &Parser<'_>) -> Option<String> {
     let (digits, word) = (p.text_between(p.pos() - 1, p.pos() - 1), p.word(0));
     if word == "x10" && p.nth(1) == Caret {
         let sign = usize::from(p.nth(2) == Minus);
-        let power = (p.nth(2 + sign) == Number).then(|| p.word(2 + sign))?;
-        return Some(format!("write `{digits}e{}{power}`", if sign == 1 { "-" } else { "" }));
+        let power = Some(p.word(2 + sign)).filter(|power| is_whole(power))?;
+        let is_plain = digits.chars().all(|c| c.is_ascii_digit() || c == '.');
+        return is_plain
+            .then(|| format!("write `{digits}e{}{power}`", if sign == 1 { "-" } else { "" }));
     }
-    let mut letters = word.chars();
-    let prefix = letters.next().filter(|c| "kMGmunpR".contains(*c))?;
-    let rest = letters.as_str();
-    let is_split = !rest.is_empty() && rest.chars().all(|c| c.is_ascii_digit());
-    let unit = if prefix == 'R' { "ohm".to_string() } else { format!("{prefix}ohm") };
-    is_split.then(|| format!("a number has its point and its unit: `{digits}.{rest} {unit}`"))
+    let (unit, rest) = match word.split_at_checked(1)? {
+        ("k", rest) => ("kohm", rest),
+        ("M", rest) => ("Mohm", rest),
+        ("R", rest) => ("ohm", rest),
+        _ => return None,
+    };
+    let is_split = is_whole(digits) && is_whole(rest);
+    let is_resistance = is_split && (p.word(1) == "ohm" || p.has_said("Resistance"));
+    is_resistance.then(|| format!("a number has its point and its unit: `{digits}.{rest} {unit}`"))
+}
+
+fn is_whole(number: &str) -> bool {
+    !number.is_empty() && number.chars().all(|c| c.is_ascii_digit())
+}
+
+/// Returns true where no more of the line follows, so many tokens ahead.
+fn ends_line(p: &Parser<'_>, n: usize) -> bool {
+    p.begins_line(n) || matches!(p.nth(n), Eof | RBrace | Semicolon)
+}
+
+/// `constraint x = 3, y = 4`: returns true at a comma between rules, where no member with a class follows.
+pub(in crate::grammar) fn rule_follows(p: &Parser<'_>) -> bool {
+    let declares =
+        p.nth(1) == Ident && p.nth(2) == Colon && p.word(3).starts_with(char::is_uppercase);
+    p.at(Comma) && p.word_before() == "constraint" && !ends_line(p, 1) && !declares
 }
 
 /// Returns true where the class of a list stands in brackets, so many tokens ahead: `(List of 3 Integer)`.
@@ -142,15 +170,30 @@ pub(in crate::grammar) fn is_list_in_brackets(p: &Parser<'_>, n: usize) -> bool 
         && matches!(p.word(n + 2), "of" | "to")
 }
 
+/// Returns true for the words before the class of a list's elements, `List of 3`, by the index of one.
+fn is_of_list(p: &Parser<'_>, at: usize) -> bool {
+    let word = p.text_between(at, at);
+    let is_count = || {
+        word.starts_with(char::is_alphanumeric) && at > 0 && p.text_between(at - 1, at - 1) == "of"
+    };
+    matches!(word, "List" | "Set" | "Path" | "Placed" | "of" | "to") || is_count()
+}
+
 /// Reports the brackets around the class of a list.
 pub(in crate::grammar) fn list_in_brackets(p: &mut Parser<'_>) {
     let at = p.pos();
     let last = at + p.bracket_length();
-    let class = p.text_between(at + 1, last.saturating_sub(1).max(at + 1));
+    let mut first = at;
+    while first > 0 && is_of_list(p, first - 1) {
+        first -= 1;
+    }
+    let before = if first < at { p.text_between(first, at - 1) } else { "" };
+    let inner = p.text_between(at + 1, last.saturating_sub(1).max(at + 1));
+    let class = format!("{before} {inner}");
     let said = (
         "expected-class",
         "found `(`, wanted a class".to_string(),
-        format!("a class stands without brackets: `List of 3 {class}`"),
+        format!("a class stands without brackets: `{}`", class.trim_start()),
     );
     p.report_mistake((at, at), said, None);
 }
@@ -184,13 +227,13 @@ pub(in crate::grammar) fn in_brackets(p: &mut Parser<'_>) -> bool {
             format!("found `{}`, wanted `,` before it", p.word(0)),
             "what stands in brackets has commas between: `(3, 4)`".to_string(),
         ),
-        LParen if p.behind(1) == Ident && p.line_first().starts_with(char::is_uppercase) => (
+        LParen if p.behind(1) == Ident && p.member_word().starts_with(char::is_uppercase) => (
             "expected-bracket",
             format!(
-                "found `(` after `{}`, wanted `:` and a parameter's class",
+                "found `(` after `{}`, wanted `)` after the parameters",
                 p.text_between(at - 1, at - 1)
             ),
-            "a step stands in the braces, and has a name: `disc = Circle(…)`".to_string(),
+            format!("a step has a name before it: `step = {}(…)`", p.member_word()),
         ),
         _ => return false,
     };
