@@ -153,9 +153,16 @@ impl<'a> Evaluator<'a> {
     /// # Errors
     /// A step that leads nowhere.
     pub fn at(&self, path: &Path) -> Result<Answer<'a>> {
+        self.from(Answer::Thing(DOCUMENT), &path.0)
+    }
+
+    /// Follows steps from something that was answered.
+    ///
+    /// # Errors
+    /// A step that leads nowhere.
+    pub fn from(&self, at: Answer<'a>, steps: &[Step]) -> Result<Answer<'a>> {
         self.begin();
-        let from = Answer::Thing(DOCUMENT);
-        path.0.iter().try_fold(from, |at, step| match step {
+        steps.iter().try_fold(at, |at, step| match step {
             Step::Part(name) => self.send(&at, name, Vec::new(), None, DOCUMENT),
             Step::Index(i) => self.element(&at, &Answer::plain(f64::from(*i))),
             Step::Last => self.send(&at, &Name::new("last"), Vec::new(), None, DOCUMENT),

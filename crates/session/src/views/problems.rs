@@ -9,10 +9,10 @@ use crate::state::State;
 use crate::texts::Texts;
 use crate::view::DiagnosticView;
 use crate::words;
-use base::{Diagnostic, FileId, Place};
-use eval::FaultKind;
+use base::{Diagnostic, FileId, Name, Place};
+use eval::{Fault, FaultKind};
 use expr::Dimension;
-use kernel::{ClassId, Message, Primitive, SlotId, Step, ThingId, Values};
+use kernel::{ClassId, Message, OriginId, Primitive, SlotId, Step, Term, ThingId, Values};
 use plan::{Certainty, Contradiction, Source};
 use solve::Level;
 use std::collections::{BTreeMap, BTreeSet};
@@ -123,30 +123,78 @@ fn without_value(state: &State, values: &Values) -> Vec<Diagnostic> {
             messages.insert(id, asked);
         }
     }
-    let evaluator = state.evaluator(values);
-    let mut told = BTreeSet::new();
-    let (mut found, mut faults) = (Vec::new(), 0);
-    for thing in structure.things.ids().filter(|&t| structure.merged[t] == t) {
-        for message in messages.get(&structure.things[thing].class).into_iter().flatten() {
+    let failing = failing(state, values, &messages);
+    let answered: BTreeSet<OriginId> = { structure.things.ids() }
+        .filter_map(|thing| messages.get(&structure.things[thing].class))
+        .flatten()
+        .map(|message| message.origin)
+        .collect();
+    let mut found = Vec::new();
+    for Failing { thing, message, fault } in &failing {
+        // what an inner message lacks is told there
+        let is_inner = fault.origin.is_some_and(|origin| {
+            let alike = failing.iter().filter(|other| other.fault.origin == fault.origin);
+            answered.contains(&origin) || sends(message, alike)
+        });
+        if fault.kind == FaultKind::NoAnswer && !is_inner {
             let place = state.lowered.place(message.origin);
-            if told.contains(&place) {
-                continue;
-            }
-            let Err(fault) = evaluator.evaluate(&message.answer, thing) else { continue };
-            faults += 1;
-            if faults > MOST_FAULTS {
-                return found;
-            }
-            // what an inner message lacks is told there
-            let is_inner = fault.origin.is_some();
-            if fault.kind == FaultKind::NoAnswer && !is_inner && told.insert(place) {
-                let path = structure.path(document, thing).then(Step::Part(message.name.clone()));
-                let said = format!("{path} has no value: {}", fault.message);
-                found.push(Diagnostic::warning("no-value", place, said));
-            }
+            let path = structure.path(document, *thing).then(Step::Part(message.name.clone()));
+            let said = format!("{path} has no value: {}", fault.message);
+            found.push(Diagnostic::warning("no-value", place, said));
         }
     }
     found
+}
+
+/// A message that a thing cannot answer.
+struct Failing<'a> {
+    thing: ThingId,
+    message: &'a Message,
+    fault: Fault,
+}
+
+/// Returns the messages that fail, each of the first thing where it does, until there are too many.
+fn failing<'a>(
+    state: &'a State,
+    values: &'a Values,
+    messages: &BTreeMap<ClassId, Vec<&'a Message>>,
+) -> Vec<Failing<'a>> {
+    let structure = &state.structure;
+    let evaluator = state.evaluator(values);
+    let mut failing = Vec::new();
+    let mut known = BTreeSet::new();
+    for thing in structure.things.ids().filter(|&t| structure.merged[t] == t) {
+        for &message in messages.get(&structure.things[thing].class).into_iter().flatten() {
+            let place = state.lowered.place(message.origin);
+            if known.contains(&place) {
+                continue;
+            }
+            if let Err(fault) = evaluator.evaluate(&message.answer, thing) {
+                known.insert(place);
+                failing.push(Failing { thing, message, fault });
+                if failing.len() >= MOST_FAULTS {
+                    return failing;
+                }
+            }
+        }
+    }
+    failing
+}
+
+/// Returns true if a message asks for another one of these.
+fn sends<'a>(message: &Message, others: impl Iterator<Item = &'a Failing<'a>> + Clone) -> bool {
+    let is_other =
+        |other: &Message, name: &Name| other.origin != message.origin && other.name == *name;
+    let mut terms = vec![&message.answer];
+    while let Some(term) = terms.pop() {
+        terms.extend(term.operands());
+        if let Term::Send { name, .. } = term
+            && others.clone().any(|other| is_other(other.message, name))
+        {
+            return true;
+        }
+    }
+    false
 }
 
 fn of_unmet(state: &State, source: Source) -> Option<Diagnostic> {

@@ -92,23 +92,12 @@ pub(crate) fn renew<'r>(
     rows: impl Iterator<Item = &'r mut ValueRow>,
 ) {
     let evaluator = state.evaluator(values);
+    let mut last = None;
     for row in rows {
         let Some(path) = crate::session::parse_path(&row.path) else { continue };
-        let shown = match path.0.split_last() {
-            Some((step, owner)) if row.is_virtual => {
-                let owner = crate::session::thing_at(state, &Path(owner.to_vec()));
-                match (step, owner) {
-                    (Step::Part(name), Some(owner)) => show_virtual(state, &evaluator, owner, name),
-                    // of what a program drew, or of a list
-                    _ => match evaluator.at(&path) {
-                        Ok(answer) => {
-                            show_answer(&state.lowered.document, &answer, "").map(|s| s.0)
-                        }
-                        Err(fault) => without_value(&fault),
-                    },
-                }
-            }
-            _ => crate::session::thing_at(state, &path)
+        let shown = match row.is_virtual {
+            true => renewed(state, &evaluator, &path, &mut last),
+            false => crate::session::thing_at(state, &path)
                 .and_then(|thing| state.structure.slot_of(thing))
                 .map(|slot| show(state, values, slot)),
         };
@@ -116,6 +105,40 @@ pub(crate) fn renew<'r>(
             let Shown { text, unit, exact } = shown.words;
             (row.text, row.unit, row.exact, row.number) = (text, unit, exact, shown.number);
         }
+    }
+}
+
+/// What a thing answered, whose elements are shown one after the other.
+type Asked<'a> = Option<((ThingId, Name), Result<Answer<'a>, Fault>)>;
+
+/// Shows what a thing answers, or a value in it: of a list, or of what a program drew. `last` is asked once for all rows
+/// in it.
+fn renewed<'a>(
+    state: &'a State,
+    evaluator: &Evaluator<'a>,
+    path: &Path,
+    last: &mut Asked<'a>,
+) -> Option<Cell> {
+    let document = &state.lowered.document;
+    let at = |end: usize| crate::session::thing_at(state, &Path(path.0[..end].to_vec()));
+    let (end, owner) = (0..path.0.len()).rev().find_map(|end| Some((end, at(end)?)))?;
+    let Step::Part(name) = &path.0[end] else { return None };
+    let within = &path.0[end + 1..];
+    if within.is_empty() {
+        return show_virtual(state, evaluator, owner, name);
+    }
+    let asked = (owner, name.clone());
+    if last.as_ref().is_none_or(|(known, _)| *known != asked) {
+        *last = Some((asked, evaluator.ask(owner, name)));
+    }
+    let (_, answer) = last.as_ref()?;
+    let value = answer.clone().and_then(|answer| evaluator.from(answer, within));
+    match value {
+        Ok(value) => {
+            let class = element_class(document, state.structure.things[owner].class, name);
+            show_answer(document, &value, class).map(|shown| shown.0)
+        }
+        Err(fault) => without_value(&fault),
     }
 }
 
@@ -162,9 +185,26 @@ fn without_value(fault: &Fault) -> Option<Cell> {
 
 /// Returns the name of the class that is written for what a message answers; empty where none is.
 pub(crate) fn answer_class<'d>(document: &'d Document, class: ClassId, name: &Name) -> &'d str {
+    class_of_answer(document, class, name).map_or("", |c| &document.classes[c].name)
+}
+
+fn class_of_answer(document: &Document, class: ClassId, name: &Name) -> Option<ClassId> {
     let mut line = document.primary_line(class).into_iter();
     let message = line.find_map(|c| document.classes[c].messages.iter().find(|m| m.name == *name));
-    message.and_then(|m| m.class).map_or("", |c| &document.classes[c].name)
+    message.and_then(|m| m.class)
+}
+
+/// Returns the name of the class of the numbers that are written for what a message lists; empty where none is.
+fn element_class<'d>(document: &'d Document, class: ClassId, name: &Name) -> &'d str {
+    let mut found = class_of_answer(document, class, name);
+    while let Some(class) = found {
+        match &document.classes[class].kind {
+            ClassKind::List(of) | ClassKind::Set(of) => found = Some(*of),
+            ClassKind::Primitive(_) => return &document.classes[class].name,
+            ClassKind::Composite | ClassKind::Reference(_) => break,
+        }
+    }
+    ""
 }
 
 /// Returns the name and the value that a row of a table consists of.
@@ -390,7 +430,8 @@ impl<'a> Maker<'a> {
                 Ok(answer) => match answered(document, &path, &answer, said, is_layout) {
                     None if draws => self.add_drawn(&answer, &mut path, most),
                     None if is_table(document, &answer, thing) => {
-                        self.add_each(&answer, &mut path, said, is_layout);
+                        let class = element_class(document, class, name);
+                        self.add_each(&answer, &mut path, [class, doc], is_layout);
                     }
                     row => self.work.rows.extend(row),
                 },
@@ -406,7 +447,7 @@ impl<'a> Maker<'a> {
         }
     }
 
-    /// Adds the rows of the values that a list or a place consists of.
+    /// Adds the rows of the values that a list or a place consists of, and how many there are beyond.
     fn add_each(
         &mut self,
         answer: &Answer<'_>,
@@ -416,10 +457,12 @@ impl<'a> Maker<'a> {
     ) {
         let (document, rows) = (&self.state.lowered.document, &mut self.work.rows);
         let most = rows.len() + MOST_DRAWN;
-        let class = class.rsplit("List of ").next().unwrap_or_default();
+        let mut beyond = 0;
         walk(document, (answer, Standing::Result), path, &mut |answer, _, path| {
             if rows.len() >= most {
-                return false;
+                let is_value = is_value(answer);
+                beyond += usize::from(is_value);
+                return !is_value;
             }
             let of = if matches!(answer, Answer::Number(..)) { class } else { "" };
             let row = answered(document, path, answer, [of, doc], is_layout);
@@ -427,6 +470,10 @@ impl<'a> Maker<'a> {
             rows.extend(row);
             !is_value
         });
+        if beyond > 0 {
+            let cell = Cell { words: words::plain(format!("and {beyond} more")), number: None };
+            rows.push(row_of(path, cell, ["", doc], is_layout));
+        }
     }
 
     /// Adds the rows of what a program drew: the numbers of its figures, turn by turn.
@@ -503,12 +550,6 @@ fn row_of(path: &str, cell: Cell, [class, doc]: [&str; 2], is_layout: bool) -> V
 /// Returns true for what is shown value by value: lists of values, and of the document itself also places and lists of
 /// these.
 fn is_table(document: &Document, answer: &Answer<'_>, thing: ThingId) -> bool {
-    let is_value = |answer: &Answer<'_>| {
-        matches!(
-            answer,
-            Answer::Number(..) | Answer::Text(_) | Answer::Bool(_) | Answer::Option(..)
-        )
-    };
     match answer {
         Answer::List(items) => {
             let mut items = items.iter();
@@ -520,6 +561,11 @@ fn is_table(document: &Document, answer: &Answer<'_>, thing: ThingId) -> bool {
         }
         _ => false,
     }
+}
+
+/// Returns true for what one row shows.
+fn is_value(answer: &Answer<'_>) -> bool {
+    matches!(answer, Answer::Number(..) | Answer::Text(_) | Answer::Bool(_) | Answer::Option(..))
 }
 
 /// Returns what there is to choose for a value.

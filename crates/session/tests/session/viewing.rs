@@ -415,7 +415,8 @@ fn rows_of(desk: &Desk) -> Vec<String> {
 #[test]
 fn a_computed_list_is_shown_element_by_element() {
     let text = "use geometry\nxs: List of 2 Real = [1, 2]\nys => xs.map(x => 2 * x)\n\
-                turns: List of Angle => xs.map(x => x * 90 deg)\np => Point(3, 5)\n";
+                turns: List of Angle => xs.map(x => x * 90 deg)\np => Point(3, 5)\n\
+                counted: List of 2 Angle => xs.map(x => x * 45 deg)\n";
     let mut desk = Desk::of(text);
     let wanted = [
         "xs[0] 1",
@@ -426,12 +427,38 @@ fn a_computed_list_is_shown_element_by_element() {
         "turns[1] 180 deg",
         "p.x 3",
         "p.y 5",
+        "counted[0] 45 deg",
+        "counted[1] 90 deg",
     ];
     assert_eq!(rows_of(&desk), wanted);
     let mut rows = desk.session.values(desk.id);
     desk.set("xs[1]", 3.0).unwrap();
     desk.session.renew_values(desk.id, rows.iter_mut());
     assert_eq!(rows[3].text, "6");
+    let anew = desk.session.values(desk.id);
+    assert_eq!(rows, anew, "a row that is renewed says what a new one does");
+    assert_eq!((&*rows[9].text, &*rows[9].unit, &*rows[9].class), ("135", "deg", "Angle"));
+}
+
+#[test]
+fn a_long_computed_list_says_how_much_more_there_is() {
+    let desk = Desk::of("xs => (1..1200).map(i => 2 * i)\ny => 3\n");
+    let rows = rows_of(&desk);
+    assert_eq!(rows[999..], ["xs[999] 2000", "xs and 200 more", "y 3"]);
+}
+
+#[test]
+fn what_fails_inside_a_message_with_parameters_is_warned_of_where_it_is_asked() {
+    let warned = |text: &str| {
+        let mut desk = Desk::of(text);
+        let found = desk.session.problems(desk.id).into_iter();
+        found.map(|d| d.message).collect::<Vec<_>>()
+    };
+    let divided = |name: &str| format!("{name} has no value: 1 divided by zero");
+    let text = "x: Real = 0\nf(t: Real) => 1 / t\ny => f(x)\nz => 2 * y\n";
+    assert_eq!(warned(text), [divided("y")]);
+    let text = "class A { x: Real  own => 1 / x }\na: A\ny => a.own\n";
+    assert_eq!(warned(text), [divided("a.own")]);
 }
 
 #[test]
