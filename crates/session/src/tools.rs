@@ -20,7 +20,7 @@ use crate::host::Host;
 use crate::recognise;
 use crate::session::thing_at;
 use crate::state::State;
-use crate::view::{Caught, PictureView, Pointer, Refusal, ToolView};
+use crate::view::{Caught, PictureView, Pointer, Refusal, ToolView, TypedLength};
 use crate::{views, words};
 use base::Name;
 use base::number::{cos, hypot, shortest, sin};
@@ -173,7 +173,7 @@ impl Tool {
         let last = self.set.last().map(|catch| catch.at);
         let is_typed = pointer.length.is_some() || pointer.angle.is_some();
         if let Some(last) = last.filter(|_| is_typed) {
-            return self.typed(pointer, last);
+            return self.typed(state, pointer, last);
         }
         let class = stage.class(&self.trial.state, &self.name);
         let class = class.and_then(|name| state.lowered.document.class_named(&name));
@@ -192,10 +192,10 @@ impl Tool {
     }
 
     /// The place that a length or an angle tells that was typed.
-    fn typed(&self, pointer: &Pointer, last: (f64, f64)) -> Catch {
+    fn typed(&self, state: &State, pointer: &Pointer, last: (f64, f64)) -> Catch {
         let way = (pointer.at.0 - last.0, pointer.at.1 - last.1);
         let far = hypot(way.0, way.1);
-        let length = pointer.length.unwrap_or(far);
+        let length = pointer.length.map_or(far, |length| on_sheet(state, length));
         let radians = |degrees: f64| degrees * std::f64::consts::PI / 180.0;
         let (dx, dy) = match pointer.angle.map(radians) {
             Some(angle) => (cos(angle), sin(angle)),
@@ -207,7 +207,7 @@ impl Tool {
             let name = &self.name;
             let run = format!("atan2({name}.p2.y - {name}.p1.y, {name}.p2.x - {name}.p1.x)");
             let said = [
-                pointer.length.map(|x| format!("{name}.length = {}", shortest(x))),
+                pointer.length.map(|length| format!("{name}.length = {}", written(length))),
                 pointer.angle.map(|x| format!("{run} = {} deg", shortest(x))),
             ];
             catch.rules.extend(said.into_iter().flatten());
@@ -354,7 +354,7 @@ impl Tool {
             None => String::new(),
         };
         let hint = if self.goes_on && !self.set.is_empty() {
-            format!("{hint}; digits: its length, < its angle")
+            format!("{hint}; digits: its length, as 30 or 3 cm, < its angle")
         } else {
             hint
         };
@@ -367,6 +367,25 @@ impl Tool {
             makes: self.within.then(Step::Part(Name::new(&self.name))).to_string(),
         }
     }
+}
+
+/// A typed length in the units of the sheet. One that has no unit yet takes over the unit that is typed.
+fn on_sheet(state: &State, length: TypedLength) -> f64 {
+    let document = &state.lowered.document;
+    let number = length.number;
+    let metres = length.unit.and_then(|unit| expr::units::read_quantity(&shortest(number), unit));
+    match metres {
+        Some((metres, _)) if document.unit.is_some() || state.lowered.measures_lengths() => {
+            metres * document.units_per_metre
+        }
+        _ => number,
+    }
+}
+
+/// A typed length as the text has it.
+fn written(length: TypedLength) -> String {
+    let number = shortest(length.number);
+    length.unit.map_or(number.clone(), |unit| format!("{number} {unit}"))
 }
 
 /// The dashed lines that say what a catch was found by.

@@ -18,7 +18,7 @@ pub use reasons::{
 use serde::{Deserialize, Serialize};
 pub use tools::{
     Along, Caught, ClassItem, ClassPlan, Deed, ItemKind, Offer, Pointer, Scope, ToolView,
-    ValueWithin,
+    TypedLength, ValueWithin,
 };
 
 /// Which open document.

@@ -169,6 +169,15 @@ impl Lab {
         self.take_turn(turn);
     }
 
+    /// Whether a construction has its first operand and wants another that is picked.
+    pub fn wants_another_pick(self) -> bool {
+        let is_begun = |prompt: &Prompt| {
+            let has_first = prompt.operands.first().is_some_and(|(_, given)| given.is_some());
+            has_first && !prompt.is_value && prompt.wants == Wants::Operand
+        };
+        self.drafting.prompt.with_untracked(|prompt| prompt.as_ref().is_some_and(is_begun))
+    }
+
     /// Gives what is typed.
     pub fn draft_enter(self) {
         let typed = self.drafting.typed.get_untracked();

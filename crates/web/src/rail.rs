@@ -4,7 +4,7 @@ use crate::actions::{self, ACTIONS, Action, Group};
 use crate::lab::{Lab, Notice};
 use crate::{icons, keyboard, words};
 use leptos::prelude::*;
-use session::view::{Along, Pointer, Refusal, RowKind, ToolView};
+use session::view::{Along, Pointer, Refusal, RowKind, ToolView, TypedLength};
 
 /// The tools, one below the other; those that the document has no classes for say why not.
 #[component]
@@ -199,15 +199,15 @@ impl Lab {
             "ArrowUp" => (0.0, -step),
             "ArrowDown" => (0.0, step),
             "Enter" => {
-                let pointer = self.typed.with_untracked(|typed| match place(typed) {
-                    Some(at) => Pointer { at, alone: true, ..self.keyboard_pointer(size) },
-                    None => {
-                        let (length, angle) = length_and_angle(typed);
-                        Pointer { length, angle, ..self.keyboard_pointer(size) }
+                let pointer = self.keyboard_pointer(size);
+                let told = self.typed.with_untracked(|typed| pointed(typed, pointer));
+                match told {
+                    Some(pointer) => {
+                        self.set_cursor(pointer.at);
+                        self.tool_set(&pointer);
                     }
-                });
-                self.set_cursor(pointer.at);
-                self.tool_set(&pointer);
+                    None => self.say_refused(self.typed.with_untracked(|t| words::no_length(t))),
+                }
                 return true;
             }
             "Tab" => {
@@ -225,11 +225,8 @@ impl Lab {
                 });
                 return true;
             }
-            digit
-                if digit.len() == 1
-                    && digit.chars().all(|c| c.is_ascii_digit() || ".,<-".contains(c)) =>
-            {
-                self.typed.update(|typed| typed.push_str(digit));
+            one if self.takes_character(one) => {
+                self.typed.update(|typed| typed.push_str(one));
                 return true;
             }
             _ => return false,
@@ -238,6 +235,14 @@ impl Lab {
         self.cursor.set(Some((at.0 + by.0, at.1 + by.1)));
         self.tool_moved(&self.keyboard_pointer(size));
         true
+    }
+
+    /// Whether a key adds to what is typed for a tool: a digit and its signs; behind one a unit, too.
+    fn takes_character(self, key: &str) -> bool {
+        let mut characters = key.chars();
+        let (Some(c), None) = (characters.next(), characters.next()) else { return false };
+        let is_begun = self.typed.with_untracked(|typed| !typed.is_empty());
+        c.is_ascii_digit() || ".,<-".contains(c) || is_begun && (c == ' ' || c.is_alphabetic())
     }
 
     /// Brings the pointer of the keyboard to a place of the sheet.
@@ -315,14 +320,19 @@ fn aside(view: ToolView) -> ToolView {
     ToolView { preview: drawing::Drawing::default(), caught: None, ..view }
 }
 
-/// Reads what was typed of a place: its coordinates on the sheet, `120,40`.
-fn place(typed: &str) -> Option<(f64, f64)> {
-    let (x, y) = typed.split_once(',')?;
-    Some((x.parse().ok()?, y.parse().ok()?))
-}
-
-/// Reads what was typed of a length and, after `<`, of an angle in degrees.
-fn length_and_angle(typed: &str) -> (Option<f64>, Option<f64>) {
+/// The pointer with what was typed: coordinates on the sheet, `120,40`, or a length and, after `<`, an angle in degrees,
+/// `3 cm<45`; nothing where it is neither.
+fn pointed(typed: &str, pointer: Pointer) -> Option<Pointer> {
+    let is_empty = |text: &str| text.trim().is_empty();
+    if is_empty(typed) {
+        return Some(pointer);
+    }
+    if let Some((x, y)) = typed.split_once(',') {
+        let at = (x.trim().parse().ok()?, y.trim().parse().ok()?);
+        return Some(Pointer { at, alone: true, ..pointer });
+    }
     let (length, angle) = typed.split_once('<').unwrap_or((typed, ""));
-    (length.parse().ok(), angle.parse().ok())
+    let angle = if is_empty(angle) { None } else { Some(angle.trim().parse().ok()?) };
+    let length = if is_empty(length) { None } else { Some(TypedLength::read(length)?) };
+    Some(Pointer { length, angle, ..pointer })
 }

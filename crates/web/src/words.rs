@@ -450,6 +450,11 @@ pub fn typed_for_tool(typed: &str) -> String {
     format!("{what} {typed}: Enter sets it, Backspace takes a digit back")
 }
 
+/// What was typed for a tool and is nothing that it takes.
+pub fn no_length(typed: &str) -> String {
+    format!("`{typed}` is no length; type 30, 3 cm, 30<45 or a place, 120,40")
+}
+
 /// What is asked of a dimension.
 pub fn value_of(label: &str) -> String {
     format!("Value of the {label}")

@@ -545,3 +545,13 @@ async fn a_column_of_a_file_beside_the_document_says_what_is_allowed() {
     enter(&visit, "40, 0").await;
     has(&visit, "d = 3 mm").await;
 }
+
+#[tokio::test]
+async fn a_box_is_drawn_by_one_drag_while_a_program_is_recorded() {
+    let visit = hands::begin().await;
+    record(&visit, "Plate", &[]).await;
+    press(&visit, "[data-action='tool-rectangle']").await;
+    visit.until("document.querySelector('.prompt')").await;
+    hands::drag(&visit, (500.0, 500.0), (700.0, 380.0)).await;
+    visit.until("/rectangle = Rectangle.between\\(/.test(window.__thinglab.state().text)").await;
+}

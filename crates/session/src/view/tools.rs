@@ -10,11 +10,44 @@ pub struct Pointer {
     /// Whether it finds nothing: no joints, no guides.
     pub alone: bool,
     /// A length that was typed: the place is so far from the last one, in the pointer's direction.
-    pub length: Option<f64>,
+    pub length: Option<TypedLength>,
     /// An angle that was typed, in degrees: the direction from the last place, turned left from the right.
     pub angle: Option<f64>,
     /// The grid to which a free place of a construction goes, on the sheet: 1, 2 or 5 of a power of ten; 0 for none.
     pub grid: f64,
+}
+
+/// A length as it was typed: `30`, `3 cm`.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct TypedLength {
+    /// The number.
+    pub number: f64,
+    /// Its unit; a bare number is one of the sheet.
+    pub unit: Option<&'static str>,
+}
+
+/// The units in which one types how long something is drawn.
+const LENGTHS: [&str; 11] = ["nm", "um", "mm", "cm", "dm", "m", "km", "in", "ft", "yd", "mi"];
+
+impl TypedLength {
+    /// Reads a number, and the unit of a length after it; nothing where it is something else.
+    pub fn read(typed: &str) -> Option<Self> {
+        let end = typed.find(|c: char| c.is_alphabetic()).unwrap_or(typed.len());
+        let (number, unit) = typed.split_at(end);
+        let unit = match unit.trim() {
+            "" => None,
+            "µm" | "μm" => Some("um"),
+            unit => Some(*LENGTHS.iter().find(|known| **known == unit)?),
+        };
+        let number = number.trim().parse().ok().filter(|number: &f64| number.is_finite())?;
+        Some(Self { number, unit })
+    }
+}
+
+impl From<f64> for TypedLength {
+    fn from(number: f64) -> Self {
+        Self { number, unit: None }
+    }
 }
 
 /// Which way along what a key goes through.

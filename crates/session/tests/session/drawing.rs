@@ -2,7 +2,7 @@
 
 use crate::desk::{Desk, at, gallery};
 use session::Command;
-use session::view::{Along, ClassPlan, Pointer, ToolView};
+use session::view::{Along, ClassPlan, Pointer, ToolView, TypedLength};
 
 /// A pointer of a mouse on a sheet at 100 %.
 fn pointer(x: f64, y: f64) -> Pointer {
@@ -118,10 +118,33 @@ fn a_length_that_is_typed_holds() {
     let mut desk = Desk::of("use geometry\n");
     desk.session.take_tool(desk.id, "Line").expect("a tool");
     click(&mut desk, &pointer(0.0, 0.0));
-    click(&mut desk, &Pointer { length: Some(50.0), ..pointer(6.0, 8.0) });
+    click(&mut desk, &Pointer { length: Some(50.0.into()), ..pointer(6.0, 8.0) });
     holds(&desk);
     assert_eq!(desk.place("line.p2"), (30.0, 40.0));
     assert_eq!(desk.session.status(desk.id).freedom, 3);
+}
+
+#[test]
+fn a_length_is_typed_with_its_unit_while_one_draws() {
+    assert_eq!(TypedLength::read("12.5"), Some(12.5.into()));
+    assert_eq!(TypedLength::read("3 cm"), Some(TypedLength { number: 3.0, unit: Some("cm") }));
+    assert_eq!([TypedLength::read("3 furlong"), TypedLength::read("cm")], [None, None]);
+    let drawn = |text: &str, number: f64, unit: &'static str| {
+        let mut desk = Desk::of(text);
+        desk.session.take_tool(desk.id, "Line").expect("a tool");
+        click(&mut desk, &pointer(0.0, 0.0));
+        let length = Some(TypedLength { number, unit: Some(unit) });
+        click(&mut desk, &Pointer { length, ..pointer(6.0, 8.0) });
+        holds(&desk);
+        (desk.place("line.p2"), desk.session.text(desk.id).source)
+    };
+    let (place, text) = drawn("use geometry\nunit mm\n", 5.0, "cm");
+    assert_eq!(place, (30.0, 40.0));
+    assert!(text.contains("line.length = 5 cm"), "{text}");
+    // a sheet without a unit takes over the one that is typed
+    let (place, text) = drawn("use geometry\n", 50.0, "mm");
+    assert_eq!(place, (30.0, 40.0));
+    assert!(text.contains("unit mm\n") && text.contains("line.length = 50 mm"), "{text}");
 }
 
 #[test]
@@ -315,7 +338,7 @@ fn a_typed_length_is_meant_in_the_unit_of_the_document() {
         let mut desk = Desk::of(&format!("use geometry\nunit {unit}\n"));
         desk.session.take_tool(desk.id, "Line").expect("a tool");
         click(&mut desk, &pointer(0.0, 0.0));
-        click(&mut desk, &Pointer { length: Some(50.0), ..pointer(6.0, 8.0) });
+        click(&mut desk, &Pointer { length: Some(50.0.into()), ..pointer(6.0, 8.0) });
         holds(&desk);
         assert_eq!(desk.place("line.p2"), (30.0, 40.0), "{unit}");
         let text = desk.session.text(desk.id).source;
@@ -382,7 +405,7 @@ fn a_typed_angle_is_the_direction_of_the_line() {
     let mut desk = Desk::of("use geometry\n");
     desk.session.take_tool(desk.id, "Line").expect("a tool");
     click(&mut desk, &pointer(0.0, 0.0));
-    let typed = Pointer { length: Some(50.0), angle: Some(30.0), ..pointer(9.0, 1.0) };
+    let typed = Pointer { length: Some(50.0.into()), angle: Some(30.0), ..pointer(9.0, 1.0) };
     click(&mut desk, &typed);
     holds(&desk);
     let text = desk.text();

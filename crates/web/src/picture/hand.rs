@@ -40,7 +40,7 @@ enum Mode {
     Drag { offset: (f64, f64) },
     /// The sheet is dragged.
     Pan { last: (f64, f64) },
-    /// A tool has set something where the pointer was pressed.
+    /// A tool has set something where the pointer was pressed, or a construction has taken what is there.
     Tool { start: (f64, f64) },
     /// A rubber band is drawn for a program's loop.
     Band { start: (f64, f64) },
@@ -183,7 +183,8 @@ impl Hand {
             self.lab.draft_point(&self.pointer(at));
             // The keyboard stays with what is typed.
             e.prevent_default();
-            self.set_mode(Mode::Idle);
+            let goes_on = self.lab.wants_another_pick();
+            self.set_mode(if goes_on { Mode::Tool { start: at } } else { Mode::Idle });
         } else if e.button() == 0 && self.lab.tool.with_untracked(Option::is_some) {
             self.lab.tool_set(&self.pointer(at));
             self.set_mode(Mode::Tool { start: at });
@@ -297,8 +298,10 @@ impl Hand {
             Mode::Idle | Mode::Tool { .. } if self.lab.tool.with_untracked(Option::is_some) => {
                 self.lab.tool_moved(&self.pointer(at));
             }
+            Mode::Idle | Mode::Tool { .. } if self.lab.drafts() => {
+                self.lab.draft_hover(&self.pointer(at))
+            }
             Mode::Tool { .. } => {}
-            Mode::Idle if self.lab.drafts() => self.lab.draft_hover(&self.pointer(at)),
             Mode::Idle => self.lab.hover(self.pick_deeper(at)),
             Mode::Pressed { path, start } => {
                 if distance(at, start) >= STIR {
@@ -421,6 +424,9 @@ impl Hand {
         }
         match mode {
             // what is pressed, dragged and let go is set at both ends
+            Mode::Tool { start } if distance(start, at) > PULL && self.lab.drafts() => {
+                self.lab.draft_point(&self.pointer(at));
+            }
             Mode::Tool { start } if distance(start, at) > PULL => {
                 self.lab.tool_set(&self.pointer(at));
             }
