@@ -263,9 +263,12 @@ fn flatten<'a>(
             }
         }
         Meaning::Opaque(_) => {
-            return Err(Trouble::not_yet(match opening.meets_programs {
-                true => "what is drawn here follows from its program one way only",
-                false => "a computed text cannot be edited yet",
+            return Err(Trouble::not_yet(match (opening.meets_counts, opening.meets_programs) {
+                (true, _) => {
+                    "how many there are follows one way only: this is not edited through it"
+                }
+                (false, true) => "what is drawn here follows from its program one way only",
+                (false, false) => "a computed text cannot be edited yet",
             }));
         }
         Meaning::Lambda(_) => return Err(Trouble::wrong("a function cannot be edited")),

@@ -8,7 +8,7 @@ use crate::evaluate::{Answer, Opening};
 use crate::fault::Trouble;
 use crate::meaning::{Meaning, slots_of_expression};
 use expr::Var;
-use kernel::Primitive;
+use kernel::{Path, Primitive, SlotId, ThingId};
 
 /// Returns a whole number, if it is one that counts.
 pub(crate) fn whole(x: f64) -> Option<i64> {
@@ -25,7 +25,7 @@ impl<'a> Opening<'a> {
         let [from, to] = match [self.constant(&ends[0]), self.constant(&ends[1])] {
             [Some(from), Some(to)] => [from, to],
             _ => {
-                self.meets_programs = true;
+                (self.meets_programs, self.meets_counts) = (true, true);
                 // how many there are no other thing says
                 self.reach.looks_around();
                 let is_number = |end: &Meaning<'a>| matches!(end, Meaning::Number(_));
@@ -50,18 +50,45 @@ impl<'a> Opening<'a> {
     /// Decides what a count is at the state whose courses are taken: by the whole numbers that it follows from, else
     /// as it comes out.
     fn count_at(&mut self, count: &Meaning<'a>) -> Result<f64, Trouble> {
-        let place = || Block { of: None, path: String::new(), what: Decided::Parameter };
         let id = self.expression(count)?;
         let slots = slots_of_expression(&self.arena, id);
-        let is_whole = |slot| self.structure.slots[slot].primitive == Primitive::Integer;
-        let Some(at) = self.at.filter(|_| slots.iter().copied().all(is_whole)) else {
-            return self.decide(count, place());
-        };
-        for slot in slots {
-            let (of, is) = (self.arena.var(Var(slot.0)), at.numbers[slot]);
-            self.decisions.push(Decision { of, is, place: place() });
-            self.counted.insert(slot, is);
+        let first = slots.first().map(|&slot| self.structure.slots[slot].thing);
+        let Some(at) = self.at else { return Err(Trouble::wrong("no course")) };
+        let value = self.arena.evaluate(id, at.numbers.as_slice());
+        if value.is_nan() {
+            let of = first.map(|of| format!(": it follows from {}", self.path_of(of)));
+            let message = format!("how many there are has no value{}", of.unwrap_or_default());
+            return Err(Trouble::wrong(message));
         }
-        Ok(self.arena.evaluate(id, at.numbers.as_slice()))
+        let is_whole = |&slot: &SlotId| self.structure.slots[slot].primitive == Primitive::Integer;
+        if !slots.iter().all(is_whole) {
+            let place = Block { of: first, path: String::new(), what: Decided::Count };
+            return self.decide(count, place);
+        }
+        for slot in slots {
+            self.note_count(slot, at.numbers[slot]);
+        }
+        Ok(value)
+    }
+
+    fn path_of(&self, thing: ThingId) -> Path {
+        self.structure.path(self.document, thing)
+    }
+
+    /// Notes that a whole number counts something in the rule at hand.
+    fn note_count(&mut self, slot: SlotId, is: f64) {
+        let of = self.arena.var(Var(slot.0));
+        let thing = Some(self.structure.slots[slot].thing);
+        let place = Block { of: thing, path: String::new(), what: Decided::Count };
+        self.decisions.push(Decision { of, is, place });
+        self.counted.insert(slot, is);
+    }
+
+    /// Notes what counts in a rule that is opened once more.
+    pub(crate) fn take_known_counts(&mut self) {
+        for (slot, is) in std::mem::take(&mut self.known_counts) {
+            self.reach.looks_around();
+            self.note_count(slot, is);
+        }
     }
 }

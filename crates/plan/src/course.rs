@@ -3,13 +3,14 @@
 //! A rule says what it says on the course that was taken at some state. Each decision on the way is kept: while all
 //! come out as they did, the rule is right. Where one comes out otherwise the rules are opened anew.
 
+use crate::counting::whole;
 use crate::evaluate::Opening;
 use crate::planner::{Model, Planner};
 use crate::rule::Formula;
 use expr::ExprId;
-use kernel::{SlotId, ThingId, Values};
+use kernel::{SlotId, Structure, ThingId, Values};
 use solve::Patterns;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// What is decided.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
@@ -22,12 +23,14 @@ pub enum Decided {
     Demand,
     /// A parameter that is a whole number or a truth value.
     Parameter,
+    /// What says how many there are.
+    Count,
 }
 
 /// Where in a program something is decided.
 #[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub(crate) struct Block {
-    /// The thing whose program it is; none in a program that is called.
+    /// The thing whose program it is, or the number that counts; none in a program that is called.
     pub(crate) of: Option<ThingId>,
     /// The step, the demand or the parameter, as it is reached from there; an `if` without a name by its block.
     pub(crate) path: String,
@@ -59,13 +62,13 @@ impl Guard {
 /// Another course than before.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct CourseChange {
-    /// The thing whose program takes it.
+    /// The thing whose program takes it; the number that counts.
     pub of: ThingId,
     /// The step, the demand or the parameter, as it is reached from there.
     pub path: String,
     /// What is decided there.
     pub what: Decided,
-    /// How many turns a loop took; nothing for anything else.
+    /// How many turns a loop took, or what a count was; nothing for anything else.
     pub from: Option<u32>,
     /// How many it would take now.
     pub to: Option<u32>,
@@ -104,12 +107,53 @@ impl Planner {
         places.dedup();
         for place in places {
             let Some(of) = place.of else { continue };
-            let turns = |values| turns(model, of, values).get(&place.path).copied();
-            let (from, to) = (turns(before), turns(after));
+            let many = |values: &Values| match place.what {
+                Decided::Count => count(model, of, values),
+                _ => turns(model, of, values).get(&place.path).copied(),
+            };
+            let (from, to) = (many(before), many(after));
             changes.push(CourseChange { of, path: place.path.clone(), what: place.what, from, to });
         }
         changes
     }
+
+    /// Returns how everything is decided at some values: where, and the bits of what comes out.
+    pub(crate) fn decided_at(&self, guards: &[Guard], values: &Values) -> Vec<(Block, u64)> {
+        let patterns = self.plans.patterns();
+        let value = |guard: &Guard| guard.of.value(patterns, &values.numbers).to_bits();
+        guards.iter().map(|guard| (guard.place.clone(), value(guard))).collect()
+    }
+
+    /// Returns true if one of these numbers decides a count, and comes out otherwise.
+    pub(crate) fn counts_otherwise(
+        &self,
+        structure: &Structure,
+        guards: &[Guard],
+        numbers: &BTreeSet<SlotId>,
+        values: &Values,
+    ) -> bool {
+        let mut broken = guards.iter().filter(|g| !g.holds(self.plans.patterns(), values));
+        broken.any(|guard| {
+            guard.place.what == Decided::Count && is_of(structure, guard.place.of, numbers)
+        })
+    }
+}
+
+impl CourseChange {
+    /// Returns true for a count that is one of some numbers: whoever edits these knows.
+    pub(crate) fn is_of(&self, structure: &Structure, numbers: &BTreeSet<SlotId>) -> bool {
+        self.what == Decided::Count && is_of(structure, Some(self.of), numbers)
+    }
+}
+
+fn is_of(structure: &Structure, thing: Option<ThingId>, numbers: &BTreeSet<SlotId>) -> bool {
+    thing.and_then(|thing| structure.slot_of(thing)).is_some_and(|slot| numbers.contains(&slot))
+}
+
+/// Returns what a number counts, where it is a whole one.
+fn count(model: Model<'_>, of: ThingId, values: &Values) -> Option<u32> {
+    let slot = model.structure.slot_of(of)?;
+    whole(values.numbers[slot]).and_then(|n| u32::try_from(n).ok())
 }
 
 /// Returns how many turns the loops of a thing's program take.

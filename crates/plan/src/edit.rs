@@ -138,6 +138,7 @@ impl Planner {
         if self.take_course(model, values) {
             // which course holds is not found: what programs draw is tested, and nothing follows from it
             self.lower_on(model, None);
+            self.without_course();
             report = self.open_once(model, values, host);
         }
         report
@@ -273,7 +274,7 @@ impl Planner {
         self.satisfy_where(model, is_other, values, host)
     }
 
-    fn satisfy_where(
+    pub(crate) fn satisfy_where(
         &mut self,
         model: Model<'_>,
         counts: impl Fn(&Task) -> bool,
@@ -306,13 +307,14 @@ impl Planner {
         self.take_course(model, values);
         let start = values.clone();
         let (mut on, mut first) = (start.clone(), None);
-        let mut tried: Vec<Vec<CourseChange>> = Vec::new();
+        let mut tried = Vec::new();
         loop {
             let aim = match self.aim(model, (&start, &on), kind, targets) {
                 Ok(aim) => aim,
                 Err(refusal) => return self.refused(model, &start, refusal),
             };
             let guards = [&aim.guards[..], &self.lowering.guards].concat();
+            let edited = aim.slots();
             let report = match kind {
                 EditKind::Move => move_at_once(self, model, values, aim, host),
                 EditKind::Set => self.set(model, values, &aim, host),
@@ -323,19 +325,21 @@ impl Planner {
             }
             let first: &[Guard] = first.get_or_insert_with(|| guards.clone());
             if self.is_on_course(&guards, values) {
-                let courses = self.course_changes(model, first, (&start, values));
+                let mut courses = self.course_changes(model, first, (&start, values));
+                courses.retain(|change| !change.is_of(model.structure, &edited));
                 return EditReport { courses, ..report };
             }
             let changes = self.course_changes(model, &guards, (&start, values));
+            let decided = self.decided_at(&guards, values);
             on.clone_from(values);
             values.clone_from(&start);
-            if tried.len() == COURSES || tried.contains(&changes) {
+            if tried.len() == COURSES || tried.contains(&decided) {
                 return match kind {
                     EditKind::Move => self.move_on_course(model, values, targets, host),
                     EditKind::Set => self.refused(model, &start, RefusalReason::Course(changes)),
                 };
             }
-            tried.push(changes);
+            tried.push(decided);
             self.take_course(model, &on);
         }
     }

@@ -52,6 +52,10 @@ pub(crate) struct Opening<'a> {
     pub(crate) decisions: Vec<Decision>,
     /// Whole numbers that count something in the rule at hand: they are as they stand.
     pub(crate) counted: BTreeMap<SlotId, f64>,
+    /// The same of the next rule, where that is known before it is opened.
+    pub(crate) known_counts: BTreeMap<SlotId, f64>,
+    /// True if the rule at hand speaks of as many as a value says.
+    pub(crate) meets_counts: bool,
     /// True if the rule at hand speaks of as many as a value says, and there is no state that has one.
     pub(crate) awaits_count: bool,
     /// True once a rule spoke of what a program draws, or of as many as a value says.
@@ -91,6 +95,8 @@ impl<'a> Opening<'a> {
             opened: Vec::new(),
             decisions: Vec::new(),
             counted: BTreeMap::new(),
+            known_counts: BTreeMap::new(),
+            meets_counts: false,
             awaits_count: false,
             meets_programs: false,
             depth: 0,
@@ -292,10 +298,11 @@ impl<'a> Opening<'a> {
         self.opened.clear();
         self.decisions.clear();
         self.counted.clear();
-        self.awaits_count = false;
+        (self.awaits_count, self.meets_counts) = (false, false);
         self.terms = 0;
         self.depth = 0;
         self.nested = 0;
+        self.take_known_counts();
     }
 
     pub(crate) fn number(&mut self, value: f64) -> Meaning<'a> {

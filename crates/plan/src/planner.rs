@@ -2,7 +2,7 @@
 
 use crate::component::{Component, Net, Partition};
 use crate::edit::NotDecided;
-use crate::fault::Fault;
+use crate::fault::{Fault, Trouble};
 use crate::holds;
 use crate::host::Host;
 use crate::past::CameId;
@@ -11,7 +11,7 @@ use crate::recent::Recent;
 use crate::rule::{Rules, Source};
 use crate::task::{Alike, Holding, Locals, Setting, Task, Wish, at_rest, task};
 use crate::template::LoweringReport;
-use kernel::{Document, Form, SlotId, Structure, Values};
+use kernel::{Document, Form, OriginId, SlotId, Structure, Values};
 use solve::{Giver, Lean, Level, Mode, Modes, Plan, Runner, Scratch, System};
 use std::cell::RefCell;
 use std::collections::btree_map::Entry;
@@ -130,13 +130,28 @@ impl Planner {
         self.lower_on(model, Some(values));
         true
     }
+    /// Returns what cannot be planned on the course that is taken, besides what cannot be planned on any.
+    pub fn course_faults(&self) -> &[Fault] {
+        &self.lowering.course_faults
+    }
+    /// Notes that no course was found on which rules speak of as many as they say.
+    pub(crate) fn without_course(&mut self) {
+        let message = "how many this speaks of does not settle: it changes with what the rule does";
+        let mut lowering = (*self.lowering).clone();
+        let faults = lowering.awaiting.iter().map(|&o| Trouble::not_yet(message).at(o));
+        lowering.course_faults = faults.collect();
+        self.lowering = Rc::new(lowering);
+    }
     /// Lowers the rules on the course that programs take at these values.
     pub(crate) fn lower_on(&mut self, model: Model<'_>, values: Option<&Values>) {
         let faults = self.lowering.faults.clone();
-        let (rules, lowering) = self.plans.lower(model, values);
+        let (rules, mut lowering) = self.plans.lower(model, values);
+        let known: BTreeSet<OriginId> = faults.iter().map(|fault| fault.origin).collect();
+        lowering.course_faults = std::mem::replace(&mut lowering.faults, faults);
+        lowering.course_faults.retain(|fault| !known.contains(&fault.origin));
         self.net = Rc::new(Net::new(model.structure, &rules));
         self.rules = Rc::new(rules);
-        self.lowering = Rc::new(LoweringReport { faults, ..lowering });
+        self.lowering = Rc::new(lowering);
         (self.alike, self.recent) = (Alike::default(), Recent::default());
         (self.whole, self.resting) = (None, None);
         self.latest = Latest::default();

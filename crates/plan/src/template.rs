@@ -10,12 +10,14 @@ use crate::component::Groups;
 use crate::course::Guard;
 use crate::evaluate::Opening;
 use crate::fault::Fault;
-use crate::lower::{guard, held, hold, lower_constraint};
+use crate::lower::{Lowered, guard, held, hold, lower_constraint};
 use crate::planner::Model;
 use crate::reach::{Route, Routes, Trail};
 use crate::rule::{Formula, Position, Rules, Shape, ShapeId, Source, When};
 use base::IdVec;
-use kernel::{ClassId, ConstraintInstance, Document, SlotId, Strength, Structure, Values};
+use kernel::{
+    ClassId, ConstraintInstance, Document, OriginId, SlotId, Strength, Structure, Values,
+};
 use solve::{Level, Patterns, Span};
 
 /// How many ways of being built one constraint is remembered for.
@@ -191,7 +193,12 @@ impl Known {
 /// What was noted while rules were lowered.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct LoweringReport {
+    /// What cannot be planned, whatever the values are.
     pub(crate) faults: Vec<Fault>,
+    /// What besides cannot be planned on the course that is taken.
+    pub(crate) course_faults: Vec<Fault>,
+    /// The rules that are left out until there is a state that says how many they speak of.
+    pub(crate) awaiting: Vec<OriginId>,
     /// The courses that programs take in what the rules say.
     pub(crate) guards: Vec<Guard>,
     /// Whether some speak of what a program draws.
@@ -212,7 +219,7 @@ pub(crate) fn lower_all(
     let structure = model.structure;
     let shapes = std::mem::take(&mut known.shapes);
     let mut rules = Rules::over(shapes, structure.constraints.len());
-    let mut faults = Vec::new();
+    let (mut faults, mut awaiting) = (Vec::new(), Vec::new());
     let mut guarded = Vec::new();
     let mut opening = Opening::new(model.document, structure);
     opening.at = on;
@@ -232,9 +239,13 @@ pub(crate) fn lower_all(
         if !is_set && known.follow(structure, instance, source, &mut trail, &mut rules) {
             continue;
         }
-        let (lowered, is_guard) = match lower_constraint(&mut opening, patterns, instance) {
+        let (lowered, is_guard) = match lower_counted(&mut opening, patterns, instance) {
             // how many it speaks of is known once the document has values
-            _ if opening.awaits_count => continue,
+            _ if opening.awaits_count => {
+                let class = &model.document.classes[instance.class];
+                awaiting.push(class.constraints[instance.index as usize].origin);
+                continue;
+            }
             Ok(lowered) => {
                 let is_guard = !lowered.things.is_empty();
                 let said_here = |when: Vec<When<SlotId>>| {
@@ -269,7 +280,27 @@ pub(crate) fn lower_all(
     guard(structure, &mut rules, &guarded);
     lower_stays(model, &mut rules);
     let meets_programs = opening.meets_programs;
-    (rules, LoweringReport { faults, guards, meets_programs, is_on_course: on.is_some() })
+    let (course_faults, is_on_course) = (Vec::new(), on.is_some());
+    let report =
+        LoweringReport { faults, course_faults, awaiting, guards, meets_programs, is_on_course };
+    (rules, report)
+}
+
+/// Lowers a constraint; once more where it spoke of a number before that counted something: what counts is as it
+/// stands, on either side of a rule.
+fn lower_counted(
+    opening: &mut Opening<'_>,
+    patterns: &mut Patterns,
+    instance: ConstraintInstance,
+) -> Result<Lowered, Fault> {
+    let lowered = lower_constraint(opening, patterns, instance)?;
+    let is_counted = |slot: &SlotId| opening.counted.contains_key(slot);
+    let speaks_of_counted = |shape: &Shape<SlotId>| shape.numbered().1.iter().any(is_counted);
+    if opening.counted.is_empty() || !lowered.shapes.iter().any(speaks_of_counted) {
+        return Ok(lowered);
+    }
+    opening.known_counts = opening.counted.clone();
+    lower_constraint(opening, patterns, instance)
 }
 
 fn lower_stays(model: Model<'_>, rules: &mut Rules) {

@@ -147,6 +147,7 @@ fn begin_several(open: &mut Open, paths: &[Path]) -> Result<(f64, f64), Refusal>
         _ => false,
     };
     let mut moving: Vec<(Path, ThingId)> = Vec::new();
+    let mut computed: Vec<(&Path, Term)> = Vec::new();
     for path in paths.iter().filter(|path| !is_figure(path)) {
         match apply::aim(&state, path)? {
             Aim::Thing(thing) if !places(&state.structure, &[thing]).is_empty() => {
@@ -157,9 +158,10 @@ fn begin_several(open: &mut Open, paths: &[Path]) -> Result<(f64, f64), Refusal>
                     format!("{path} has no place of its own: it is not dragged with others");
                 return Err(words::refuse(message));
             }
-            Aim::Term(_) => {}
+            Aim::Term(term) => computed.push((path, term)),
         }
     }
+    all_go_along(&state, &open.planner, &moving, &computed)?;
     let alone = match moving.as_slice() {
         [] => paths.first(),
         [(path, _)] => Some(path),
@@ -177,6 +179,43 @@ fn begin_several(open: &mut Open, paths: &[Path]) -> Result<(f64, f64), Refusal>
     let handle = drag.handle();
     open.drag = Some(drag);
     Ok(handle)
+}
+
+/// Finds out whether all that is computed follows from what moves; where nothing moves by itself, from what the first
+/// follows from.
+///
+/// # Errors
+/// One does not.
+fn all_go_along(
+    state: &State,
+    planner: &Planner,
+    moving: &[(Path, ThingId)],
+    computed: &[(&Path, Term)],
+) -> Result<(), Refusal> {
+    let slots = moving.iter().flat_map(|(_, thing)| state.structure.slots_under(*thing));
+    let moved: BTreeSet<SlotId> = match (moving, computed.first()) {
+        ([], Some((_, first))) => read_by(state, first),
+        _ => slots.collect(),
+    };
+    if computed.is_empty() {
+        return Ok(());
+    }
+    let moved = planner.tied_to(moved);
+    match computed.iter().find(|(_, term)| read_by(state, term).is_disjoint(&moved)) {
+        Some((path, _)) => {
+            let message =
+                format!("{path} is computed from none of these: it is not dragged with them");
+            Err(words::refuse(message))
+        }
+        None => Ok(()),
+    }
+}
+
+/// Returns the numbers that an expression follows from.
+fn read_by(state: &State, term: &Term) -> BTreeSet<SlotId> {
+    let evaluator = state.evaluator(&state.values);
+    let (_, read) = evaluator.listening(|| evaluator.evaluate(term, DOCUMENT));
+    read.into_iter().collect()
 }
 
 /// Begins a drag: of a number, of a place, or of things with all the places that they are made of.

@@ -16,6 +16,9 @@ use kernel::{ClassId, DOCUMENT, Handle, Path, SlotId, Step, Term, ThingId, Value
 use plan::{EditReport, Host, Planner, Press, Target};
 use std::collections::BTreeSet;
 
+/// How often the way to where a thing is flat is halved.
+const HALVINGS: usize = 40;
+
 /// A handle and what it keeps.
 #[derive(Clone)]
 struct Way {
@@ -215,6 +218,10 @@ impl Keeping {
         self.is_flat = false;
         let report = planner.drag(state.model(), press, values, &wished, host);
         let Some(turned) = self.turned(state, values) else { return report };
+        // what has no handles across is as good on every side
+        if !self.has_mirrors(&turned) {
+            return report;
+        }
         let Some(across) = self.beyond(&turned) else {
             return self.flat(state, planner, (press, values), (&wished, report), host);
         };
@@ -256,12 +263,64 @@ impl Keeping {
         }
         let mut there = values.clone();
         let found = planner.drag(state.model(), press, &mut there, &nearer, host);
-        if self.turned(state, &there).is_some() {
-            return report;
-        }
+        let found = match self.is_flat_or_not_turned(state, &there) {
+            true => found,
+            false => self.up_to_flat(state, planner, (press, &mut there), wished, host),
+        };
         *values = there;
         self.is_flat = true;
         EditReport { reached: false, ..found }
+    }
+
+    /// Follows the hand on the straight way from the press to what is wished, up to where it is dragged across.
+    fn up_to_flat(
+        &self,
+        state: &State,
+        planner: &mut Planner,
+        (press, values): (&mut Press, &mut Values),
+        wished: &[f64],
+        host: &mut dyn Host,
+    ) -> EditReport {
+        let dragged = place_at(state, &self.start, &self.ways[self.present].dragged);
+        let from: Vec<f64> = dragged.into_iter().flatten().chain(self.stays.clone()).collect();
+        let mut follow = |part: f64, values: &mut Values| {
+            let mid: Vec<f64> = from.iter().zip(wished).map(|(a, b)| a + part * (b - a)).collect();
+            values.clone_from(&self.start);
+            planner.drag(state.model(), press, values, &mid, host)
+        };
+        let (mut low, mut high) = (0.0, 1.0);
+        for _ in 0..HALVINGS {
+            let mid = 0.5 * (low + high);
+            follow(mid, values);
+            match self.turned(state, values) {
+                None => low = mid,
+                Some(_) => high = mid,
+            }
+        }
+        follow(low, values)
+    }
+
+    /// Returns true where the handle was not dragged across, or lies at what stays but for rounding.
+    fn is_flat_or_not_turned(&self, state: &State, values: &Values) -> bool {
+        let way = &self.ways[self.present];
+        let Some(side) = self.turned(state, values) else { return true };
+        let [kept] = way.keeps.as_slice() else { return true };
+        let place = |path| place_at(state, values, path).unwrap_or_default();
+        let (held, kept) = (place(&way.dragged), place(kept));
+        let pairs = side.iter().zip(&way.side).zip(held.iter().zip(&kept));
+        pairs.into_iter().all(|(pair, (&a, &b))| !is_turned(&pair) || base::number::close(a, b))
+    }
+
+    /// Returns true where the class has the handles across: one for each coordinate that is turned, alone.
+    fn has_mirrors(&self, turned: &[i8]) -> bool {
+        let side = &self.ways[self.present].side;
+        let is_across = |at: usize, way: &Way| {
+            let pairs = way.side.iter().zip(side).enumerate();
+            way.side.len() == side.len()
+                && pairs.into_iter().all(|(i, pair)| is_turned(&pair) == (i == at))
+        };
+        let coordinates = turned.iter().zip(side).enumerate().filter(|(_, pair)| is_turned(pair));
+        coordinates.into_iter().all(|(at, _)| self.ways.iter().any(|way| is_across(at, way)))
     }
 
     /// Returns on which side of what stays the handle that is held has come to, if it was dragged across it.

@@ -244,7 +244,12 @@ impl Session {
     pub fn release(&mut self, id: DocumentId) -> Result<Change, Refusal> {
         let (open, beside) = self.beside_others(id);
         let Some(drag) = open.drag.take() else { return Ok(Change::default()) };
-        let mut change = drag.release(open, &beside)?;
+        let state = open.state.clone();
+        let released = drag.release(open, &beside);
+        if released.is_err() {
+            open.planner.take_course(state.model(), &state.values);
+        }
+        let mut change = released?;
         if open.pane.is_some() && !change.edits.is_empty() {
             return Ok(self.carry_drag(id, change));
         }
@@ -516,7 +521,10 @@ impl Session {
     }
     /// Gives a drag up: all is as it was before the press.
     pub fn cancel(&mut self, id: DocumentId) {
-        self.document_mut(id).drag = None;
+        let open = self.document_mut(id);
+        open.drag = None;
+        let state = open.state.clone();
+        open.planner.take_course(state.model(), &state.values);
     }
     /// Finds the nearest grip within a distance on the sheet.
     pub fn pick(&self, id: DocumentId, at: (f64, f64), radius: f64) -> Option<Path> {

@@ -203,19 +203,7 @@ impl Structured {
         let Self { lowered, structure, .. } = &self;
         let model = Model { document: &lowered.document, structure };
         let (planner, unplanned) = Planner::new(model, plans);
-        // what is not there because its text is wrong is said of that text, and not of what speaks of it; so is a ring
-        // of messages
-        let is_wrong = lowered.diagnostics.iter().any(|d| d.severity == base::Severity::Error);
-        let is_ring = |d: &Diagnostic| d.code == plan::FaultKind::Endless.code();
-        let has_ring = lowered.diagnostics.iter().any(is_ring);
-        let follows = |f: &plan::Fault| match f.kind {
-            plan::FaultKind::WrongKind => is_wrong,
-            plan::FaultKind::Endless => has_ring,
-            plan::FaultKind::NotYet | plan::FaultKind::UnknownName | plan::FaultKind::Reference => {
-                false
-            }
-        };
-        let unplanned: Vec<plan::Fault> = unplanned.into_iter().filter(|f| !follows(f)).collect();
+        let unplanned = unplanned.into_iter().filter(|f| !follows(lowered, f)).collect();
         Planned { of: self, planner, unplanned }
     }
 }
@@ -230,6 +218,8 @@ impl Planned {
         let mut texts = Texts::knowing(&lowered.document, structure, &given);
         let double_roots = self.planner.open(model, &mut values, &mut texts).double_roots;
         crate::placing::place_layout(structure, &self.planner, &mut values);
+        let on_course = self.planner.course_faults().iter().filter(|f| !follows(lowered, f));
+        self.unplanned.extend(on_course.cloned());
         Solved { of: self, given, given_faults, values, double_roots }
     }
 }
@@ -276,6 +266,20 @@ impl Solved {
             state.diagnostics.sort_by_key(|d| (d.place.file, d.place.span.start));
         }
         (state, planner)
+    }
+}
+
+/// Returns true for a fault that follows from what else is told: what is not there because its text is wrong is said of
+/// that text, and not of what speaks of it; so is a ring of messages.
+fn follows(lowered: &Lowered, fault: &plan::Fault) -> bool {
+    let is_wrong = |d: &Diagnostic| d.severity == base::Severity::Error;
+    let is_ring = |d: &Diagnostic| d.code == plan::FaultKind::Endless.code();
+    match fault.kind {
+        plan::FaultKind::WrongKind => lowered.diagnostics.iter().any(is_wrong),
+        plan::FaultKind::Endless => lowered.diagnostics.iter().any(is_ring),
+        plan::FaultKind::NotYet | plan::FaultKind::UnknownName | plan::FaultKind::Reference => {
+            false
+        }
     }
 }
 

@@ -89,6 +89,8 @@ pub(crate) fn course(state: &State, change: &plan::CourseChange) -> String {
         (Decided::Branch, ..) => format!("{path} draws another branch"),
         (Decided::Demand, ..) => format!("{path} is not met"),
         (Decided::Parameter, ..) => format!("{path} is another"),
+        (Decided::Count, Some(from), Some(to)) => format!("{path} counts {to}, not {from}"),
+        (Decided::Count, ..) => format!("what {path} counts is another number"),
     }
 }
 

@@ -6,8 +6,11 @@ use crate::aim::Aim;
 use crate::course::Guard;
 use crate::edit::{EditReport, Target};
 use crate::host::Host;
-use crate::planner::{Model, Planner};
+use crate::planner::{Model, Planner, Unmet, is_any_new};
+use crate::rule::Source;
+use crate::task::Task;
 use kernel::{Term, ThingId, Values};
+use std::collections::BTreeSet;
 
 /// How many other courses are kept for when the drag comes back to them.
 const KEPT: usize = 4;
@@ -31,6 +34,15 @@ pub(super) struct Courses {
     others: Vec<Press>,
     /// The one that is followed; nothing while that of the press is.
     present: Option<usize>,
+    /// What did not hold at the press, once it was asked.
+    unmet: Option<Vec<Unmet>>,
+}
+
+impl Courses {
+    fn targets(&self) -> (Vec<Target<'_>>, Vec<Target<'_>>) {
+        let targets = self.targets.iter().map(Owned::target).collect();
+        (targets, self.kept.iter().map(Owned::target).collect())
+    }
 }
 
 #[derive(Clone, Debug)]
@@ -88,6 +100,7 @@ impl Planner {
             rules: self.lowering.guards.clone(),
             others: Vec::new(),
             present: None,
+            unmet: None,
         }))
     }
 
@@ -107,7 +120,17 @@ impl Planner {
         }
         let there = values.clone();
         let wanted: Vec<f64> = press.aim.wanted.iter().flatten().copied().collect();
-        // what rules say of another course is not planned in the midst of a drag
+        if self.counts_otherwise(model.structure, &courses.rules, &press.aim.alone, &there) {
+            let way = (&mut *press, &mut *courses);
+            if let Some(found) = self.on_its_count(model, way, &wanted, values, host) {
+                let mut changes = self.course_changes(model, &guards, (&courses.start, values));
+                changes.retain(|change| !change.is_of(model.structure, &press.aim.alone));
+                return EditReport { courses: changes, ..found };
+            }
+            let start = courses.start.clone();
+            self.press_on(model, (&mut *press, &mut *courses), &start);
+        }
+        // what other rules say of another course is not planned in the midst of a drag
         if self.is_on_course(&courses.rules, &there)
             && let Some(found) = self.on_another(model, courses, &wanted, values, &there, host)
         {
@@ -136,8 +159,7 @@ impl Planner {
                 return found;
             }
         }
-        let targets: Vec<Target<'_>> = courses.targets.iter().map(Owned::target).collect();
-        let kept: Vec<Target<'_>> = courses.kept.iter().map(Owned::target).collect();
+        let (targets, kept) = courses.targets();
         let aim = self.aim_keeping(model, (&courses.start, there), &targets, &kept).ok()?;
         if courses.others.iter().any(|other| other.aim.wishes == aim.wishes) {
             return None;
@@ -149,6 +171,63 @@ impl Planner {
         courses.others.push(other);
         let at = courses.others.len() - 1;
         self.on_kept(model, (courses, at), wanted, values, host)
+    }
+
+    /// Presses anew, from where the press was, on the course that is taken at some values.
+    fn press_on(
+        &mut self,
+        model: Model<'_>,
+        (press, courses): (&mut Press, &mut Courses),
+        on: &Values,
+    ) -> Option<()> {
+        self.take_course(model, on);
+        let (targets, kept) = courses.targets();
+        let aim = self.aim_keeping(model, (&courses.start, on), &targets, &kept).ok()?;
+        *press = self.press_aim(model, &courses.start, aim);
+        courses.rules.clone_from(&self.lowering.guards);
+        courses.others.clear();
+        Some(())
+    }
+
+    /// Follows a drag of what counts: rules that speak of so many are opened for as many as it says, and what they
+    /// speak of follows. Nothing where they do not hold then.
+    fn on_its_count(
+        &mut self,
+        model: Model<'_>,
+        (press, courses): (&mut Press, &mut Courses),
+        wanted: &[f64],
+        values: &mut Values,
+        host: &mut dyn Host,
+    ) -> Option<EditReport> {
+        // of what did not hold at the press nothing is asked
+        let unmet = match courses.unmet.take() {
+            Some(unmet) => unmet,
+            None => self.unmet(model, self.all_rules(), &courses.start, host),
+        };
+        let unmet = courses.unmet.insert(unmet).clone();
+        let there = values.clone();
+        self.press_on(model, (&mut *press, &mut *courses), &there)?;
+        values.clone_from(&courses.start);
+        press.wish(wanted);
+        let report = self.pull_all(model, press, values, host);
+        let known: BTreeSet<Source> = unmet.iter().map(|unmet| unmet.source).collect();
+        let now = self.unmet(model, self.all_rules(), values, host).into_iter();
+        let new: BTreeSet<Source> =
+            now.map(|unmet| unmet.source).filter(|source| !known.contains(source)).collect();
+        let (rules, own) = (self.rules.clone(), press.reach().collect::<BTreeSet<_>>());
+        let follows = |task: &Task| {
+            let component = &task.component;
+            !component.slots().iter().any(|slot| own.contains(slot))
+                && component.rules().iter().any(|&r| new.contains(&rules.get(r).source))
+        };
+        self.satisfy_where(model, follows, values, host);
+        let guards = [&press.aim.guards[..], &courses.rules].concat();
+        let now = self.unmet(model, self.all_rules(), values, host);
+        (self.is_on_course(&guards, values) && !is_any_new(&now, &unmet)).then_some(report)
+    }
+
+    fn all_rules(&self) -> std::ops::Range<u32> {
+        0..self.rules.len() as u32
     }
 
     /// Follows a drag on one of the courses that are kept. Nothing where it leaves that.

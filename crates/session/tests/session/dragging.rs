@@ -509,3 +509,117 @@ fn a_list_that_a_handle_keeps_stays_place_by_place() {
     assert_eq!(desk.number("fan.half"), 6.0);
     assert_eq!(desk.place("fan.ends[1]"), (10.0, 35.0));
 }
+
+#[test]
+fn what_is_computed_from_something_else_is_not_left_behind_in_silence() {
+    let mut desk = Desk::of(
+        "use geometry\nhex: RegularPolygon { center = (0, 0)  corner = (50, 0) }\nq: Point = (90, 90)\n",
+    );
+    let refused = desk.session.press_all(desk.id, &["hex.corners[3]", "q"].map(at));
+    let message = refused.expect_err("the corner would stay").message;
+    assert!(message.starts_with("hex.corners[3] is computed from none of these"), "{message}");
+    let together = desk.session.press_all(desk.id, &["hex.corners[3]", "hex.center"].map(at));
+    together.expect("the corner goes along with the centre");
+}
+
+#[test]
+fn a_free_pivot_is_no_wall() {
+    let mut desk = Desk::of(
+        "use geometry\nclass Arrow {\n    base: Point = (0, 0)\n    tip: Point = (30, 20)\n    handle tip keeps base\n    handle base keeps tip\n}\narrow: Arrow\n",
+    );
+    for to in [(-30.0, 20.0), (-30.0, -20.0), (30.0, -20.0), (0.0, 25.0)] {
+        assert!(desk.hold("arrow.tip", &[to]).reached, "{to:?}");
+        desk.session.release(desk.id).expect("it is kept");
+        assert_eq!(desk.place("arrow.tip"), to);
+        assert_eq!(desk.place("arrow.base"), (0.0, 0.0));
+        desk.undo();
+    }
+}
+
+#[test]
+fn a_rectangle_whose_sides_have_a_sum_is_not_turned_inside_out() {
+    let mut desk = Desk::of(
+        "use geometry\nbox: Rectangle { corner = (0, 0)  width = 4  height = 6 }\nanchor box.corner\n\
+         constraint box.width + box.height = 10\n",
+    );
+    let there = desk.hold("box.far", &[(-10.0, 30.0)]);
+    let message = there.message.unwrap_or_default();
+    assert!(message.contains("inside out"), "{message}");
+    desk.session.release(desk.id).expect("it is kept");
+    let [x, y, width, height] = sizes(&desk, "box");
+    assert_eq!([x, y], [0.0, 0.0]);
+    assert!((0.0..1e-6).contains(&width) && (height - 10.0).abs() < 1e-6, "{width}, {height}");
+}
+
+const TOLD: &str = "use geometry\ntold: RegularPolygon { center = (0, 0)  corner = (50, 0) }\n\
+                    constraint long: told.edges[1].length = 30\n";
+
+#[test]
+fn a_number_that_counts_is_dragged_and_what_speaks_of_so_many_follows() {
+    let mut desk = Desk::of(TOLD);
+    for (wished, came) in [(7.0, 7.0), (4.0, 4.0), (6.0, 6.0), (9.0, 9.0)] {
+        desk.session.press(desk.id, &at("told.sides")).expect("it can be dragged");
+        for to in [8.0, wished] {
+            let state = desk.session.drag(desk.id, (to, 0.0));
+            assert!(state.reached && state.modes.is_empty(), "{to}: {state:?}");
+            assert!((desk.number("told.side") - 30.0).abs() < 1e-9, "{to}");
+        }
+        desk.session.release(desk.id).expect("it is kept");
+        assert_eq!(desk.number("told.sides"), came);
+        assert!((desk.number("told.side") - 30.0).abs() < 1e-9, "{wished}");
+    }
+    let before = desk.moment();
+    desk.hold("told.sides", &[(5.0, 0.0)]);
+    desk.session.cancel(desk.id);
+    assert_eq!(desk.moment(), before);
+    desk.drag("told.corners[2]", &[(10.0, 80.0)]);
+    assert!((desk.number("told.side") - 30.0).abs() < 1e-9);
+}
+
+#[test]
+fn a_count_that_stops_a_drag_is_named() {
+    let mut desk = Desk::of(
+        "use geometry\nhex: RegularPolygon { center = (0, 0)  corner = (30, 0) }\nanchor hex.corner\n\
+         anchor hex.center\nconstraint hex.edges[1].length = 30\n",
+    );
+    let state = desk.hold("hex.sides", &[(7.0, 0.0)]);
+    let message = state.message.unwrap_or_default();
+    assert!(!state.reached && message.contains("hex.sides counts 7, not 6"), "{message}");
+    desk.session.release(desk.id).expect("it is kept");
+    assert_eq!(desk.number("hex.sides"), 6.0);
+}
+
+#[test]
+fn a_rule_that_cannot_be_planned_for_as_many_as_there_are_is_told() {
+    let rule = |rule: &str| {
+        let text = format!(
+            "use geometry\nhex: RegularPolygon {{ center = (0, 0)  corner = (50, 0) }}\np: Point = (1, 2)\n\
+             k: Real = 2.5\nx: Real\nconstraint {rule}\n"
+        );
+        let desk = Desk::of(&text);
+        let told = desk.session.text(desk.id).diagnostics;
+        told.into_iter().map(|d| d.message).collect::<Vec<_>>()
+    };
+    let messages = rule("hex.corners[5] = p");
+    assert!(!messages.iter().any(|m| m.contains("element")), "{messages:?}");
+    let messages = rule("hex.corners[7] = p");
+    assert!(messages.iter().any(|m| m.contains("no element 7 in a list of 6")), "{messages:?}");
+    let messages = rule("(0..k).sum = x");
+    assert!(messages.iter().any(|m| m.contains("whole numbers")), "{messages:?}");
+}
+
+#[test]
+fn a_count_is_as_it_stands_on_either_side_of_a_rule() {
+    let came = ["hex.edges[0].length = 5 * hex.sides", "5 * hex.sides = hex.edges[0].length"]
+        .map(|rule| {
+            let mut desk = Desk::of(&format!(
+                "use geometry\nhex: RegularPolygon {{ center = (0, 0)  corner = (50, 0) }}\nconstraint {rule}\n"
+            ));
+            desk.move_to("hex.corners[2]", 10.0, 80.0).expect("it goes as far as it can");
+            (desk.number("hex.sides"), desk.number("hex.side"))
+        });
+    for (sides, side) in came {
+        assert_eq!(sides, 6.0);
+        assert!((side - 30.0).abs() < 1e-9, "{side}");
+    }
+}
