@@ -29,9 +29,8 @@ impl Host for FilesBeside {
         let plain = |part: &str| {
             !part.is_empty() && part.chars().all(|c| c.is_alphanumeric() || c == '_' || c == '-')
         };
-        if let Some(table) = name.strip_suffix(".csv") {
-            let is_beside = table.split('/').all(plain);
-            return fs::read_to_string(self.folder.join(name)).ok().filter(|_| is_beside);
+        if session::is_table_name(name) {
+            return read_file(&self.folder.join(name));
         }
         if !name.split('.').all(plain) {
             return None;
@@ -40,11 +39,17 @@ impl Host for FilesBeside {
             return Some(text.to_string());
         }
         let file = self.folder.join(name.replace('.', "/")).with_extension("thing");
-        fs::read_to_string(file).ok()
+        read_file(&file)
     }
     fn libraries(&self) -> Vec<String> {
         embedded::libraries()
     }
+}
+
+/// Reads a file beside a document; nothing where there is none, or something else by its name.
+fn read_file(path: &Path) -> Option<String> {
+    let is_file = fs::metadata(path).is_ok_and(|known| known.is_file());
+    is_file.then(|| fs::read_to_string(path).ok()).flatten()
 }
 
 /// An opened document.

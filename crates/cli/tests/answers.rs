@@ -33,6 +33,28 @@ fn what_is_said_names_the_file_as_it_was_asked_for() {
 }
 
 #[test]
+fn a_table_may_have_dots_and_spaces_in_its_name_and_lies_beside_its_document() {
+    let folder = std::env::temp_dir().join("thinglab-tables");
+    std::fs::create_dir_all(folder.join("inner")).expect("there is a folder for such files");
+    for table in ["inner/iso.4014.csv", "inner/M8 bolts.csv", "outside.csv"] {
+        std::fs::write(folder.join(table), "d [mm]\n8\n").expect("it is written");
+    }
+    std::fs::create_dir_all(folder.join("inner/none.csv")).expect("it is made");
+    for (table, wanted) in [
+        ("iso.4014.csv", ""),
+        ("M8 bolts.csv", ""),
+        ("../outside.csv", "`../outside.csv` is no name of a table"),
+        ("none.csv", "there is no table none.csv beside this one"),
+    ] {
+        let text = format!("program Bolt(d: Length in \"{table}\".d = 8 mm) {{ }}\n");
+        let said = printed("tables/inner/desk", &text, "check", &["--json"]);
+        let told: serde_json::Value = serde_json::from_str(&said).expect("it is JSON");
+        let message = &told["files"][0]["diagnostics"][0]["message"];
+        assert_eq!(message.as_str().unwrap_or_default(), wanted, "{table}: {told}");
+    }
+}
+
+#[test]
 fn a_picture_without_end_is_no_empty_drawing() {
     let endless =
         "class Leaf { size: Real = 3  picture => Leaf(size: size + 1).picture }\nl: Leaf\n";

@@ -2,6 +2,7 @@
 
 use crate::lower::{Lowerer, OWN};
 use crate::scope::Scope;
+use crate::tables::{self, Table};
 use base::{Diagnostic, FileId, Name, Place};
 use expr::dimension::Dimension;
 use kernel::{ClassId, OriginId, Part, Step, Vertical};
@@ -16,14 +17,20 @@ pub struct File {
     pub name: String,
     /// The text.
     pub text: Rc<str>,
-    /// Its tree.
+    /// Its tree; an empty one of a table.
     pub parse: Parse,
+    /// What is in it where it is a table and no text of the language, or why it cannot be read.
+    pub table: Option<Result<Rc<Table>, String>>,
 }
 
 /// What every thing answers, in the language itself.
 const OBJECT: &str = include_str!("object.thing");
 
 impl File {
+    /// Returns true for a table: what is used is a text of the language.
+    pub fn is_table(&self) -> bool {
+        self.table.is_some()
+    }
     /// Returns the members at the top of the text that are of these kinds.
     pub(crate) fn members_of(&self, kinds: &[SyntaxKind]) -> Vec<Member> {
         let file = self.parse.file();
@@ -42,7 +49,12 @@ impl Lowerer<'_> {
             _ => None,
         });
         let members = classes.flat_map(|body| body.members()).collect();
-        self.files.push(File { name: String::new(), text: OBJECT.into(), parse: parse.clone() });
+        self.files.push(File {
+            name: String::new(),
+            text: OBJECT.into(),
+            parse: parse.clone(),
+            table: None,
+        });
         self.declare_body(&Scope::of(id, self.object), members);
     }
 
@@ -54,7 +66,8 @@ impl Lowerer<'_> {
             self.changed = again.changed;
             return again.parse;
         }
-        let known = before.files.get(id).filter(|f| f.name == name && *f.text == *text);
+        let known =
+            before.files.get(id).filter(|f| f.name == name && !f.is_table() && *f.text == *text);
         known.map_or_else(|| syntax::parse(id, text), |f| f.parse.clone())
     }
 
@@ -74,7 +87,7 @@ impl Lowerer<'_> {
             }
         }
         self.warn_of_quotients(id, text, &parse);
-        self.files.push(File { name: name.into(), text: text.into(), parse });
+        self.files.push(File { name: name.into(), text: text.into(), parse, table: None });
         self.reading.push(id);
         let kinds = [SyntaxKind::Use, SyntaxKind::UnitLine, SyntaxKind::YLine];
         for member in self.files[id].members_of(&kinds) {
@@ -97,6 +110,13 @@ impl Lowerer<'_> {
     fn read_used(&mut self, load: &dyn Fn(&str) -> Option<String>, file: FileId, used: &ast::Use) {
         let Some(path) = used.path() else { return };
         let name = name_of(&path);
+        if tables::is_name(&name) {
+            let place = Place { file, span: path.span() };
+            let message = format!("{name} is a table, and no text of the language");
+            let hint =
+                format!("say a column of it where values are allowed: `d: Length in \"{name}\".d`");
+            return self.report(Diagnostic::error("not-a-text", place, message).hint(hint));
+        }
         let known = self.files.iter().find(|(_, f)| f.name == name).map(|(id, _)| id);
         if let Some(known) = known {
             if self.reading.contains(&known) {
@@ -114,6 +134,7 @@ impl Lowerer<'_> {
                 let message =
                     format!("there is no library and no file beside this one named {name}");
                 self.error("missing-file", file, path.span(), message);
+                self.missing.insert(name);
             }
         }
     }

@@ -64,6 +64,8 @@ pub struct Lowered {
     pub doc: String,
     /// The texts; the document's own is the first.
     pub files: IdVec<FileId, File>,
+    /// The names of the texts and the tables that were asked for in vain.
+    pub missing: BTreeSet<String>,
     /// The text with what members with an error said before; equal to the text without errors.
     pub(crate) effective: Rc<str>,
     /// The tree of the effective text.
@@ -141,6 +143,7 @@ fn lower_in(
     let Some(mut best) = best else { return first };
     best.files[OWN] = first.files[OWN].clone();
     best.diagnostics = first.diagnostics;
+    best.missing = first.missing;
     best
 }
 
@@ -202,6 +205,8 @@ pub(crate) struct Lowerer<'l> {
     /// What each member at the top of the text added, where that may be kept.
     pub(crate) added: Vec<Option<Added>>,
     pub(crate) files: IdVec<FileId, File>,
+    /// The names of the texts and the tables that were asked for in vain.
+    pub(crate) missing: BTreeSet<String>,
     /// The files that are being read, each by the one before it.
     pub(crate) reading: Vec<FileId>,
     /// The files whose things are being declared, each in the one before it.
@@ -303,6 +308,7 @@ impl<'l> Lowerer<'l> {
             changed: Vec::new(),
             added: Vec::new(),
             files: IdVec::new(),
+            missing: BTreeSet::new(),
             reading: Vec::new(),
             using: Vec::new(),
             file_things: BTreeMap::new(),
@@ -386,6 +392,7 @@ impl<'l> Lowerer<'l> {
             class_spans: classes.iter().map(|class| syntax::span_of(class.syntax())).collect(),
             patches: Vec::new(),
             files: self.files,
+            missing: self.missing,
             parts: self.parts,
             added: self.added,
             names: Rc::new(Names {
@@ -548,7 +555,7 @@ impl Lowered {
     }
     /// Returns true if the document uses a text of this name, itself or by what it uses.
     pub fn uses(&self, name: &str) -> bool {
-        self.files.iter().skip(1).any(|(_, file)| file.name == name)
+        self.files.iter().skip(1).any(|(_, file)| !file.is_table() && file.name == name)
     }
     /// Returns true if the document's own text declares a class of this name.
     pub fn declares_class(&self, name: &str) -> bool {

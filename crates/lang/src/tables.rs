@@ -5,11 +5,13 @@
 use crate::files::File;
 use crate::kinds::Kind;
 use crate::lower::Lowerer;
+use crate::numbers::{Wanted, read_literal};
 use crate::scope::Scope;
-use base::{Diagnostic, FileId, Place, Span};
-use kernel::Term;
+use base::{Diagnostic, FileId, Name, Place, Span};
+use indexmap::IndexMap;
 use kernel::program::Allowed;
-use std::fmt;
+use kernel::{ClassId, ClassKind, Document, Literal, Primitive, Term};
+use std::rc::Rc;
 use syntax::SyntaxKind;
 use syntax::ast::{AstNode, Expr, Member, TextExpr, Word};
 
@@ -41,26 +43,85 @@ impl Column {
     }
 }
 
-/// Why a column gives no values.
+/// A table as it is read.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub enum NoColumn {
-    /// The text is no table.
-    Unreadable(String),
-    /// It has other columns.
-    Missing(Vec<String>),
+pub struct Table {
+    /// The names of its columns, each with its unit, or with nothing.
+    pub columns: Vec<(String, String)>,
+    /// Its rows, without the first line.
+    pub rows: Vec<Row>,
 }
 
-impl fmt::Display for NoColumn {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Unreadable(why) => write!(f, "it cannot be read: {why}"),
-            Self::Missing(names) => write!(f, "it has {}", names.join(", ")),
+/// A row of a table.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Row {
+    /// The line that it begins in, from 1.
+    pub line: u32,
+    /// What stands in it, column by column; there may be fewer, or more, than the table has columns.
+    pub cells: Vec<String>,
+}
+
+impl Table {
+    /// Reads a table.
+    ///
+    /// # Errors
+    /// Why the text is no table.
+    pub fn read(text: &str) -> Result<Self, String> {
+        let mut reader = csv::ReaderBuilder::new()
+            .comment(Some(COMMENT))
+            .trim(csv::Trim::All)
+            .flexible(true)
+            .from_reader(text.as_bytes());
+        let unreadable = |e: csv::Error| e.to_string();
+        let columns = reader.headers().map_err(unreadable)?.iter().map(name_and_unit).collect();
+        let mut rows = Vec::new();
+        for record in reader.records() {
+            let record = record.map_err(unreadable)?;
+            let line = record.position().map_or(0, |position| line_of(text, position));
+            rows.push(Row { line, cells: record.iter().map(str::to_string).collect() });
         }
+        Ok(Self { columns, rows })
+    }
+
+    /// Lists the names of its columns.
+    pub fn names(&self) -> Vec<&str> {
+        self.columns.iter().map(|(name, _)| name.as_str()).collect()
+    }
+
+    /// Lists what stands in a column, each with its line, as it is typed for a value of a class; nothing where there is
+    /// no such column. Empty cells and what stood before are left out.
+    pub fn values(
+        &self,
+        column: &str,
+        (document, class): (&Document, ClassId),
+    ) -> Option<Vec<(u32, String)>> {
+        let at = self.columns.iter().position(|(name, _)| name == column)?;
+        let unit = &self.columns[at].1;
+        let mut all: IndexMap<String, u32> = IndexMap::new();
+        for row in &self.rows {
+            if let Some(cell) = row.cells.get(at).filter(|cell| !cell.is_empty()) {
+                all.entry(with_unit(document, class, cell, unit)).or_insert(row.line);
+            }
+        }
+        Some(all.into_iter().map(|(cell, line)| (line, cell)).collect())
     }
 }
 
+/// What begins a comment.
+const COMMENT: u8 = b'#';
+
+/// Returns the line of a record whose position is that of the comments and the empty lines before it.
+fn line_of(text: &str, position: &csv::Position) -> u32 {
+    let rest = text.get(position.byte() as usize..).unwrap_or_default();
+    let is_none = |line: &&str| {
+        line.as_bytes().first() == Some(&COMMENT) || line.trim_end_matches(['\r', '\n']).is_empty()
+    };
+    let before = rest.split_inclusive('\n').take_while(is_none).count();
+    u32::try_from(position.line() + before as u64).unwrap_or(u32::MAX)
+}
+
 /// Returns the name and the unit of a header: `outer [mm]`.
-pub fn name_and_unit(header: &str) -> (String, String) {
+fn name_and_unit(header: &str) -> (String, String) {
     match header.split_once('[') {
         Some((name, unit)) => {
             (name.trim().to_string(), unit.trim_end_matches([']', ' ']).trim().to_string())
@@ -69,40 +130,33 @@ pub fn name_and_unit(header: &str) -> (String, String) {
     }
 }
 
-/// Lists the cells of a column of a table, each with its line, its number with the unit of the column; empty cells and
-/// what stood before are left out.
-///
-/// # Errors
-/// The text is no table, or has no such column.
-pub fn cells(table: &str, column: &str) -> Result<Vec<(u64, String)>, NoColumn> {
-    let mut reader = csv::ReaderBuilder::new()
-        .comment(Some(b'#'))
-        .trim(csv::Trim::All)
-        .flexible(true)
-        .from_reader(table.as_bytes());
-    let unreadable = |e: csv::Error| NoColumn::Unreadable(e.to_string());
-    let columns: Vec<_> = reader.headers().map_err(unreadable)?.iter().map(name_and_unit).collect();
-    let at = columns.iter().position(|(name, _)| name == column);
-    let names = || columns.iter().map(|(name, _)| name.clone()).collect();
-    let at = at.ok_or_else(|| NoColumn::Missing(names()))?;
-    let unit = &columns[at].1;
-    let mut all: Vec<(u64, String)> = Vec::new();
-    for record in reader.records() {
-        let record = record.map_err(unreadable)?;
-        let cell = record.get(at).unwrap_or_default();
-        let cell = match !unit.is_empty() && cell.parse::<f64>().is_ok() {
-            true => format!("{cell} {unit}"),
-            false => cell.to_string(),
-        };
-        if !cell.is_empty() && !all.iter().any(|(_, known)| *known == cell) {
-            all.push((record.position().map_or(0, csv::Position::line), cell));
-        }
+/// Returns a cell as it is typed for a value of a class: a bare number that measures something has the unit of its column.
+pub fn with_unit(document: &Document, class: ClassId, cell: &str, unit: &str) -> String {
+    let is_real = matches!(document.classes[class].kind, ClassKind::Primitive(Primitive::Real(_)));
+    match is_real && !unit.is_empty() && cell.parse::<f64>().is_ok() {
+        true => format!("{cell} {unit}"),
+        false => cell.to_string(),
     }
-    Ok(all)
+}
+
+/// The end of the name of a table.
+const SUFFIX: &str = ".csv";
+
+/// Returns true for what a table beside a text may be called: `bolts.csv`, `iso.4014.csv`, `parts/M8 bolts.csv`.
+pub fn is_name(name: &str) -> bool {
+    let Some(stem) = name.strip_suffix(SUFFIX) else { return false };
+    let (folders, last) = stem.rsplit_once('/').map_or((None, stem), |(f, last)| (Some(f), last));
+    let plain = |c: char| c.is_alphanumeric() || matches!(c, '_' | '-');
+    let is_folder = |part: &str| !part.is_empty() && part.chars().all(plain);
+    let is_last = !last.is_empty()
+        && !last.starts_with('.')
+        && last.trim() == last
+        && last.chars().all(|c| plain(c) || matches!(c, '.' | ' '));
+    is_last && folders.is_none_or(|folders| folders.split('/').all(is_folder))
 }
 
 /// What a text calls a file beside it: from the folder of the document.
-fn beside(user: &str, file: &str) -> String {
+pub fn beside(user: &str, file: &str) -> String {
     match user.rsplit_once('.') {
         Some((folder, _)) => format!("{}/{file}", folder.replace('.', "/")),
         None => file.into(),
@@ -121,64 +175,80 @@ impl Lowerer<'_> {
         }
     }
 
-    fn read_table(
-        &mut self,
-        load: &dyn Fn(&str) -> Option<String>,
-        file: FileId,
-        column: &Column,
-    ) {
+    fn read_table(&mut self, load: &dyn Fn(&str) -> Option<String>, file: FileId, column: &Column) {
+        // what stands between the quotes
+        let span = column.file.span();
+        let span = Span::new(span.start + 1, span.end.max(span.start + 2) - 1);
+        let place = Place { file, span };
+        if !is_name(&column.file()) {
+            let message = format!("`{}` is no name of a table", column.file());
+            let d = Diagnostic::error("not-a-table", place, message);
+            return self.report(d.hint("a table lies beside the text, as `bolts.csv`"));
+        }
         let name = beside(&self.files[file].name, &column.file());
-        if self.files.iter().any(|(_, known)| known.name == name) {
+        if self.table(&name).is_some() {
             return;
         }
-        match load(&name) {
-            Some(text) => {
-                let parse = syntax::parse(self.files.next_id(), "");
-                self.files.push(File { name, text: text.as_str().into(), parse });
-            }
-            None => {
-                // what stands between the quotes
-                let span = column.file.span();
-                let span = Span::new(span.start + 1, span.end.max(span.start + 2) - 1);
-                let message = format!("there is no table {} beside this one", column.file());
-                self.error("missing-table", file, span, message);
-            }
-        }
+        let Some(text) = load(&name) else {
+            let message = format!("there is no table {} beside this one", column.file());
+            self.missing.insert(name);
+            return self.report(Diagnostic::error("missing-table", place, message));
+        };
+        let known = self.before.and_then(|before| {
+            let mut files = before.files.iter().map(|(_, known)| known);
+            files.find(|known| known.is_table() && known.name == name && *known.text == *text)
+        });
+        let read = known.cloned().unwrap_or_else(|| File {
+            name,
+            text: text.as_str().into(),
+            parse: syntax::parse(self.files.next_id(), ""),
+            table: Some(Table::read(&text).map(Rc::new)),
+        });
+        self.files.push(read);
     }
 
-    /// Returns the values of a column as those that are allowed.
+    fn table(&self, name: &str) -> Option<&Result<Rc<Table>, String>> {
+        let mut files = self.files.iter().map(|(_, file)| file);
+        files.find(|file| file.is_table() && file.name == name)?.table.as_ref()
+    }
+
+    /// Returns the values of a column as those that are allowed of a parameter.
     pub(crate) fn allowed_by(
         &mut self,
         scope: &Scope,
         (column, span): (&Column, Span),
-        kind: &Kind,
+        parameter: &Name,
     ) -> Option<Allowed> {
-        let name = beside(&self.files[scope.file].name, &column.file());
+        let class = self.class_of_part(scope.class(), parameter)?;
         // what is missing is told where it is read
-        let table = self.files.iter().find(|(_, known)| known.name == name)?.1.text.clone();
+        let table = self.table(&beside(&self.files[scope.file].name, &column.file()))?.clone();
         let place = Place { file: scope.file, span };
         let (file, named) = (column.file(), column.name());
-        let all = match cells(&table, named) {
-            Ok(all) if all.is_empty() => {
-                let message = format!("column {named} of {file} has no values");
-                self.report(Diagnostic::error("no-column", place, message));
-                return None;
-            }
-            Ok(all) => all,
+        let table = match table {
+            Ok(table) => table,
             Err(why) => {
-                let message = match &why {
-                    NoColumn::Missing(_) => format!("{file} has no column {named}"),
-                    NoColumn::Unreadable(_) => format!("{file} is no table"),
-                };
-                let d = Diagnostic::error("no-column", place, message);
-                self.report(d.hint(why.to_string()));
+                let d = Diagnostic::error("no-column", place, format!("{file} is no table"));
+                self.report(d.hint(format!("it cannot be read: {why}")));
                 return None;
             }
         };
+        let Some(all) = table.values(named, (&self.document, class)) else {
+            let message = format!("{file} has no column {named}");
+            let d = Diagnostic::error("no-column", place, message);
+            self.report(d.hint(format!("it has {}", table.names().join(", "))));
+            return None;
+        };
+        if all.is_empty() {
+            let message = format!("column {named} of {file} has no values");
+            self.report(Diagnostic::error("no-column", place, message));
+            return None;
+        }
         let mut values = Vec::new();
         for (line, cell) in all {
-            let Some(value) = self.cell(scope, &cell, kind) else {
-                let wanted = kind.words(&self.document);
+            let read = read_literal(&cell, Wanted::Class(class), &self.document);
+            let Some(value) = read.ok().and_then(|read| term_of(&self.document, class, read))
+            else {
+                let wanted = Kind::of_class(&self.document, class).words(&self.document);
                 let message = format!(
                     "found `{cell}` in line {line} of {file}, column {named}, wanted {wanted}"
                 );
@@ -189,18 +259,27 @@ impl Lowerer<'_> {
         }
         Some(Allowed::OneOf(values))
     }
+}
 
-    /// Reads a cell as a value.
-    fn cell(&mut self, scope: &Scope, cell: &str, kind: &Kind) -> Option<Term> {
-        let written = match kind {
-            Kind::Text => crate::quoted(cell),
-            _ => cell.to_string(),
-        };
-        let parse = syntax::parse_expression(scope.file, &written);
-        let value = parse.file().expression().filter(|_| parse.diagnostics().is_empty())?;
-        self.silent += 1;
-        let term = self.expr_of(scope, &value, kind);
-        self.silent -= 1;
-        term
-    }
+/// Returns the expression that a value of a class is.
+fn term_of(document: &Document, class: ClassId, value: Literal) -> Option<Term> {
+    Some(match (value, &document.classes[class].kind) {
+        (Literal::Number(at), ClassKind::Primitive(Primitive::Choice(of))) => {
+            Term::Option(*of, at as u32)
+        }
+        (Literal::Number(value), _) => {
+            let Kind::Number(Some(dimension)) = Kind::of_class(document, class) else {
+                return None;
+            };
+            Term::Number { value, dimension, bare: false }
+        }
+        (Literal::Text(text), _) => Term::Text(text),
+        (Literal::Bool(is), _) => Term::Bool(is),
+        (Literal::Tuple(items), _) => {
+            let fields = document.layout(class).into_iter().map(|f| document.field_class(f));
+            let each = items.into_iter().zip(fields);
+            Term::Tuple(each.map(|(item, of)| term_of(document, of, item)).collect::<Option<_>>()?)
+        }
+        (Literal::Path(_), _) => return None,
+    })
 }

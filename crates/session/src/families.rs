@@ -21,6 +21,7 @@ use base::Name;
 use drawing::{Drawing, Tag, Vertical, dxf, svg};
 use eval::{Answer, Context, Evaluator, Measures, Standing, Why};
 use kernel::{ClassId, ClassKind, DOCUMENT, Document, Literal, Primitive, Term};
+use lang::tables::{Table, with_unit};
 use lang::{Family, Wanted};
 use std::collections::BTreeMap;
 use std::rc::Rc;
@@ -210,14 +211,9 @@ fn read_table(
     read: &mut TableView,
 ) -> Result<(), Refusal> {
     let document = &state.lowered.document;
-    let mut reader = csv::ReaderBuilder::new()
-        .comment(Some(b'#'))
-        .trim(csv::Trim::All)
-        .flexible(true)
-        .from_reader(table.as_bytes());
-    let refused = |e: &csv::Error| words::refuse(format!("the table cannot be read: {e}"));
-    let headers = reader.headers().map_err(|e| refused(&e))?.clone();
-    let columns: Vec<(String, String)> = headers.iter().map(lang::tables::name_and_unit).collect();
+    let table = Table::read(table)
+        .map_err(|why| words::refuse(format!("the table cannot be read: {why}")))?;
+    let columns = &table.columns;
     let fields = document.layout(program);
     let field = |name: &str| {
         fields.iter().find(|&&f| *document.field_name(f) == *name).map(|&f| document.field_class(f))
@@ -229,23 +225,23 @@ fn read_table(
     }
     let designation = columns.iter().position(|(name, _)| field(name).is_none());
     let mut numbers: Vec<Vec<(f64, String)>> = vec![Vec::new(); columns.len()];
-    for (i, record) in reader.records().enumerate() {
-        let record = record.map_err(|e| refused(&e))?;
-        let line = record.position().map_or(0, |p| p.line() as u32);
-        let designated = designation.and_then(|at| record.get(at)).filter(|cell| !cell.is_empty());
-        let name = designated.map_or_else(|| (i + 1).to_string(), str::to_string);
-        let mut row = FamilyRow { name: name.clone(), line, ..FamilyRow::default() };
-        if record.len() > columns.len() {
-            let (n, m) = (columns.len(), record.len());
+    for (i, record) in table.rows.iter().enumerate() {
+        let designated = designation.and_then(|at| record.cells.get(at));
+        let designated = designated.filter(|cell| !cell.is_empty());
+        let name = designated.map_or_else(|| (i + 1).to_string(), String::clone);
+        let mut row = FamilyRow { name: name.clone(), line: record.line, ..FamilyRow::default() };
+        if record.cells.len() > columns.len() {
+            let (n, m) = (columns.len(), record.cells.len());
             row.fault = Some(format!("{m} cells, where the table has {n} columns"));
         }
-        for ((cell, (column, unit)), numbers) in record.iter().zip(&columns).zip(&mut numbers) {
+        let cells = record.cells.iter().zip(columns);
+        for ((cell, (column, unit)), numbers) in cells.zip(&mut numbers) {
             if let Ok(number) = cell.parse::<f64>() {
                 numbers.push((number, name.clone()));
             }
             // an empty cell is the program's own example
             let Some(class) = field(column).filter(|_| !cell.is_empty()) else { continue };
-            let typed = with_unit_of_column(document, class, cell, unit);
+            let typed = with_unit(document, class, cell, unit);
             match literal(document, class, &typed) {
                 Ok(value) => {
                     row.values.push((column.clone(), value));
@@ -260,15 +256,6 @@ fn read_table(
         note_disorder(column, numbers, read);
     }
     Ok(())
-}
-
-/// Returns a cell with the unit of its column, where it is a bare number.
-fn with_unit_of_column(document: &Document, class: ClassId, cell: &str, unit: &str) -> String {
-    let is_real = matches!(document.classes[class].kind, ClassKind::Primitive(Primitive::Real(_)));
-    match is_real && !unit.is_empty() && cell.parse::<f64>().is_ok() {
-        true => format!("{cell} {unit}"),
-        false => cell.to_string(),
-    }
 }
 
 /// Reads what is typed as a value of a class.

@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 /// What a session may ask of the program that it lives in. No clock, file or network otherwise.
 pub trait Host {
     /// Returns the text of a library or of a file beside the document, named as `use` names it
-    /// (`geometry`, `parts.bolts`), or nothing if there is none.
+    /// (`geometry`, `parts.bolts`), or of a table beside it by its path (`parts/bolts.csv`); nothing if there is none.
     fn read(&self, name: &str) -> Option<String>;
     /// The same for a document in a folder (`shop/`, or nothing); a host whose documents lie in one folder need not
     /// tell.

@@ -63,6 +63,7 @@ mod yielding;
 
 pub use host::{Host, used_as};
 pub use kernel::{Command, Literal, Path, Step};
+pub use lang::tables::is_name as is_table_name;
 pub use opening::Opening;
 pub use session::{Session, format, misspelled, parse_path};
 pub use tools::copies::{Clip, Relations};

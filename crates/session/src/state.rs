@@ -90,16 +90,7 @@ impl State {
         let mut used =
             self.lowered.files.iter().map(|(_, file)| file).filter(|f| !f.name.is_empty());
         used.all(|file| host.read(&file.name).is_some_and(|text| *text == *file.text))
-            && self.missing().all(|name| host.read(name).is_none())
-    }
-    /// Returns the names of what is used and was not there.
-    fn missing(&self) -> impl Iterator<Item = &str> {
-        let is_missing = |code: &str| matches!(code, "missing-file" | "missing-table");
-        let missing = self.lowered.diagnostics.iter().filter(move |d| is_missing(d.code));
-        missing.filter_map(|d| {
-            let file = self.lowered.files.get(d.place.file)?;
-            file.text.get(d.place.span.start as usize..d.place.span.end as usize)
-        })
+            && self.lowered.missing.iter().all(|name| host.read(name).is_none())
     }
     /// Returns the given numbers that gave way; not those of places, which yield as a matter of course.
     pub(crate) fn yielded(&self) -> impl Iterator<Item = SlotId> {

@@ -37,7 +37,8 @@ impl Lowerer<'_> {
         let kind = self.kind_of_part(scope.class(), &name)?;
         let prompt = param.prompt().map_or_else(String::new, |w| w.unquoted());
         let domain = param.domain();
-        let allowed = domain.as_ref().and_then(|domain| self.allowed(scope, domain, &kind));
+        let allowed =
+            domain.as_ref().and_then(|domain| self.allowed(scope, domain, (&name, &kind)));
         if let (Some(domain), Some(allowed)) = (domain, allowed.clone()) {
             self.demand(scope, &name, (allowed, domain.span()));
         }
@@ -58,7 +59,12 @@ impl Lowerer<'_> {
     }
 
     /// Reads the values that are allowed of a parameter: `1 mm..9 mm`, `[3 mm, 4 mm]`.
-    fn allowed(&mut self, scope: &Scope, domain: &Expr, kind: &Kind) -> Option<Allowed> {
+    fn allowed(
+        &mut self,
+        scope: &Scope,
+        domain: &Expr,
+        (parameter, kind): (&Name, &Kind),
+    ) -> Option<Allowed> {
         match domain {
             Expr::Range(range) => {
                 let least = self.expr_of(scope, &range.start()?, kind)?;
@@ -70,7 +76,7 @@ impl Lowerer<'_> {
                 Some(Allowed::OneOf(each.collect::<Vec<_>>().into_iter().collect::<Option<_>>()?))
             }
             Expr::Field(_) if let Some(column) = tables::column_of(domain) => {
-                self.allowed_by(scope, (&column, domain.span()), kind)
+                self.allowed_by(scope, (&column, domain.span()), parameter)
             }
             _ => {
                 let message = "what is allowed of a parameter is `least..largest`, a list of values, or a column of a table, `\"bolts.csv\".d`";

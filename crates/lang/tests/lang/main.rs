@@ -7,6 +7,7 @@ mod kept;
 mod lowering;
 mod scale;
 mod shown;
+mod tables;
 mod values;
 
 use lang::Lowered;

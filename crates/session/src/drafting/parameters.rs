@@ -13,6 +13,9 @@ use crate::words;
 use base::{Name, Span};
 use eval::Answer;
 use expr::dimension::Dimension;
+use kernel::{ClassKind, Primitive};
+use lang::tables::Table;
+use std::rc::Rc;
 use syntax::ast::{AstNode, Expr, Param, span_without_doc};
 
 /// A parameter as its program declares it.
@@ -100,29 +103,46 @@ impl Allowed {
         }
     }
 
-    /// Looks its values up, where they are those of a column: in the texts that stand beside a document.
+    /// Looks its values up, where they are those of a column, as values of a class are written: in the tables that stand
+    /// beside a text.
     ///
     /// # Errors
     /// There is no such file, or no such column.
-    pub(crate) fn looked_up(self, read: &dyn Fn(&str) -> Option<String>) -> Result<Self, String> {
+    pub(crate) fn looked_up(
+        self,
+        (state, class): (&State, &str),
+        read: &dyn Fn(&str) -> Option<Result<Rc<Table>, String>>,
+    ) -> Result<Self, String> {
         let Self::Column { file, column, .. } = self else { return Ok(self) };
-        let text =
+        if !lang::tables::is_name(&file) {
+            return Err(format!("`{file}` is no name of a table"));
+        }
+        let table =
             read(&file).ok_or_else(|| format!("there is no table {file} beside the document"))?;
-        let cells = lang::tables::cells(&text, &column)
-            .map_err(|why| format!("{file} has no column {column}: {why}"))?;
-        let values = cells.into_iter().map(|(_, cell)| cell).collect();
+        let table = table.map_err(|why| format!("{file} cannot be read: {why}"))?;
+        let document = &state.lowered.document;
+        let class = document.class_named(class).or_else(|| document.class_named("Real"));
+        let cells = class.and_then(|class| table.values(&column, (document, class)));
+        let cells = cells.ok_or_else(|| {
+            format!("{file} has no column {column}: it has {}", table.names().join(", "))
+        })?;
+        let is_text = class.is_some_and(|class| {
+            let kind = &document.classes[class].kind;
+            matches!(kind, ClassKind::Primitive(Primitive::Text | Primitive::Color))
+        });
+        let written = |cell: String| if is_text { lang::quoted(&cell) } else { cell };
+        let values = cells.into_iter().map(|(_, cell)| written(cell)).collect();
         Ok(Self::Column { file, column, values })
     }
 
-    /// The same in what a document has read.
-    fn known(self, state: &State) -> Option<Self> {
+    /// The same in what a document has read; `user` is the name of the text that says it.
+    fn known(self, state: &State, (user, class): (&str, &str)) -> Option<Self> {
         let read = |name: &str| {
+            let name = lang::tables::beside(user, name);
             let mut files = state.lowered.files.iter().map(|(_, file)| file);
-            let is_it =
-                |own: &str| own == name || own.strip_suffix(name).is_some_and(|f| f.ends_with('/'));
-            files.find(|file| is_it(&file.name)).map(|file| file.text.to_string())
+            files.find(|file| file.is_table() && file.name == name)?.table.clone()
         };
-        self.looked_up(&read).ok()
+        self.looked_up((state, class), &read).ok()
     }
 
     /// Says it: `1 to 10`, `1 to less than 10`, `3 mm, 4 mm or 5 mm`.
@@ -200,9 +220,10 @@ fn column_of(text: &str) -> Option<Allowed> {
     (is_file && is_name(name)).then(|| column(format!("{stem}.csv"), name.into()))
 }
 
-/// Lists the values of a table of those that are allowed; none where all are, or those of a range.
-pub(crate) fn table_of(state: &State, allowed: &str) -> Vec<String> {
-    let known = Allowed::of(allowed).and_then(|allowed| allowed.known(state));
+/// Lists the values of a table of those that a text of a name allows of a parameter; none where all are, or those of a
+/// range.
+pub(crate) fn table_of(state: &State, (user, of): (&str, &Declared)) -> Vec<String> {
+    let known = Allowed::of(&of.range).and_then(|range| range.known(state, (user, &of.class)));
     known.map_or_else(Vec::new, Allowed::table)
 }
 
@@ -245,6 +266,7 @@ pub(crate) fn asked(state: &State, program: &str) -> Vec<(String, Asks)> {
     let sources = state.lowered.files.iter().map(|(_, file)| text::Source::of_file(file));
     let declared = sources.map(|source| declared(&source, program)).enumerate();
     let (file, all) = { declared }.find(|(_, all)| !all.is_empty()).unwrap_or_default();
+    let user = state.lowered.files.iter().nth(file).map_or("", |(_, file)| file.name.as_str());
     let is_constant = |text: &str| all.iter().all(|d| text::places_of(text, &d.name).is_empty());
     // a bare length of another file may be one of other units
     let is_here = |d: &Declared, text: &str| {
@@ -255,7 +277,7 @@ pub(crate) fn asked(state: &State, program: &str) -> Vec<(String, Asks)> {
     };
     let one = |d: &Declared| {
         let usual = Some(d.example.clone()).filter(|example| is_here(d, example));
-        let range = Allowed::of(&d.range).and_then(|range| range.known(state));
+        let range = Allowed::of(&d.range).and_then(|range| range.known(state, (user, &d.class)));
         let range = range.filter(|range| range.values().into_iter().all(|text| is_here(d, text)));
         (d.name.clone(), Asks { prompt: d.prompt.clone(), usual, range })
     };
@@ -271,7 +293,7 @@ impl Asks {
     /// Checks that a value is allowed.
     ///
     /// # Errors
-    /// It is none of the values that are.
+    /// It is none of the values that are, or has no value.
     pub(crate) fn allows(
         &self,
         state: &State,
@@ -284,7 +306,10 @@ impl Asks {
                 let message = format!("{name} is {value}: {} are allowed", range.in_words());
                 Err(words::refuse(message))
             }
-            Ok(_) | Err(_) => Ok(()),
+            Ok(_) => Ok(()),
+            // what has no value in the home is allowed as it is written, and not otherwise
+            Err(_) if range.values().into_iter().any(|allowed| allowed == value) => Ok(()),
+            Err(refusal) => Err(refusal),
         }
     }
 }

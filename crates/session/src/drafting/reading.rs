@@ -5,7 +5,9 @@ use super::view::{NewParameter, ParameterField, ParameterReading};
 use super::{Home, outcome, text, typed};
 use crate::document::Open;
 use crate::host::Host;
+use lang::tables::Table;
 use outcome::Worth;
+use std::rc::Rc;
 
 /// Reads what is typed so far of a parameter: what its example is, which values are allowed, and what is wrong in which
 /// field. Empty fields are not wrong.
@@ -26,16 +28,22 @@ pub(crate) fn read(
     if read.is_none() && !allowed.is_empty() {
         reading.wrong.push((ParameterField::Allowed, parameters::NO_RANGE.into()));
     }
-    let read = read.and_then(|read| match read.looked_up(&|name| host.read(name)) {
+    let example = new.example.trim();
+    let understood = (!example.is_empty()).then(|| parameters::understood(&open.state, new));
+    let class = match &understood {
+        Some(Ok((class, _))) => class.clone(),
+        Some(Err(_)) | None => new.class.trim().to_string(),
+    };
+    let table = |name: &str| Some(Table::read(&host.read(name)?).map(Rc::new));
+    let read = read.and_then(|read| match read.looked_up((&open.state, &class), &table) {
         Ok(read) => Some(read),
         Err(why) => {
             reading.wrong.push((ParameterField::Allowed, why));
             None
         }
     });
-    let example = new.example.trim();
-    if !example.is_empty() {
-        match parameters::understood(&open.state, new) {
+    if let Some(understood) = understood {
+        match understood {
             Ok((class, example)) => {
                 let bare = example.parse::<f64>().is_ok();
                 let worth = outcome::worth(&open.state, &Home::Document, &example);

@@ -31,17 +31,19 @@ pub(crate) fn view(open: &Open, home: &Home, thing: Option<&str>) -> Option<Step
     // a program of a library is shown as well
     let own = text::Source::now(state);
     let others = state.lowered.files.iter().skip(1).map(|(_, file)| text::Source::of_file(file));
-    let found = std::iter::once(own).chain(others).find_map(|source| {
+    let names = state.lowered.files.iter().map(|(_, file)| file.name.as_str());
+    let found = std::iter::once(own).chain(others).zip(names).find_map(|(source, user)| {
         let body = text::program(&source, &name)?.body()?;
-        Some((source, body))
+        Some((source, body, user.to_string()))
     });
     let mut rows = Rows { state, evaluator: &evaluator, source: "", rows: Vec::new() };
-    if let Some((source, body)) = &found {
+    if let Some((source, body, _)) = &found {
         rows.source = source;
         rows.block(&text::steps_of(body), "", &path, 0);
     }
-    let declared = found.as_ref().map(|(source, _)| parameters::declared(source, &name));
+    let declared = found.as_ref().map(|(source, ..)| parameters::declared(source, &name));
     let declared = declared.unwrap_or_default();
+    let user = found.as_ref().map_or_else(String::new, |(.., user)| user.clone());
     let parameter = |asked: &kernel::program::Asked| {
         let said = declared.iter().find(|said| *said.name == *asked.name);
         let of = |get: fn(&parameters::Declared) -> &String| {
@@ -50,7 +52,7 @@ pub(crate) fn view(open: &Open, home: &Home, thing: Option<&str>) -> Option<Step
         ParameterRow {
             class: of(|said| &said.class),
             range: of(|said| &said.range),
-            choices: said.map_or_else(Vec::new, |said| parameters::table_of(state, &said.range)),
+            choices: said.map_or_else(Vec::new, |said| parameters::table_of(state, (&user, said))),
             example: of(|said| &said.example),
             name: asked.name.to_string(),
             prompt: asked.prompt.clone(),
@@ -213,14 +215,7 @@ fn in_words(step: &StepNode, formula: &str) -> String {
 
 /// Says a place as it is typed: `(3, 4)`, and from another one `corner @(w, h)`; from the operand before it `@(w, h)`.
 fn as_typed(place: &str, before: &str) -> Option<String> {
-    let inside = place.strip_prefix("Point(")?.strip_suffix(')')?;
-    let mut depth = 0_i32;
-    let comma = inside.char_indices().find(|(_, c)| {
-        depth += i32::from(*c == '(') - i32::from(*c == ')');
-        depth == 0 && *c == ','
-    });
-    let (x, y) = inside.split_at(comma?.0);
-    let (x, y) = (x.trim(), y[1..].trim());
+    let (x, y) = super::typed::coordinates(place)?;
     let way = |at: &str, axis: &str| -> Option<(String, String)> {
         let (from, rest) = at.split_once(axis)?;
         let step = match rest.split_at_checked(3) {

@@ -89,7 +89,7 @@ pub(super) fn is_number(text: &str) -> bool {
 }
 
 /// The coordinates of a point that is written by them: `Point(10, d / 2)`.
-fn coordinates(point: &str) -> Option<(&str, &str)> {
+pub(super) fn coordinates(point: &str) -> Option<(&str, &str)> {
     let inner = point.strip_prefix("Point(")?.strip_suffix(')')?;
     // `Point(1, 2).moved(by: Point(3, 4))` is another one
     let is_one = is_within_brackets(inner) && !inner.contains(':');

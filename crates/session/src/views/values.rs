@@ -254,8 +254,8 @@ pub(crate) fn in_words(document: &Document, answer: &Answer<'_>) -> Option<Strin
 /// Returns true for what belongs to a text that is used: a constant of a library, `constants.c`.
 pub(crate) fn is_of_library(state: &State, path: &str) -> bool {
     let first = path.split('.').next().unwrap_or_default();
-    let mut used = state.lowered.files.iter().map(|(_, file)| file.name.as_str());
-    !first.is_empty() && used.any(|name| name.rsplit('.').next() == Some(first))
+    let mut used = state.lowered.files.iter().map(|(_, file)| file).filter(|f| !f.is_table());
+    !first.is_empty() && used.any(|file| file.name.rsplit('.').next() == Some(first))
 }
 
 struct Maker<'a> {

@@ -14,6 +14,9 @@ M8x, 8,  5,   B
 M10, 10, ,    some
 ";
 
+const NUTS: &str = "use geometry\nprogram Nut(k: Length in \"bolts.csv\".k = 1 mm) {\n    \
+                    rim = Circle(center: Point(0, 0), radius: k)\n}\n";
+
 struct Shelf;
 
 impl Host for Shelf {
@@ -21,6 +24,10 @@ impl Host for Shelf {
         match name {
             "bolts.csv" => Some(BOLTS.into()),
             "empty.csv" => Some("d\n".into()),
+            // a used text in a folder has a table of its own, by the same name there
+            "parts/bolts.csv" => Some("k [mm]\n1\n2\n".into()),
+            "parts.nuts" => Some(NUTS.into()),
+            "parts.lost" => Some(NUTS.replace("bolts", "gone")),
             _ if name.ends_with(".csv") => None,
             _ => {
                 let library = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../library");
@@ -104,4 +111,60 @@ fn a_hand_names_a_column_as_a_file_and_its_heading() {
     assert!(text.contains("d: Length in \"bolts.csv\".d = 8 mm"), "{text}");
     let steps = session.steps(id, None).expect("it is recorded");
     assert_eq!(steps.parameters[0].choices, ["3 mm", "8 mm", "10 mm"]);
+}
+
+#[test]
+fn a_table_is_that_of_the_folder_of_the_text_that_names_it() {
+    let text = format!("use parts.nuts\n{}", bolt("\"bolts.csv\".d"));
+    let (mut session, id) = opened(&text);
+    assert_eq!(told(&text), [""; 0]);
+    let choices = |session: &mut Session, tool| session.begin(id, tool).expect("it is one").choices;
+    assert_eq!(choices(&mut session, "Bolt"), ["3 mm", "8 mm", "10 mm"]);
+    session.give_up(id);
+    assert_eq!(choices(&mut session, "Nut"), ["1 mm", "2 mm"]);
+}
+
+#[test]
+fn a_column_of_words_is_a_table_of_texts() {
+    let text =
+        bolt("\"bolts.csv\".d").replace("(d:", "(grade: Text in \"bolts.csv\".grade = \"A\", d:");
+    assert_eq!(told(&text), [""; 0]);
+    let (mut session, id) = opened(&text);
+    let prompt = session.begin(id, "Bolt").expect("it is a construction");
+    assert_eq!(prompt.choices, ["\"A\"", "\"B\"", "\"some\""]);
+    let refused = session.enter(id, "C").expect_err("it is none of them");
+    assert!(
+        refused.message.contains("\"A\", \"B\" or \"some\" are allowed"),
+        "{}",
+        refused.message
+    );
+    session.enter(id, "B").expect("it is one of them");
+    session.give_up(id);
+    // and it is understood as it is typed
+    session.record(id, "Nut").expect("a new program");
+    let new = |example: &str| NewParameter {
+        name: "grade".into(),
+        example: example.into(),
+        range: "bolts.csv.grade".into(),
+        ..NewParameter::default()
+    };
+    assert_eq!(session.read_parameter(id, &new("\"A\"")).wrong, []);
+    let wrong = session.read_parameter(id, &new("\"C\"")).wrong;
+    assert!(wrong.iter().any(|(_, why)| why.contains("is not among these")), "{wrong:?}");
+}
+
+#[test]
+fn a_missing_table_of_a_used_text_is_not_read_for_ever() {
+    let (mut session, id) = opened("use parts.lost\n");
+    assert_eq!(session.text(id).diagnostics[0].code, "missing-table");
+    assert_eq!(session.catch_up(id), None, "it is not there yet");
+}
+
+#[test]
+fn a_thing_may_be_called_as_tables_end() {
+    let (session, id) =
+        opened(&format!("{}csv: Length = 3 mm\nanchor csv\n", bolt("\"bolts.csv\".d")));
+    let rows = session.values(id);
+    let row = rows.iter().find(|row| row.path == "csv").expect("it is shown");
+    assert!(!row.is_layout);
 }
