@@ -67,7 +67,7 @@ impl Session {
         let (open, beside) = self.beside_others(id);
         blocks::recorded(open)?;
         let found = scene::within(&open.state, &home(open), corners);
-        let set: Vec<String> = found.into_iter().map(|found| found.text).collect();
+        let set = scene::wholes_of(&open.state, &home(open), &found);
         let change = repeat::begin_each(open, &beside, ("", &set))?;
         Ok(*self.with_reach(id, change))
     }

@@ -79,6 +79,8 @@ pub(crate) fn within(state: &State, home: &Home, (a, b): ((f64, f64), (f64, f64)
         })
     };
     let mut caught: BTreeSet<&str> = BTreeSet::new();
+    // the corners of a rectangle are no figures of their own
+    let is_part = |found: &Found| is_part(found) || found.is_place && found.side_of.is_some();
     // a contour is in it where all of its edges are
     let cut: BTreeSet<&str> =
         all.iter().filter(|f| f.side.is_some() && !is_in(f)).map(|f| f.text.as_str()).collect();
@@ -114,6 +116,25 @@ pub(crate) fn whole_sets(
         }
     }
     (single, sets)
+}
+
+/// Names figures, and what is made of others in the place of its sides, where all of these are among them.
+pub(crate) fn wholes_of(state: &State, home: &Home, caught: &[Found]) -> Vec<String> {
+    let all = scene(state, home);
+    let texts: BTreeSet<&str> = caught.iter().map(|found| found.text.as_str()).collect();
+    let whole = |found: &Found| found.side_of.and(found.wholes.first()).cloned();
+    let sides = all.iter().filter(|side| !side.is_place);
+    let cut: BTreeSet<String> =
+        sides.filter(|side| !texts.contains(side.text.as_str())).filter_map(whole).collect();
+    let mut names: Vec<String> = Vec::new();
+    for found in caught {
+        let whole = whole(found).filter(|whole| !cut.contains(whole));
+        let name = whole.unwrap_or_else(|| found.text.clone());
+        if !names.contains(&name) {
+            names.push(name);
+        }
+    }
+    names
 }
 
 /// Returns how something that a home knows is drawn; nothing where it is no figure.
@@ -548,14 +569,14 @@ impl<'a> Scene<'_, 'a> {
                 && let (Some(class), Some(curve)) =
                     (self.evaluator.class_of(&part), Curve::of(self.evaluator, &part))
             {
-                self.place(format!("{text}.{name}"), (class, curve), None);
+                self.place(format!("{text}.{name}"), (class, curve));
             }
         }
     }
 
-    /// Adds a place of another figure, which may be made of others.
-    fn place(&mut self, text: String, (class, curve): (ClassId, Curve), side_of: Option<ClassId>) {
-        let (wholes, side) = (Vec::new(), None);
+    /// Adds a place of another figure.
+    fn place(&mut self, text: String, (class, curve): (ClassId, Curve)) {
+        let (wholes, side_of, side) = (Vec::new(), None, None);
         let (is_place, is_result) = (true, false);
         self.found.push(Found { text, class, curve, wholes, side_of, side, is_place, is_result });
     }
@@ -581,15 +602,35 @@ impl<'a> Scene<'_, 'a> {
                 Err(_) => {}
             }
         }
-        for side in &mut self.found[since..] {
-            side.side_of = (!side.is_place).then_some(class);
-        }
         for name in parts.places {
             if let Ok(part) = self.evaluator.of_part(of, name)
                 && let (Some(point), Some(curve)) =
                     (self.evaluator.class_of(&part), Curve::of(self.evaluator, &part))
             {
-                self.place(format!("{text}.{name}"), (point, curve), Some(class));
+                if parts.sides.is_empty() {
+                    // nothing else says where it lies
+                    let (wholes, is_result) = (wholes.to_vec(), self.is_result);
+                    let (side_of, side, is_place) = (None, None, false);
+                    let text = text.into();
+                    self.found.push(Found {
+                        text,
+                        class,
+                        curve,
+                        wholes,
+                        side_of,
+                        side,
+                        is_place,
+                        is_result,
+                    });
+                }
+                self.place(format!("{text}.{name}"), (point, curve));
+            }
+        }
+        let own = self.found[since..].iter_mut().filter(|found| found.text != text);
+        for found in own {
+            found.side_of = Some(class);
+            if found.is_place {
+                found.wholes.clone_from(&around);
             }
         }
     }
