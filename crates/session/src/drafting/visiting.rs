@@ -148,7 +148,11 @@ impl Session {
     /// Nothing is recorded, a block is demonstrated; there is no such step, or it is a block.
     pub fn begin_replace(&mut self, id: DocumentId, step: &str) -> Result<(), Refusal> {
         let was = self.document(id).recording.as_ref();
-        let was = was.map(|recording| (recording.blocks.clone(), recording.before.clone()));
+        // from a step that was to be replaced and was not, one returns to where one was before it
+        let was = was.map(|recording| match &recording.returns {
+            Some(earlier) if recording.replaces.is_some() => earlier.clone(),
+            _ => (recording.blocks.clone(), recording.before.clone()),
+        });
         self.visit(id, &Go::To(step.into()))?;
         let open = self.document_mut(id);
         let Some(recording) = &mut open.recording else { return Ok(()) };
