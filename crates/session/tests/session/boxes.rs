@@ -200,3 +200,99 @@ fn a_stair_begins_its_next_step_where_the_last_one_ends() {
     assert_eq!(value(&desk, "floor.turns"), "5 turns");
     assert_eq!(value(&desk, "floor.turns.last.line2.p2"), "(145, 85)");
 }
+
+/// A rectangle of 60 by 30 with words at its far corner, as steps.
+fn labelled() -> Desk {
+    let mut desk = record(&[("w", "60"), ("r", "8")]);
+    begin(&mut desk, "Rectangle.between(first,second)");
+    enter(&mut desk, "0, 0");
+    text(enter(&mut desk, "w, w / 2"));
+    desk
+}
+
+#[test]
+fn a_box_around_a_rectangle_catches_it_and_none_of_its_corners() {
+    let mut desk = labelled();
+    desk.session.begin_each(desk.id, ((-5.0, -5.0), (65.0, 35.0))).expect("it lies there");
+    assert!(desk.text().contains(" in [rectangle] {"), "{}", desk.text());
+    let mut desk = labelled();
+    // where a side is outside, the others are lines
+    desk.session.begin_each(desk.id, ((-5.0, -5.0), (65.0, 5.0))).expect("one lies there");
+    assert!(desk.text().contains(" in [rectangle.side1] {"), "{}", desk.text());
+}
+
+#[test]
+fn a_rectangle_is_taken_near_its_corners_and_its_middle() {
+    for (x, y) in [(0.3, 0.2), (60.0, 30.0), (30.0, 15.0)] {
+        let mut desk = labelled();
+        begin(&mut desk, "Contour.rounded(of,radius)");
+        pick(&mut desk, x, y);
+        let outline = text(enter(&mut desk, "r"));
+        assert_eq!(outline, "Contour.rounded(of: rectangle, radius: r)", "{x}, {y}");
+    }
+}
+
+#[test]
+fn words_are_copied_by_where_they_lie() {
+    let mut desk = labelled();
+    begin(&mut desk, "Caption");
+    pick(&mut desk, 60.0, 30.0);
+    text(enter(&mut desk, "Cover"));
+    begin(&mut desk, ":moved(by)");
+    pick(&mut desk, 60.0, 30.0);
+    let moved = text(enter(&mut desk, "0, w"));
+    assert_eq!(moved, "caption.moved(by: Point(0, w))");
+    // its place is a point as before
+    begin(&mut desk, "Circle");
+    desk.session.pick_wider(desk.id);
+    pick(&mut desk, 60.0, 30.0);
+    let circle = text(enter(&mut desk, "r"));
+    assert!(circle.contains("rectangle.far") || circle.contains("caption.at"), "{circle}");
+}
+
+#[test]
+fn a_polygon_is_copied_whole_near_a_vertex() {
+    let mut desk = record(&[("s", "16")]);
+    begin(&mut desk, "RegularPolygon");
+    for typed in ["0, 0", "s, 0"] {
+        enter(&mut desk, typed);
+    }
+    text(enter(&mut desk, "4"));
+    begin(&mut desk, ":moved(by)");
+    pick(&mut desk, 15.9, 0.1);
+    let moved = text(enter(&mut desk, "0, s"));
+    assert_eq!(moved, "regularPolygon.moved(by: Point(0, s))");
+}
+
+#[test]
+fn a_replacement_that_is_given_up_is_no_place_to_return_to() {
+    let mut desk = record(&[("w", "20")]);
+    for at in ["0, 0", "50, 0", "100, 0"] {
+        begin(&mut desk, "Circle");
+        enter(&mut desk, at);
+        text(enter(&mut desk, "w"));
+    }
+    desk.session.begin_replace(desk.id, "circle").expect("it is no block");
+    begin(&mut desk, "Circle");
+    desk.session.give_up(desk.id);
+    desk.session.begin_replace(desk.id, "circle2").expect("it is no block");
+    begin(&mut desk, "Circle");
+    enter(&mut desk, "60, 0");
+    text(enter(&mut desk, "w"));
+    let steps = desk.session.steps(desk.id, None).expect("it is recorded");
+    assert_eq!(steps.at, None, "recording goes on at the end");
+}
+
+#[test]
+fn a_radius_of_more_than_half_the_shorter_side_rounds_no_corner() {
+    let mut desk = labelled();
+    begin(&mut desk, "Contour.rounded(of,radius)");
+    pick(&mut desk, 30.0, 0.0);
+    for (radius, why) in [("16", "at_most_half_the_height"), ("-1", "not_negative")] {
+        let refused = desk.session.enter(desk.id, radius).expect_err("no such outline");
+        assert!(refused.message.contains(why), "{}", refused.message);
+    }
+    let outline = text(enter(&mut desk, "15"));
+    assert_eq!(outline, "Contour.rounded(of: rectangle, radius: 15)");
+    assert_eq!(desk.wrong(), [], "{}", desk.text());
+}
