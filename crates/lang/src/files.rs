@@ -2,7 +2,7 @@
 
 use crate::lower::{Lowerer, OWN};
 use crate::scope::Scope;
-use crate::tables::{self, Table};
+use crate::tables;
 use base::{Diagnostic, FileId, Name, Place};
 use expr::dimension::Dimension;
 use kernel::{ClassId, OriginId, Part, Step, Vertical};
@@ -20,7 +20,7 @@ pub struct File {
     /// Its tree; an empty one of a table.
     pub parse: Parse,
     /// What is in it where it is a table and no text of the language, or why it cannot be read.
-    pub table: Option<Result<Rc<Table>, String>>,
+    pub table: Option<tables::Reading>,
 }
 
 /// What every thing answers, in the language itself.

@@ -52,6 +52,9 @@ pub struct Table {
     pub rows: Vec<Row>,
 }
 
+/// A table, or why a text is none.
+pub type Reading = Result<Rc<Table>, String>;
+
 /// A row of a table.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Row {
@@ -111,7 +114,7 @@ impl Table {
 const COMMENT: u8 = b'#';
 
 /// Returns the line of a record whose position is that of the comments and the empty lines before it.
-fn line_of(text: &str, position: &csv::Position) -> u32 {
+pub fn line_of(text: &str, position: &csv::Position) -> u32 {
     let rest = text.get(position.byte() as usize..).unwrap_or_default();
     let is_none = |line: &&str| {
         line.as_bytes().first() == Some(&COMMENT) || line.trim_end_matches(['\r', '\n']).is_empty()
@@ -207,7 +210,7 @@ impl Lowerer<'_> {
         self.files.push(read);
     }
 
-    fn table(&self, name: &str) -> Option<&Result<Rc<Table>, String>> {
+    fn table(&self, name: &str) -> Option<&Reading> {
         let mut files = self.files.iter().map(|(_, file)| file);
         files.find(|file| file.is_table() && file.name == name)?.table.as_ref()
     }

@@ -14,8 +14,7 @@ use base::{Name, Span};
 use eval::Answer;
 use expr::dimension::Dimension;
 use kernel::{ClassKind, Primitive};
-use lang::tables::Table;
-use std::rc::Rc;
+use lang::tables::Reading;
 use syntax::ast::{AstNode, Expr, Param, span_without_doc};
 
 /// A parameter as its program declares it.
@@ -111,7 +110,7 @@ impl Allowed {
     pub(crate) fn looked_up(
         self,
         (state, class): (&State, &str),
-        read: &dyn Fn(&str) -> Option<Result<Rc<Table>, String>>,
+        read: &dyn Fn(&str) -> Option<Reading>,
     ) -> Result<Self, String> {
         let Self::Column { file, column, .. } = self else { return Ok(self) };
         if !lang::tables::is_name(&file) {

@@ -118,7 +118,7 @@ impl Session {
             if i == 0 && !names.iter().any(|own| own == name) && cell(1) == "value" {
                 continue;
             }
-            let line = record.position().map_or(0, csv::Position::line);
+            let line = record.position().map_or(0, |at| lang::tables::line_of(table, at));
             if !names.iter().any(|own| own == name) {
                 let names = names.join(", ");
                 let message =

@@ -187,6 +187,7 @@ fn values_leave_and_come_as_a_table() {
         wrong("rim,5 mm\nhub,3\n"),
         "line 2: disc has no parameter hub: wanted are rim, turns"
     );
+    assert!(wrong("rim,5 mm\n# and\n\nhub,3\n").starts_with("line 4: "), "comments are lines");
     assert!(wrong("rim,5 kg\n").starts_with("rim: "));
     assert_eq!(wrong("name,value\n"), "the table has no line with a name and a value");
     assert_eq!(desk.text(), before);
