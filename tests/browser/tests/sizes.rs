@@ -92,7 +92,8 @@ async fn the_first_length_that_is_typed_is_a_good_part_of_the_picture_until_a_pe
     visit.until("window.__thinglab.state().sheet.scale > 5").await;
     let seen = state(&visit).await;
     let (a, b) = (grip(&seen, "line.p1"), grip(&seen, "line.p2"));
-    let long = (a.0 - b.0).hypot(a.1 - b.1);
+    let (across, up) = (a.0 - b.0, a.1 - b.1);
+    let long = (across * across + up * up).sqrt();
     assert!((long / scale(&seen) - 12.0).abs() < 1e-6 && long > 200.0, "{long} px");
     // who looks closer himself is left alone
     let nearer = middle(&visit, ".corner [aria-label=\"Zoom in\"]").await;

@@ -134,7 +134,7 @@ fn without_value(state: &State, values: &Values) -> Vec<Diagnostic> {
         // what an inner message lacks is told there
         let is_inner = fault.origin.is_some_and(|origin| {
             let alike = failing.iter().filter(|other| other.fault.origin == fault.origin);
-            answered.contains(&origin) || sends(message, alike)
+            answered.contains(&origin) || sends(message, &alike)
         });
         if fault.kind == FaultKind::NoAnswer && !is_inner {
             let place = state.lowered.place(message.origin);
@@ -182,7 +182,7 @@ fn failing<'a>(
 }
 
 /// Returns true if a message asks for another one of these.
-fn sends<'a>(message: &Message, others: impl Iterator<Item = &'a Failing<'a>> + Clone) -> bool {
+fn sends<'a>(message: &Message, others: &(impl Iterator<Item = &'a Failing<'a>> + Clone)) -> bool {
     let is_other =
         |other: &Message, name: &Name| other.origin != message.origin && other.name == *name;
     let mut terms = vec![&message.answer];
