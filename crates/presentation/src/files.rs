@@ -19,6 +19,11 @@ pub fn is_table(name: &str) -> bool {
 }
 
 impl FileSet {
+    /// Forgets which tables were not there: they are asked for once more.
+    pub fn forget_missing_tables(&mut self) {
+        self.texts.retain(|path, text| text.is_some() || !is_table(path));
+    }
+
     /// Returns the text of a library, or of a document by its name in a folder; or notes that this is wanted.
     pub fn find(&mut self, folder: &str, name: &str) -> Option<String> {
         if let Some(library) = self.libraries.get(name) {
@@ -57,5 +62,14 @@ mod tests {
         assert_eq!(files.wanted.iter().collect::<Vec<_>>(), ["parts/bolts.thing"]);
         assert_eq!(files.find("shop/", "bolts.csv"), None, "a table is called as its file is");
         assert!(files.wanted.contains("shop/bolts.csv"));
+        // a table that was not there may come
+        files.wanted.clear();
+        files.texts.insert(String::from("shop/bolts.csv"), None);
+        assert_eq!(files.find("shop/", "bolts.csv"), None);
+        assert!(files.wanted.is_empty());
+        files.forget_missing_tables();
+        assert_eq!(files.find("shop/", "bolts.csv"), None);
+        assert!(files.wanted.contains("shop/bolts.csv"));
+        assert!(files.texts.contains_key("nowhere.thing"));
     }
 }

@@ -95,6 +95,29 @@ impl View {
             && f64::max(ay, by) <= height
     }
 
+    /// Returns the view with a box of the sheet on a canvas of that size: moved no further than it must be, and smaller
+    /// only where the box is larger than the canvas.
+    #[must_use]
+    pub fn with_in_sight(self, drawn: Bounds, size: (f64, f64), margin: f64) -> Self {
+        let wide = self.scale * (drawn.most.x - drawn.least.x);
+        let high = self.scale * (drawn.most.y - drawn.least.y);
+        if wide > size.0 || high > size.1 {
+            return fit_box(drawn, self.vertical, size, margin);
+        }
+        let ((ax, ay), (bx, by)) =
+            (self.screen_from_sheet(drawn.least), self.screen_from_sheet(drawn.most));
+        // how far two ends are moved to lie on the canvas, with a margin as far as there is room for it
+        let way = |a: f64, b: f64, across: f64| {
+            let (least, most) = (f64::min(a, b), f64::max(a, b));
+            if least >= 0.0 && most <= across {
+                return 0.0;
+            }
+            let margin = margin.min((across - (most - least)) / 2.0);
+            f64::max(margin - least, 0.0) + f64::min(across - margin - most, 0.0)
+        };
+        self.panned(way(ax, bx, size.0), way(ay, by, size.1))
+    }
+
     /// The same of one that is besides a good part of the canvas: wide or high enough to work on.
     pub fn shows_well(&self, drawn: Bounds, (width, height): (f64, f64)) -> bool {
         let (wide, high) = (drawn.most.x - drawn.least.x, drawn.most.y - drawn.least.y);
@@ -274,6 +297,22 @@ mod tests {
         assert!(lost(&[(500.0, 100.0), (700.0, 200.0)]));
         assert!(!lost(&[(100.0, 100.0), (100.0, 160.0)]));
         assert!(!lost(&[(100.0, 100.0)]));
+    }
+
+    #[test]
+    fn what_a_panel_hides_is_moved_into_sight_and_not_made_larger() {
+        let view = View { scale: 2.0, x: 0.0, y: 0.0, vertical: Vertical::Down };
+        let seen = |points: &[(f64, f64)], size: (f64, f64)| {
+            view.with_in_sight(super::bounds(&dots(points, Vertical::Down)), size, 20.0)
+        };
+        assert_eq!(seen(&[(10.0, 10.0), (90.0, 40.0)], (200.0, 100.0)), view);
+        let small = seen(&[(10.0, 240.0), (20.0, 250.0)], (400.0, 300.0));
+        assert_eq!(small, view.panned(0.0, 280.0 - 500.0));
+        assert_eq!(seen(&[(10.0, 240.0)], (400.0, 300.0)), view.panned(0.0, 280.0 - 480.0));
+        let large = seen(&[(0.0, 0.0), (400.0, 100.0)], (400.0, 300.0));
+        assert!(large.scale < view.scale);
+        // what barely fits has what room there is
+        assert_eq!(seen(&[(0.0, 100.0), (10.0, 245.0)], (400.0, 300.0)), view.panned(0.0, -195.0));
     }
 
     #[test]

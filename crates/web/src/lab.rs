@@ -217,8 +217,8 @@ pub struct Lab {
     pub view: RwSignal<View>,
     /// Whether the view is one that fits, and shall fit when the panel's size changes.
     pub fits: StoredValue<bool>,
-    /// Whether a person has zoomed since all of it was brought into sight.
-    pub zoomed: StoredValue<bool>,
+    /// Whether a person has zoomed or moved it since all of it was brought into sight.
+    pub looked: StoredValue<bool>,
     /// The page's colours.
     pub colors: theme::Colors,
 }
@@ -260,9 +260,9 @@ pub enum Zoom {
     Fit,
     /// Everything in sight, if it lies outside or is too small to see.
     Seen,
-    /// Everything in sight and a good part of it, after a length was typed, unless a person has zoomed.
+    /// Everything in sight and a good part of it, after a length was typed, unless a person has looked elsewhere.
     Sized,
-    /// A box of the sheet in sight, unless it is.
+    /// A box of the sheet in sight, unless it is: moved no further than it must be, and never larger.
     Over(drawing::Bounds),
     /// Larger or smaller by this factor.
     By(f64),
@@ -357,7 +357,7 @@ impl Lab {
             zoom: RwSignal::new(None),
             view: RwSignal::new(View::default()),
             fits: StoredValue::new(true),
-            zoomed: StoredValue::new(false),
+            looked: StoredValue::new(false),
             colors: theme::start(),
         }
     }
@@ -420,10 +420,10 @@ impl Lab {
     /// Changes the part of the sheet that one sees, as a person does by hand.
     pub fn look_at(self, change: impl FnOnce(View) -> View) {
         self.fits.set_value(false);
-        let before = self.view.with_untracked(|view| view.scale);
+        let before = self.view.get_untracked();
         self.view.update(|view| *view = change(*view));
-        if self.view.with_untracked(|view| view.scale) != before {
-            self.zoomed.set_value(true);
+        if self.view.get_untracked() != before {
+            self.looked.set_value(true);
         }
     }
 

@@ -315,21 +315,18 @@ fn zoom_as_asked(lab: Lab, size: (f64, f64)) {
     let room = if size.1 > LOW { size.1 - BELOW } else { size.1 };
     match asked {
         Zoom::Over(all) => {
-            let is_seen = |p: Point| {
-                let (x, y) = lab.view.with_untracked(|view| view.screen_from_sheet(p));
-                (0.0..=size.0).contains(&x) && (0.0..=size.1).contains(&y)
-            };
-            if !is_seen(all.least) || !is_seen(all.most) {
-                let vertical = lab.picture.with_untracked(|p| p.drawing.vertical);
-                lab.view.set(fit_box(all, vertical, size, margin));
+            let view = lab.view.get_untracked();
+            let seen = view.with_in_sight(all, size, margin);
+            if seen != view {
+                lab.view.set(seen);
             }
         }
         Zoom::Fit => {
             lab.fits.set_value(true);
-            lab.zoomed.set_value(false);
+            lab.looked.set_value(false);
             show_all(lab, size, (room, margin));
         }
-        Zoom::Sized if !lab.zoomed.get_value() => {
+        Zoom::Sized if !lab.looked.get_value() => {
             let view = lab.view.get_untracked();
             if drawn(lab).is_some_and(|drawn| !view.shows_well(drawn, (size.0, room))) {
                 show_all(lab, size, (room, margin));

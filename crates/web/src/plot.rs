@@ -226,9 +226,13 @@ impl Lab {
             // as the number is shown: an angle in degrees, unless a unit says otherwise
             let scale = if row.unit == "deg" { 180.0 / std::f64::consts::PI } else { 1.0 };
             let turn = values::whole_turn(row).map(|ends| (ends.0 * scale, ends.1 * scale));
-            let natural = turn.or_else(|| self.drawn_range(&row.path, number));
+            let drawn = self.drawn_range(row).filter(|_| turn.is_none());
+            let (number, natural, unit) = match drawn {
+                Some((now, ends, unit)) => (now, Some(ends), unit),
+                None => (number, turn, row.unit.clone()),
+            };
             let (least, most) = slider_range(number, natural, None);
-            let end = |x: f64| words::with_unit(&base::number::significant(x, 6), &row.unit);
+            let end = |x: f64| words::with_unit(&base::number::significant(x, 6), &unit);
             Some((end(least), end(most)))
         });
         if let Some((least, most)) = range {
@@ -238,9 +242,10 @@ impl Lab {
         self.plotting.of.set(String::from(path));
     }
 
-    /// The range of a coordinate of a point in which something is drawn, in the unit of the number that it is shown as.
-    fn drawn_range(self, path: &str, number: f64) -> Option<(f64, f64)> {
-        let (place, coordinate) = path.rsplit_once('.')?;
+    /// What a coordinate of a point is, the range in which something is drawn, and the unit of the sheet, in which these
+    /// are; nothing where the coordinate has a unit and the sheet has none.
+    fn drawn_range(self, row: &ValueRow) -> Option<(f64, (f64, f64), String)> {
+        let (place, coordinate) = row.path.rsplit_once('.')?;
         self.picture.with_untracked(|picture| {
             let grip = picture.grips.iter().find(|grip| grip.path == place)?;
             let drawn = bounds(&picture.drawing);
@@ -249,8 +254,12 @@ impl Lab {
                 "y" => (grip.y, drawn.least.y, drawn.most.y),
                 _ => return None,
             };
-            let scale = if now == 0.0 { 1.0 } else { number / now };
-            (least < most).then_some((least * scale, most * scale))
+            let unit = match (&picture.unit, row.unit.is_empty()) {
+                (_, true) => String::new(),
+                (Some(unit), false) => unit.name.clone(),
+                (None, false) => return None,
+            };
+            (least < most).then_some((now, (least, most), unit))
         })
     }
 }

@@ -84,16 +84,16 @@ pub async fn document(path: &str) -> Result<Option<Stored>, String> {
     }
 }
 
-/// Returns the table of a family: the text of a `.csv` file.
+/// Returns the table of a family, the text of a `.csv` file; nothing where there is no such file.
 ///
 /// # Errors
-/// One sentence: there is no such file, or it cannot be read.
-pub async fn table(path: &str) -> Result<String, String> {
+/// One sentence: it cannot be read.
+pub async fn table(path: &str) -> Result<Option<String>, String> {
     let query = String::from(js_sys::encode_uri_component(path));
     let (status, json) = ask("GET", &format!("/api/table?path={query}"), None).await;
     match status {
-        200 => Ok(text_field(&json, "text")),
-        404 => Err(words::no_table(path)),
+        200 => Ok(Some(text_field(&json, "text"))),
+        404 => Ok(None),
         _ => Err(failure(status, &json)),
     }
 }

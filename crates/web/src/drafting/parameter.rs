@@ -66,6 +66,7 @@ pub fn Define(
     let reading = Memo::new(move |_| {
         lab.drafting.turned.track();
         let typed = new.get();
+        lab.forget_missing_tables();
         lab.tell(|session, id| session.read_parameter(id, &typed)).unwrap_or_default()
     });
     // a table that is named is fetched, and then looked into
@@ -86,6 +87,10 @@ pub fn Define(
         match FIELDS.iter().find(|(field, _)| Some(*field) == first) {
             Some((field, input)) => {
                 form.leave(*field);
+                // what is wrong is seen
+                if *field == ParameterField::Allowed {
+                    unfold();
+                }
                 focus(&format!(".define input[name='{input}']"));
             }
             None => lab.define_parameter(),
@@ -130,6 +135,15 @@ pub fn Define(
                 </Show>
             </div>
         </form>
+    }
+}
+
+/// Opens what else is said of a parameter.
+fn unfold() {
+    let details = document().query_selector(".define details").ok().flatten();
+    if let Some(details) = details {
+        // It has the attribute, or its field is found as well.
+        let _ = details.set_attribute("open", "");
     }
 }
 

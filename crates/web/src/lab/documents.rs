@@ -167,11 +167,13 @@ impl Lab {
         let mut found = false;
         for path in wanted.unwrap_or_default() {
             if presentation::files::is_table(&path) {
-                let table = server::table(&path).await.ok();
-                found |= table.is_some();
-                self.files.update_value(|files| {
-                    files.texts.insert(path, table);
-                });
+                // one that cannot be read now is asked for again
+                if let Ok(table) = server::table(&path).await {
+                    found |= table.is_some();
+                    self.files.update_value(|files| {
+                        files.texts.insert(path, table);
+                    });
+                }
                 continue;
             }
             // a server that does not answer is asked again
@@ -184,6 +186,11 @@ impl Lab {
             }
         }
         found
+    }
+
+    /// Forgets which tables were not there: by now they may be.
+    pub fn forget_missing_tables(self) {
+        self.files.update_value(|files| files.forget_missing_tables());
     }
 
     /// Fetches a table that was just named beside the shown document, and does something once it is there.

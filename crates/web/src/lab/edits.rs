@@ -1,6 +1,7 @@
 //! Edits: commands, drags, joins, typed text, and what came of them.
 
 use super::{InPlace, Lab, Notice, Zoom};
+use crate::sheet::bounds;
 use crate::{js, words};
 use leptos::prelude::*;
 use session::view::{Caught, Change, Choice, DragState, FixView, Question, Refusal};
@@ -57,15 +58,30 @@ impl Lab {
     /// Why not; the caller shows it beside the field.
     pub fn set_typed(self, path: &str, typed: &str) -> Result<(), Refusal> {
         self.flush_text();
+        let size = self.size_of_drawn();
         match self.tell(|session, id| session.set_typed(id, path, typed)) {
             Some(Err(refusal)) => Err(refusal),
             outcome => {
-                if self.settle(outcome) {
+                if self.settle(outcome) && self.size_of_drawn() != size && self.is_length(path) {
                     self.look_at_size();
                 }
                 Ok(())
             }
         }
+    }
+
+    /// Returns how wide and how high what is drawn is; nothing while that is nothing.
+    fn size_of_drawn(self) -> Option<(f64, f64)> {
+        self.picture.with_untracked(|picture| {
+            let drawn = (!picture.drawing.elements.is_empty()).then(|| bounds(&picture.drawing))?;
+            Some((drawn.most.x - drawn.least.x, drawn.most.y - drawn.least.y))
+        })
+    }
+
+    fn is_length(self, path: &str) -> bool {
+        let rows = self.ask_of_shown(Session::values).unwrap_or_default();
+        let row = rows.iter().find(|row| row.path == path || row.shortest == path);
+        row.is_some_and(|row| row.class == "Length")
     }
 
     /// Brings what is drawn into sight where a length that was typed has made it another size.
