@@ -357,11 +357,9 @@ impl Session {
         let is_empty = state.structure.parts(kernel::DOCUMENT).next().is_none();
         let is_told = counts_down(&state.text).is_some();
         let beside = Beside::of(&*self.host, &self.documents, id);
-        let members = if is_empty && !is_told {
-            begun_with(library, &beside)
-        } else {
-            format!("use {library}")
-        };
+        // what is not there yet is asked for
+        let begun = begun_with(library, &beside);
+        let members = if is_empty && !is_told { begun } else { format!("use {library}") };
         Command::Edit { target: Path::default(), members }
     }
 }

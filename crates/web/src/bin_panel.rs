@@ -43,13 +43,7 @@ pub fn Bin(
         all.into_iter().filter(|entry| has(entry)).collect::<Vec<_>>()
     });
     let more = Memo::new(move |_| offered.with(|offered| shelved(offered, true)));
-    Effect::new(move |_| {
-        lab.current.track();
-        leptos::task::spawn_local(async move {
-            // without a server nothing lies beside a document
-            let _ = lab.fetch_list().await;
-        });
-    });
+    list_beside(lab);
     // one stop of Tab: arrows lead from tile to tile
     Effect::new(move |_| {
         shelves.track();
@@ -128,6 +122,17 @@ pub fn Bin(
             </div>
         </section>
     }
+}
+
+/// Has the documents listed that lie beside the shown one.
+fn list_beside(lab: Lab) {
+    Effect::new(move |_| {
+        lab.current.track();
+        leptos::task::spawn_local(async move {
+            // without a server nothing lies beside a document
+            let _ = lab.fetch_list().await;
+        });
+    });
 }
 
 /// A button for each of what could be used.
@@ -210,14 +215,14 @@ fn Tile(lab: Lab, entry: BinEntry, is_used: bool) -> impl IntoView {
                     by_finger.set_value(e.pointer_type() == "touch");
                     if e.button() == 0 && !by_finger.get_value() {
                         e.prevent_default();
-                        with_library(|lab, class| lab.take_tool(class));
+                        with_library(Lab::take_tool);
                         lab.carried.set_value(true);
                     }
                 }
                 on:click=move |_| {
                     // a finger that comes down may scroll the bin; what it takes is placed where the sheet was
                     if by_finger.get_value() {
-                        with_library(|lab, class| lab.take_tool(class));
+                        with_library(Lab::take_tool);
                         lab.sheet.set(Sheet::Shut);
                     }
                 }
@@ -225,7 +230,7 @@ fn Tile(lab: Lab, entry: BinEntry, is_used: bool) -> impl IntoView {
                     if e.key() == "Enter" || e.key() == " " {
                         e.prevent_default();
                         e.stop_propagation();
-                        with_library(|lab, class| lab.insert(class));
+                        with_library(Lab::insert);
                     }
                 }>
                 {is_drawn.then(|| view! { <canvas node_ref=canvas aria-hidden="true"></canvas> })}

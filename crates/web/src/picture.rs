@@ -50,21 +50,7 @@ pub fn Picture(
         }
     });
     on_cleanup(move || painter.with_value(|p| p.as_ref().map(Painter::stop)).unwrap_or_default());
-    Effect::new(move |before: Option<(f64, f64)>| {
-        let now = size.get();
-        let lost = || {
-            let view = lab.view.get_untracked();
-            let all = drawn(lab)?;
-            // what was wholly in sight does not go behind a panel that opens
-            (view.holds(all, before?) && !view.holds(all, now)).then_some(all)
-        };
-        if lab.fits.get_value() {
-            lab.zoom.set(Some(Zoom::Fit));
-        } else if let Some(all) = lost() {
-            lab.zoom.set(Some(Zoom::Over(all)));
-        }
-        now
-    });
+    follow_size(lab, size);
     Effect::new(move |_| zoom_as_asked(lab, size.get()));
     Effect::new(move |_| {
         lab.colors.changes.track();
@@ -76,12 +62,7 @@ pub fn Picture(
         let title = lab.document.with(|d| d.as_ref().map_or_else(String::new, |d| d.title.clone()));
         words::picture_of(&title, lab.picture.with(|picture| picture.grips.len()))
     });
-    // how large things are on the sheet, where that is said in a unit
-    let grid_step = Memo::new(move |_| {
-        let unit = lab.picture.with(|picture| Some(picture.unit.as_ref()?.name.clone()));
-        let step = base::number::significant(lab.view.get().grid_step(), 6);
-        unit.filter(|_| lab.grid.get()).map(|unit| words::grid_step(&step, &unit))
-    });
+    let grid_step = grid_step(lab);
     let caught = Memo::new(move |_| {
         lab.tool_view.with(|tool| tool.caught.as_ref().map(|caught| caught.word.clone()))
     });
@@ -303,6 +284,56 @@ pub(crate) fn paint(
     (list.words.clone(), list.colors.clone())
 }
 
+/// A view that a panel has had moved: what it was, in which size, and what it became.
+#[derive(Clone, Copy)]
+struct Hidden {
+    size: (f64, f64),
+    view: View,
+    seen: View,
+}
+
+/// What was wholly in sight does not go behind a panel that opens, and is where it was once that is shut again, unless
+/// somebody has looked elsewhere meanwhile.
+fn follow_size(lab: Lab, size: RwSignal<(f64, f64)>) {
+    let hidden = StoredValue::new(None::<Hidden>);
+    Effect::new(move |before: Option<(f64, f64)>| {
+        let now = size.get();
+        let view = lab.view.get_untracked();
+        let moved = hidden.get_value().filter(|hidden| hidden.seen == view);
+        let all = || {
+            let all = drawn(lab)?;
+            (view.holds(all, before?) && !view.holds(all, now)).then_some(all)
+        };
+        if lab.fits.get_value() {
+            hidden.set_value(None);
+            lab.zoom.set(Some(Zoom::Fit));
+        } else if let Some(moved) = moved.filter(|moved| moved.size == now) {
+            hidden.set_value(None);
+            lab.view.set(moved.view);
+        } else if let Some(all) = all().filter(|_| now.0 > 0.0) {
+            let seen = view.with_in_sight(all, now, margin(now));
+            let first = Hidden { size: before.unwrap_or(now), view, seen };
+            hidden.set_value(Some(Hidden { seen, ..moved.unwrap_or(first) }));
+            lab.view.set(seen);
+        }
+        now
+    });
+}
+
+/// How far what is fitted stays from the sides of a canvas of that size.
+fn margin(size: (f64, f64)) -> f64 {
+    MARGIN.min(0.12 * size.0.min(size.1))
+}
+
+/// How far the lines of the grid are apart, where lengths of the sheet have a unit.
+fn grid_step(lab: Lab) -> Memo<Option<String>> {
+    Memo::new(move |_| {
+        let unit = lab.picture.with(|picture| Some(picture.unit.as_ref()?.name.clone()));
+        let step = base::number::significant(lab.view.get().grid_step(), 6);
+        unit.filter(|_| lab.grid.get()).map(|unit| words::grid_step(&step, &unit))
+    })
+}
+
 /// Does what was asked of the view, once the canvas has a size.
 fn zoom_as_asked(lab: Lab, size: (f64, f64)) {
     let Some(asked) = lab.zoom.get() else { return };
@@ -310,7 +341,7 @@ fn zoom_as_asked(lab: Lab, size: (f64, f64)) {
         return;
     }
     lab.zoom.set(None);
-    let margin = MARGIN.min(0.12 * size.0.min(size.1));
+    let margin = margin(size);
     // what waits or is offered lies over the lower edge
     let room = if size.1 > LOW { size.1 - BELOW } else { size.1 };
     match asked {

@@ -7,6 +7,7 @@ use crate::server::{self, Saved, Stored};
 use crate::{js, route, theme, words};
 use leptos::prelude::*;
 use presentation::drafts::place_of;
+use presentation::files::FileSet;
 use presentation::palette::Listed;
 use presentation::paths::usable;
 use presentation::recent;
@@ -190,7 +191,7 @@ impl Lab {
 
     /// Forgets which tables were not there: by now they may be.
     pub fn forget_missing_tables(self) {
-        self.files.update_value(|files| files.forget_missing_tables());
+        self.files.update_value(FileSet::forget_missing_tables);
     }
 
     /// Fetches a table that was just named beside the shown document, and does something once it is there.

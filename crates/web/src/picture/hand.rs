@@ -299,7 +299,7 @@ impl Hand {
                 self.lab.tool_moved(&self.pointer(at));
             }
             Mode::Idle | Mode::Tool { .. } if self.lab.drafts() => {
-                self.lab.draft_hover(&self.pointer(at))
+                self.lab.draft_hover(&self.pointer(at));
             }
             Mode::Tool { .. } => {}
             Mode::Idle => self.lab.hover(self.pick_deeper(at)),
