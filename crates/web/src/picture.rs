@@ -353,7 +353,8 @@ fn zoom_as_asked(lab: Lab, size: (f64, f64)) {
             }
         }
         Zoom::Fit => {
-            lab.fits.set_value(true);
+            // what is drawn must not move under a hand that holds a tool
+            lab.fits.set_value(lab.tool.with_untracked(Option::is_none));
             lab.looked.set_value(false);
             show_all(lab, size, (room, margin));
         }
