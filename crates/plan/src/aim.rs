@@ -263,7 +263,7 @@ fn flatten<'a>(
             }
         }
         Meaning::Opaque(_) => {
-            return Err(Trouble::not_yet(match (opening.meets_counts, opening.meets_programs) {
+            return Err(Trouble::not_yet(match (opening.meets_counts, opening.has_courses) {
                 (true, _) => {
                     "how many there are follows one way only: this is not edited through it"
                 }

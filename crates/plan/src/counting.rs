@@ -25,7 +25,7 @@ impl<'a> Opening<'a> {
         let [from, to] = match [self.constant(&ends[0]), self.constant(&ends[1])] {
             [Some(from), Some(to)] => [from, to],
             _ => {
-                (self.meets_programs, self.meets_counts) = (true, true);
+                (self.has_courses, self.meets_counts) = (true, true);
                 // how many there are no other thing says
                 self.reach.looks_around();
                 let is_number = |end: &Meaning<'a>| matches!(end, Meaning::Number(_));
@@ -55,18 +55,18 @@ impl<'a> Opening<'a> {
         let first = slots.first().map(|&slot| self.structure.slots[slot].thing);
         let Some(at) = self.at else { return Err(Trouble::wrong("no course")) };
         let value = self.arena.evaluate(id, at.numbers.as_slice());
+        // what is decided is noted first: a rule that cannot be opened by it is opened anew where it is otherwise
+        let is_whole = |&slot: &SlotId| self.structure.slots[slot].primitive == Primitive::Integer;
+        if slots.iter().all(is_whole) {
+            slots.into_iter().for_each(|slot| self.note_count(slot, at.numbers[slot]));
+        } else {
+            let place = Block { of: first, path: String::new(), what: Decided::Count };
+            self.decisions.push(Decision { of: id, is: value, place });
+        }
         if value.is_nan() {
             let of = first.map(|of| format!(": it follows from {}", self.path_of(of)));
             let message = format!("how many there are has no value{}", of.unwrap_or_default());
             return Err(Trouble::wrong(message));
-        }
-        let is_whole = |&slot: &SlotId| self.structure.slots[slot].primitive == Primitive::Integer;
-        if !slots.iter().all(is_whole) {
-            let place = Block { of: first, path: String::new(), what: Decided::Count };
-            return self.decide(count, place);
-        }
-        for slot in slots {
-            self.note_count(slot, at.numbers[slot]);
         }
         Ok(value)
     }

@@ -1,4 +1,4 @@
-//! Courses: which turns and branches programs take, where rules and wishes speak of what they draw.
+//! Courses: which turns and branches programs take and how many ranges count, where rules and wishes speak of that.
 //!
 //! A rule says what it says on the course that was taken at some state. Each decision on the way is kept: while all
 //! come out as they did, the rule is right. Where one comes out otherwise the rules are opened anew.
@@ -54,8 +54,17 @@ pub(crate) struct Guard {
 }
 
 impl Guard {
+    fn value(&self, patterns: &Patterns, values: &Values) -> f64 {
+        self.of.value(patterns, &values.numbers)
+    }
+    /// Returns true if it comes out as it did; what had no value has none again.
     fn holds(&self, patterns: &Patterns, values: &Values) -> bool {
-        self.of.value(patterns, &values.numbers) == self.is
+        let value = self.value(patterns, values);
+        value == self.is || value.is_nan() && self.is.is_nan()
+    }
+    /// Returns how it would be if it had been decided at other values.
+    pub(crate) fn decided_at(&self, patterns: &Patterns, values: &Values) -> Self {
+        Self { is: self.value(patterns, values), ..self.clone() }
     }
 }
 
@@ -100,27 +109,29 @@ impl Planner {
         guards: &[Guard],
         (before, after): (&Values, &Values),
     ) -> Vec<CourseChange> {
-        let mut changes = Vec::new();
-        let broken = guards.iter().filter(|g| !g.holds(self.plans.patterns(), after));
-        let mut places: Vec<&Block> = broken.map(|g| &g.place).collect();
-        places.sort_unstable();
-        places.dedup();
-        for place in places {
-            let Some(of) = place.of else { continue };
-            let many = |values: &Values| match place.what {
-                Decided::Count => count(model, of, values),
-                _ => turns(model, of, values).get(&place.path).copied(),
+        let patterns = self.plans.patterns();
+        let broken = guards.iter().filter(|g| !g.holds(patterns, after));
+        let counts = |g: &Guard| match g.place.what {
+            Decided::Count => [g.is, g.value(patterns, after)].map(count),
+            Decided::Turns | Decided::Branch | Decided::Demand | Decided::Parameter => [None; 2],
+        };
+        let places: BTreeSet<_> = broken.map(|g| (&g.place, counts(g))).collect();
+        let change = |(place, counts): (&Block, [Option<u32>; 2])| {
+            let of = place.of?;
+            let turns = |values| turns(model, of, values).get(&place.path).copied();
+            let [from, to] = match place.what {
+                Decided::Count => counts,
+                _ => [before, after].map(turns),
             };
-            let (from, to) = (many(before), many(after));
-            changes.push(CourseChange { of, path: place.path.clone(), what: place.what, from, to });
-        }
-        changes
+            Some(CourseChange { of, path: place.path.clone(), what: place.what, from, to })
+        };
+        places.into_iter().filter_map(change).collect()
     }
 
     /// Returns how everything is decided at some values: where, and the bits of what comes out.
     pub(crate) fn decided_at(&self, guards: &[Guard], values: &Values) -> Vec<(Block, u64)> {
         let patterns = self.plans.patterns();
-        let value = |guard: &Guard| guard.of.value(patterns, &values.numbers).to_bits();
+        let value = |guard: &Guard| guard.value(patterns, values).to_bits();
         guards.iter().map(|guard| (guard.place.clone(), value(guard))).collect()
     }
 
@@ -150,10 +161,9 @@ fn is_of(structure: &Structure, thing: Option<ThingId>, numbers: &BTreeSet<SlotI
     thing.and_then(|thing| structure.slot_of(thing)).is_some_and(|slot| numbers.contains(&slot))
 }
 
-/// Returns what a number counts, where it is a whole one.
-fn count(model: Model<'_>, of: ThingId, values: &Values) -> Option<u32> {
-    let slot = model.structure.slot_of(of)?;
-    whole(values.numbers[slot]).and_then(|n| u32::try_from(n).ok())
+/// Returns how many a number is, where it counts.
+fn count(number: f64) -> Option<u32> {
+    whole(number).and_then(|n| u32::try_from(n).ok())
 }
 
 /// Returns how many turns the loops of a thing's program take.

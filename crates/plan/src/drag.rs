@@ -145,7 +145,7 @@ impl Planner {
         self.take_course(model, values);
         let aim = self.aim_keeping(model, (values, values), targets, kept)?;
         let mut press = self.press_aim(model, values, aim);
-        press.courses = self.courses(&press.aim, (targets, kept), values);
+        press.courses = self.courses(model.structure, &press.aim, (targets, kept), values);
         Ok(press)
     }
 
@@ -174,8 +174,10 @@ impl Planner {
         wanted: &[f64],
         host: &mut dyn Host,
     ) -> EditReport {
+        let whole = press.courses.as_ref().map(|courses| courses.wish(wanted));
         let goals = press.aim.wanted.iter_mut().flatten();
-        let count = goals.zip(wanted).map(|(goal, &x)| *goal = x + 0.0).count();
+        let wished = whole.as_deref().unwrap_or(wanted);
+        let count = goals.zip(wished).map(|(goal, &x)| *goal = x + 0.0).count();
         assert_eq!(count, wanted.len(), "a wish names every number that was pressed");
         let report = self.pull_all(model, press, values, host);
         match press.courses.take() {
@@ -208,6 +210,20 @@ impl Planner {
     ///
     /// Where that fails, everything is as it was at the press.
     pub fn release(
+        &mut self,
+        model: Model<'_>,
+        press: Press,
+        values: &mut Values,
+        host: &mut dyn Host,
+    ) -> EditReport {
+        let report = self.let_go(model, press, values, host);
+        if report.refusal.is_some() {
+            self.take_course(model, values);
+        }
+        report
+    }
+
+    fn let_go(
         &mut self,
         model: Model<'_>,
         press: Press,

@@ -130,16 +130,21 @@ impl Planner {
     ) -> EditReport {
         let mut report = self.open_once(model, values, host);
         for _ in 0..COURSES {
-            if !self.take_course(model, values) {
+            if !self.take_course_at(model, values) {
                 return report;
             }
             report = self.open_once(model, values, host);
         }
-        if self.take_course(model, values) {
-            // which course holds is not found: what programs draw is tested, and nothing follows from it
+        if self.take_course_at(model, values) {
+            // which course holds is not found: what programs draw, and what speaks of as many as a value says, is
+            // tested, and nothing follows from it
+            let tried = self.lowering.clone();
             self.lower_on(model, None);
-            self.without_course();
             report = self.open_once(model, values, host);
+            let patterns = self.plans.patterns();
+            let decided = tried.guards.iter().map(|guard| guard.decided_at(patterns, values));
+            let decided = decided.collect();
+            self.without_course(decided);
         }
         report
     }
@@ -295,7 +300,7 @@ impl Planner {
     ///
     /// A refused edit leaves every bit as it was. A move that cannot reach its target comes as near
     /// as it can and says so; when it has ended, soft constraints act again. Where a program would take another course,
-    /// the edit is solved on that one; a move for which none holds goes as far as the present one does.
+    /// the edit is solved on that one; a move for which none holds goes as far as one does.
     pub fn edit(
         &mut self,
         model: Model<'_>,
@@ -306,12 +311,29 @@ impl Planner {
     ) -> EditReport {
         self.take_course(model, values);
         let start = values.clone();
+        let report = self.edit_from(model, (&start, values), kind, targets, host);
+        if report.refusal.is_some() {
+            // the rules are on the course of what stays
+            self.take_course(model, &start);
+        }
+        report
+    }
+
+    fn edit_from(
+        &mut self,
+        model: Model<'_>,
+        (start, values): (&Values, &mut Values),
+        kind: EditKind,
+        targets: &[(Target<'_>, Vec<Value>)],
+        host: &mut dyn Host,
+    ) -> EditReport {
+        let began = self.lowering.clone();
         let (mut on, mut first) = (start.clone(), None);
         let mut tried = Vec::new();
         loop {
-            let aim = match self.aim(model, (&start, &on), kind, targets) {
+            let aim = match self.aim(model, (start, &on), kind, targets) {
                 Ok(aim) => aim,
-                Err(refusal) => return self.refused(model, &start, refusal),
+                Err(refusal) => return refused(refusal),
             };
             let guards = [&aim.guards[..], &self.lowering.guards].concat();
             let edited = aim.slots();
@@ -319,35 +341,33 @@ impl Planner {
                 EditKind::Move => move_at_once(self, model, values, aim, host),
                 EditKind::Set => self.set(model, values, &aim, host),
             };
+            let is_moved_on = kind == EditKind::Move && !tried.is_empty();
+            if is_moved_on && (report.refusal.is_some() || self.is_faulty_beside(&began)) {
+                values.clone_from(start);
+                return self.move_on_course(model, values, targets, host);
+            }
             if report.refusal.is_some() {
-                self.take_course(model, &start);
                 return report;
             }
             let first: &[Guard] = first.get_or_insert_with(|| guards.clone());
             if self.is_on_course(&guards, values) {
-                let mut courses = self.course_changes(model, first, (&start, values));
+                let mut courses = self.course_changes(model, first, (start, values));
                 courses.retain(|change| !change.is_of(model.structure, &edited));
                 return EditReport { courses, ..report };
             }
-            let changes = self.course_changes(model, &guards, (&start, values));
+            let changes = self.course_changes(model, &guards, (start, values));
             let decided = self.decided_at(&guards, values);
             on.clone_from(values);
-            values.clone_from(&start);
+            values.clone_from(start);
             if tried.len() == COURSES || tried.contains(&decided) {
                 return match kind {
                     EditKind::Move => self.move_on_course(model, values, targets, host),
-                    EditKind::Set => self.refused(model, &start, RefusalReason::Course(changes)),
+                    EditKind::Set => refused(RefusalReason::Course(changes)),
                 };
             }
             tried.push(decided);
             self.take_course(model, &on);
         }
-    }
-
-    /// Reports that nothing was changed; the rules are on the course of what stays.
-    fn refused(&mut self, model: Model<'_>, values: &Values, refusal: RefusalReason) -> EditReport {
-        self.take_course(model, values);
-        EditReport { refusal: Some(refusal), ..EditReport::default() }
     }
 
     /// Moves targets as a hand does, which stops where the course of a program ends.
@@ -366,7 +386,7 @@ impl Planner {
                 let wanted = aim.wanted.concat();
                 move_pressed(self, model, (press, &wanted), values, host)
             }
-            (Err(refusal), _) | (_, Err(refusal)) => self.refused(model, values, refusal),
+            (Err(refusal), _) | (_, Err(refusal)) => refused(refusal),
         }
     }
 
@@ -526,6 +546,11 @@ impl Planner {
             .iter()
             .find_map(|task| run_or_stay(self, model, task, &aim, &start, values, host).failure)
     }
+}
+
+/// Reports that nothing was changed.
+fn refused(refusal: RefusalReason) -> EditReport {
+    EditReport { refusal: Some(refusal), ..EditReport::default() }
 }
 
 /// Returns the first whole number that would leave its domain.

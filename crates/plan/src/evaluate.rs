@@ -1,7 +1,8 @@
 //! Symbolic evaluation: a term in, its [`Meaning`] out.
 //!
 //! Messages and virtual parts are opened into their definitions, lists are expanded, conditions
-//! become selections. Nothing here looks at a value: the result serves every state.
+//! become selections. Values are looked at where they decide how many there are or what a program draws alone, and
+//! what they decide is noted: everything else serves every state.
 
 use crate::counting::whole;
 use crate::course::Decision;
@@ -59,7 +60,7 @@ pub(crate) struct Opening<'a> {
     /// True if the rule at hand speaks of as many as a value says, and there is no state that has one.
     pub(crate) awaits_count: bool,
     /// True once a rule spoke of what a program draws, or of as many as a value says.
-    pub(crate) meets_programs: bool,
+    pub(crate) has_courses: bool,
     depth: u32,
     nested: u32,
     terms: u32,
@@ -98,7 +99,7 @@ impl<'a> Opening<'a> {
             known_counts: BTreeMap::new(),
             meets_counts: false,
             awaits_count: false,
-            meets_programs: false,
+            has_courses: false,
             depth: 0,
             nested: 0,
             terms: 0,

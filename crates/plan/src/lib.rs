@@ -31,8 +31,8 @@
 //! targets; a drag depends on the press and the present wish alone; what is asked for by slot or rule
 //! is answered by slot or rule: words are made elsewhere.
 //!
-//! Reading order: [`rule`] and the lowering (meanings, evaluation, what a rule says), components,
-//! tasks, [`planner`], [`edit`], [`drag`], [`status`], [`diagnose`], [`explain`].
+//! Reading order: [`rule`] and the lowering (meanings, evaluation, what a rule says; programs, counting and
+//! the courses of both), components, tasks, [`planner`], [`edit`], [`drag`], [`status`], [`diagnose`], [`explain`].
 pub mod rule;
 
 mod builtin;

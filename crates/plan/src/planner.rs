@@ -1,6 +1,7 @@
 //! The planner: rules lowered once for a structure, components, and plans by shape.
 
 use crate::component::{Component, Net, Partition};
+use crate::course::Guard;
 use crate::edit::NotDecided;
 use crate::fault::{Fault, Trouble};
 use crate::holds;
@@ -10,7 +11,7 @@ use crate::plans::{PlanCounts, Plans};
 use crate::recent::Recent;
 use crate::rule::{Rules, Source};
 use crate::task::{Alike, Holding, Locals, Setting, Task, Wish, at_rest, task};
-use crate::template::LoweringReport;
+use crate::template::{LoweringReport, On};
 use kernel::{Document, Form, OriginId, SlotId, Structure, Values};
 use solve::{Giver, Lean, Level, Mode, Modes, Plan, Runner, Scratch, System};
 use std::cell::RefCell;
@@ -68,6 +69,12 @@ pub(crate) struct Kept {
     resting: Option<Vec<Task>>,
 }
 
+impl Kept {
+    pub(crate) fn is_on_a_course(&self) -> bool {
+        self.lowering.has_courses && self.lowering.on != On::Nothing
+    }
+}
+
 /// What the latest edit planned: what an explanation is about.
 #[derive(Debug, Default)]
 pub struct Latest {
@@ -120,32 +127,55 @@ impl Planner {
         (planner, faults)
     }
 
-    /// Lowers the rules anew where they speak of what programs draw and those take another course at these values.
-    /// Returns true if it did. Whoever asks about a state that was not opened or edited by this planner calls it first.
+    /// Lowers the rules anew where they take another course at these values: what they speak of a program draws, or
+    /// they speak of as many as a value says. Returns true if it did. Whoever asks about a state that was not opened or
+    /// edited by this planner calls it first.
     pub fn take_course(&mut self, model: Model<'_>, values: &Values) -> bool {
-        let LoweringReport { guards, meets_programs, is_on_course, .. } = &*self.lowering;
-        if !meets_programs || *is_on_course && self.is_on_course(guards, values) {
+        let unsettled = self.lowering.unsettled.clone();
+        match unsettled.filter(|unsettled| self.is_on_course(unsettled, values)) {
+            Some(_) if self.lowering.on == On::Unsettled => false,
+            Some(unsettled) => {
+                self.lower_on(model, None);
+                self.without_course(unsettled);
+                true
+            }
+            None => self.take_course_at(model, values),
+        }
+    }
+    /// Does the same without a look at where no course was found before.
+    pub(crate) fn take_course_at(&mut self, model: Model<'_>, values: &Values) -> bool {
+        let LoweringReport { guards, has_courses, on, .. } = &*self.lowering;
+        if !has_courses || *on == On::Course && self.is_on_course(guards, values) {
             return false;
         }
         self.lower_on(model, Some(values));
         true
     }
+    /// Returns true if something cannot be planned on the course that is taken that could be on another.
+    pub(crate) fn is_faulty_beside(&self, other: &LoweringReport) -> bool {
+        let known: BTreeSet<OriginId> = other.course_faults.iter().map(|f| f.origin).collect();
+        self.lowering.course_faults.iter().any(|fault| !known.contains(&fault.origin))
+    }
     /// Returns what cannot be planned on the course that is taken, besides what cannot be planned on any.
     pub fn course_faults(&self) -> &[Fault] {
         &self.lowering.course_faults
     }
-    /// Notes that no course was found on which rules speak of as many as they say.
-    pub(crate) fn without_course(&mut self) {
+    /// Notes that no course was found on which rules speak of as many as they say, and how it is decided there.
+    pub(crate) fn without_course(&mut self, unsettled: Rc<[Guard]>) {
         let message = "how many this speaks of does not settle: it changes with what the rule does";
         let mut lowering = (*self.lowering).clone();
         let faults = lowering.awaiting.iter().map(|&o| Trouble::not_yet(message).at(o));
         lowering.course_faults = faults.collect();
+        (lowering.on, lowering.guards) = (On::Unsettled, unsettled.to_vec());
+        lowering.unsettled = Some(unsettled);
         self.lowering = Rc::new(lowering);
     }
     /// Lowers the rules on the course that programs take at these values.
     pub(crate) fn lower_on(&mut self, model: Model<'_>, values: Option<&Values>) {
         let faults = self.lowering.faults.clone();
+        let unsettled = self.lowering.unsettled.clone();
         let (rules, mut lowering) = self.plans.lower(model, values);
+        lowering.unsettled = unsettled;
         let known: BTreeSet<OriginId> = faults.iter().map(|fault| fault.origin).collect();
         lowering.course_faults = std::mem::replace(&mut lowering.faults, faults);
         lowering.course_faults.retain(|fault| !known.contains(&fault.origin));
@@ -233,7 +263,8 @@ impl Planner {
     }
     /// Gives plans back that another planner was tried with.
     pub fn give_plans(&mut self, mut plans: Plans) {
-        if let Some(kept) = plans.kept.take().filter(|kept| Rc::ptr_eq(&kept.form, &self.form)) {
+        let is_of_these = |kept: &Kept| Rc::ptr_eq(&kept.rules, &self.rules);
+        if let Some(kept) = plans.kept.take().filter(|kept| is_of_these(kept)) {
             (self.alike, self.whole) = (kept.alike, kept.whole);
             (self.recent, self.resting) = (kept.recent, kept.resting);
         }
@@ -247,7 +278,7 @@ impl Planner {
     pub fn restore_latest(&mut self, latest: Latest) {
         // rules that were opened anew on another course are others
         let is_other = latest.of.as_ref().is_some_and(|of| !Rc::ptr_eq(of, &self.rules));
-        if !(is_other && self.lowering.meets_programs) {
+        if !(is_other && self.lowering.has_courses) {
             self.latest = latest;
         }
     }

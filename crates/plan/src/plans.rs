@@ -77,6 +77,12 @@ impl Plans {
     ) -> (Rules, LoweringReport) {
         lower_all((model, on), &mut self.patterns, &mut std::mem::take(&mut self.known))
     }
+    /// Forgets the course that was taken in the document that they were made for: the next planner takes its own.
+    #[must_use]
+    pub fn without_course(mut self) -> Self {
+        self.kept = self.kept.filter(|kept| !kept.is_on_a_course());
+        self
+    }
     /// Notes that a plan served once more.
     pub(crate) fn reuse(&mut self) {
         self.reused += 1;

@@ -99,7 +99,7 @@ impl<'a> Opening<'a> {
 
     /// Opens the program of a thing, once for a rule.
     pub(crate) fn drawn_by(&mut self, thing: ThingId) -> Result<Option<Rc<Drawn<'a>>>, Trouble> {
-        self.meets_programs = true;
+        self.has_courses = true;
         // on which course it is opened no other thing says
         self.reach.looks_around();
         let thing = self.structure.merged[thing];
@@ -158,7 +158,7 @@ impl<'a> Opening<'a> {
         class: ClassId,
         of: Option<ThingId>,
     ) -> Result<Option<Rc<Drawn<'a>>>, Trouble> {
-        self.meets_programs = true;
+        self.has_courses = true;
         if self.at.is_none() {
             return Ok(None);
         }
@@ -184,10 +184,10 @@ impl<'a> Opening<'a> {
         }
         let Some(at) = self.at else { return Err(Trouble::wrong("no course")) };
         let value = self.arena.evaluate(id, at.numbers.as_slice());
+        self.decisions.push(Decision { of: id, is: value, place });
         if value.is_nan() {
             return Err(Trouble::wrong("a condition without a value"));
         }
-        self.decisions.push(Decision { of: id, is: value, place });
         Ok(value)
     }
 

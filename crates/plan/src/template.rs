@@ -19,6 +19,7 @@ use kernel::{
     ClassId, ConstraintInstance, Document, OriginId, SlotId, Strength, Structure, Values,
 };
 use solve::{Level, Patterns, Span};
+use std::rc::Rc;
 
 /// How many ways of being built one constraint is remembered for.
 const REMEMBERED: u32 = 16;
@@ -199,12 +200,26 @@ pub(crate) struct LoweringReport {
     pub(crate) course_faults: Vec<Fault>,
     /// The rules that are left out until there is a state that says how many they speak of.
     pub(crate) awaiting: Vec<OriginId>,
-    /// The courses that programs take in what the rules say.
+    /// The courses that are taken in what the rules say, and in what cannot be planned on them.
     pub(crate) guards: Vec<Guard>,
-    /// Whether some speak of what a program draws.
-    pub(crate) meets_programs: bool,
-    /// Whether these are opened on the course that is taken at some state.
-    pub(crate) is_on_course: bool,
+    /// Whether some speak of what a program draws, or of as many as a value says.
+    pub(crate) has_courses: bool,
+    /// Where these are opened.
+    pub(crate) on: On,
+    /// How it is decided at a state at which no course was found to hold, where there was one.
+    pub(crate) unsettled: Option<Rc<[Guard]>>,
+}
+
+/// Where rules are opened that may take several courses.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub(crate) enum On {
+    /// On none, for want of a state.
+    #[default]
+    Nothing,
+    /// On the course that is taken at some state.
+    Course,
+    /// On none, as at some state none holds.
+    Unsettled,
 }
 
 /// Lowers every constraint that is not switched off and every declared stay. What cannot be planned is left
@@ -258,6 +273,8 @@ pub(crate) fn lower_all(
             }
             Err(fault) => {
                 faults.push(fault);
+                // decided otherwise, it may be planned
+                guards.extend(opening.guards(patterns));
                 continue;
             }
         };
@@ -279,10 +296,15 @@ pub(crate) fn lower_all(
     }
     guard(structure, &mut rules, &guarded);
     lower_stays(model, &mut rules);
-    let meets_programs = opening.meets_programs;
-    let (course_faults, is_on_course) = (Vec::new(), on.is_some());
-    let report =
-        LoweringReport { faults, course_faults, awaiting, guards, meets_programs, is_on_course };
+    let report = LoweringReport {
+        faults,
+        course_faults: Vec::new(),
+        awaiting,
+        guards,
+        has_courses: opening.has_courses,
+        on: on.map_or(On::Nothing, |_| On::Course),
+        unsettled: None,
+    };
     (rules, report)
 }
 

@@ -329,6 +329,7 @@ fn as_dragged(
         let mut wishes = (0..WISHES).map(|_| drag.to(state, planner, to));
         wishes.find(|came| came.reached || came.limit.is_some())
     });
+    planner.take_course(state.model(), &state.values);
     planner.restore_latest(latest);
     match ended {
         Some(DragState { message: Some(words), limit: Some(limit), .. }) => {
@@ -428,7 +429,7 @@ pub(crate) fn keep(
         None => None,
     };
     if let Some(refusal) = refusal {
-        open.planner.give_plans(planner.into_plans());
+        open.give_up(planner);
         open.planner.restore_latest(latest);
         return Err(refusal);
     }
@@ -533,7 +534,7 @@ fn restructured(open: &mut Open, host: &dyn Host, command: &Command) -> Result<C
             .filter(|d| !before.diagnostics.iter().any(|b| b.message == d.message))
             .cloned()
             .collect();
-        open.planner.give_plans(planner.into_plans());
+        open.give_up(planner);
         return Err(words::refusal_of_text(&state, &new));
     }
     let class = done.class.map(|c| before.lowered.document.classes[c].name.to_string());
@@ -562,7 +563,7 @@ fn restructured(open: &mut Open, host: &dyn Host, command: &Command) -> Result<C
     if matches!(command, Command::Merge(_)) && open.status.satisfied {
         let status = state.status(&mut planner);
         if let Some(refusal) = words::refusal_of_status(&state, &status) {
-            open.planner.give_plans(planner.into_plans());
+            open.give_up(planner);
             return Err(refusal);
         }
     }

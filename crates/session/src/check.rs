@@ -104,7 +104,7 @@ fn run(of: Checked<'_>, check: &Check, host: &dyn Host, begun: &mut Begun) -> Ch
             break;
         }
     }
-    begun.plans = run.open.planner.take_plans();
+    begun.plans = run.open.planner.take_plans().without_course();
     CheckReport {
         title: check.title.clone(),
         line: of.line(check.span.start),

@@ -159,8 +159,17 @@ impl Open {
         to.push(Step { state, status, ..step });
         let plans = self.planner.take_plans();
         (self.planner, _) = Planner::new(self.state.model(), plans);
-        self.planner.take_course(self.state.model(), &self.state.values);
+        self.back_on_course();
         Some(label)
+    }
+    /// Has the planner on the course of the present state, whatever was tried with it.
+    pub(crate) fn back_on_course(&mut self) {
+        self.planner.take_course(self.state.model(), &self.state.values);
+    }
+    /// Gives up a state that was tried: takes back the plans that it was tried with.
+    pub(crate) fn give_up(&mut self, planner: Planner) {
+        self.planner.give_plans(planner.into_plans());
+        self.back_on_course();
     }
     /// Tries something of several steps: where it is refused none of them was done, and what was undone can still be done
     /// again.

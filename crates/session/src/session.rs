@@ -244,10 +244,9 @@ impl Session {
     pub fn release(&mut self, id: DocumentId) -> Result<Change, Refusal> {
         let (open, beside) = self.beside_others(id);
         let Some(drag) = open.drag.take() else { return Ok(Change::default()) };
-        let state = open.state.clone();
         let released = drag.release(open, &beside);
         if released.is_err() {
-            open.planner.take_course(state.model(), &state.values);
+            open.back_on_course();
         }
         let mut change = released?;
         if open.pane.is_some() && !change.edits.is_empty() {
@@ -522,9 +521,9 @@ impl Session {
     /// Gives a drag up: all is as it was before the press.
     pub fn cancel(&mut self, id: DocumentId) {
         let open = self.document_mut(id);
-        open.drag = None;
-        let state = open.state.clone();
-        open.planner.take_course(state.model(), &state.values);
+        if open.drag.take().is_some() {
+            open.back_on_course();
+        }
     }
     /// Finds the nearest grip within a distance on the sheet.
     pub fn pick(&self, id: DocumentId, at: (f64, f64), radius: f64) -> Option<Path> {

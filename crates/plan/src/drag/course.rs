@@ -1,16 +1,18 @@
-//! Drags of what programs draw: followed on the course of the press; where that is left, on the one that is come to;
-//! where neither holds what is wished, up to where it ends.
+//! Drags of what programs draw and of what counts: followed on the course of the press; where that is left, on the one
+//! that is come to; where neither holds what is wished, up to where it ends.
 
 use super::Press;
 use crate::aim::Aim;
-use crate::course::Guard;
+use crate::course::{CourseChange, Guard};
 use crate::edit::{EditReport, Target};
 use crate::host::Host;
 use crate::planner::{Model, Planner, Unmet, is_any_new};
-use crate::rule::Source;
+use crate::rule::{Formula, Source};
 use crate::task::Task;
-use kernel::{Term, ThingId, Values};
+use crate::template::LoweringReport;
+use kernel::{Primitive, SlotId, Structure, Term, ThingId, Values};
 use std::collections::BTreeSet;
+use std::rc::Rc;
 
 /// How many other courses are kept for when the drag comes back to them.
 const KEPT: usize = 4;
@@ -28,7 +30,13 @@ pub(super) struct Courses {
     start: Values,
     /// Where the targets were then.
     from: Vec<f64>,
-    /// What the rules were decided by at the press.
+    /// Which of their numbers are whole ones.
+    are_whole: Vec<bool>,
+    /// What was decided at the press.
+    pressed: Vec<Guard>,
+    /// How the rules were lowered there.
+    lowered: Rc<LoweringReport>,
+    /// What the rules of the drag at hand were decided by.
     rules: Vec<Guard>,
     /// The same drag on other courses.
     others: Vec<Press>,
@@ -39,6 +47,17 @@ pub(super) struct Courses {
 }
 
 impl Courses {
+    /// Returns what is wished on the straight way from the press to what is wanted.
+    fn between(&self, wanted: &[f64], part: f64) -> Vec<f64> {
+        let wish: Vec<f64> =
+            self.from.iter().zip(wanted).map(|(a, b)| a + part * (b - a)).collect();
+        self.wish(&wish)
+    }
+    /// Returns what is wished where these numbers are: of whole numbers the nearest, as of moves.
+    pub(super) fn wish(&self, wanted: &[f64]) -> Vec<f64> {
+        let wish = |(&x, &is_whole): (&f64, &bool)| if is_whole { x.round() } else { x };
+        wanted.iter().zip(&self.are_whole).map(wish).collect()
+    }
     fn targets(&self) -> (Vec<Target<'_>>, Vec<Target<'_>>) {
         let targets = self.targets.iter().map(Owned::target).collect();
         (targets, self.kept.iter().map(Owned::target).collect())
@@ -81,6 +100,7 @@ impl Planner {
     /// Returns what a drag needs to leave its course; nothing where no program has a part in it.
     pub(super) fn courses(
         &self,
+        structure: &Structure,
         aim: &Aim,
         (targets, kept): (&[Target<'_>], &[Target<'_>]),
         values: &Values,
@@ -92,11 +112,20 @@ impl Planner {
             Target::Thing(thing) => Owned::Thing(thing),
             Target::Term { me, term } => Owned::Term { me, term: term.clone() },
         };
+        let is_whole = |formula: &Formula<SlotId>| match formula.slots[..] {
+            [slot] if self.plans.patterns().get(formula.pattern).is_argument() => {
+                structure.slots[slot].primitive == Primitive::Integer
+            }
+            _ => false,
+        };
         Some(Box::new(Courses {
+            are_whole: aim.wishes.iter().flat_map(|w| &w.formulas).map(is_whole).collect(),
             targets: targets.iter().map(owned).collect(),
             kept: kept.iter().map(owned).collect(),
             start: values.clone(),
             from: aim.wanted.iter().flatten().copied().collect(),
+            pressed: [&aim.guards[..], &self.lowering.guards].concat(),
+            lowered: self.lowering.clone(),
             rules: self.lowering.guards.clone(),
             others: Vec::new(),
             present: None,
@@ -116,16 +145,22 @@ impl Planner {
         courses.present = None;
         let guards = [&press.aim.guards[..], &courses.rules].concat();
         if self.is_on_course(&guards, values) {
-            return report;
+            let courses = self.courses_taken(model, (press, courses), values);
+            return EditReport { courses, ..report };
         }
         let there = values.clone();
         let wanted: Vec<f64> = press.aim.wanted.iter().flatten().copied().collect();
         if self.counts_otherwise(model.structure, &courses.rules, &press.aim.alone, &there) {
             let way = (&mut *press, &mut *courses);
             if let Some(found) = self.on_its_count(model, way, &wanted, values, host) {
-                let mut changes = self.course_changes(model, &guards, (&courses.start, values));
-                changes.retain(|change| !change.is_of(model.structure, &press.aim.alone));
-                return EditReport { courses: changes, ..found };
+                let courses = self.courses_taken(model, (press, courses), values);
+                return EditReport { courses, ..found };
+            }
+            let (way, wish) = ((&mut *press, &mut *courses), (&wanted[..], &there));
+            if let Some(found) = self.up_to_its_count(model, way, wish, values, host) {
+                let courses =
+                    self.course_changes(model, &courses.pressed, (&courses.start, &there));
+                return EditReport { courses, reached: false, ..found };
             }
             let start = courses.start.clone();
             self.press_on(model, (&mut *press, &mut *courses), &start);
@@ -134,13 +169,25 @@ impl Planner {
         if self.is_on_course(&courses.rules, &there)
             && let Some(found) = self.on_another(model, courses, &wanted, values, &there, host)
         {
-            let courses = self.course_changes(model, &guards, (&courses.start, values));
+            let courses = self.course_changes(model, &courses.pressed, (&courses.start, values));
             return EditReport { courses, ..found };
         }
         let mut report = self.up_to_the_end(model, (press, courses), &wanted, values, host);
-        report.courses = self.course_changes(model, &guards, (&courses.start, &there));
+        report.courses = self.course_changes(model, &courses.pressed, (&courses.start, &there));
         report.reached = false;
         report
+    }
+
+    /// Returns what is decided otherwise than at the press, but for what is dragged.
+    fn courses_taken(
+        &self,
+        model: Model<'_>,
+        (press, courses): (&Press, &Courses),
+        values: &Values,
+    ) -> Vec<CourseChange> {
+        let mut changes = self.course_changes(model, &courses.pressed, (&courses.start, values));
+        changes.retain(|change| !change.is_of(model.structure, &press.aim.alone));
+        changes
     }
 
     /// Follows a drag on a course that was come to before, or that `there` is on. Nothing where that is not kept.
@@ -207,9 +254,8 @@ impl Planner {
         let unmet = courses.unmet.insert(unmet).clone();
         let there = values.clone();
         self.press_on(model, (&mut *press, &mut *courses), &there)?;
-        values.clone_from(&courses.start);
-        press.wish(wanted);
-        let report = self.pull_all(model, press, values, host);
+        let start = courses.start.clone();
+        let report = self.pull_from(model, press, (&start, wanted), values, host);
         let known: BTreeSet<Source> = unmet.iter().map(|unmet| unmet.source).collect();
         let now = self.unmet(model, self.all_rules(), values, host).into_iter();
         let new: BTreeSet<Source> =
@@ -223,7 +269,66 @@ impl Planner {
         self.satisfy_where(model, follows, values, host);
         let guards = [&press.aim.guards[..], &courses.rules].concat();
         let now = self.unmet(model, self.all_rules(), values, host);
-        (self.is_on_course(&guards, values) && !is_any_new(&now, &unmet)).then_some(report)
+        let holds = self.is_on_course(&guards, values) && !is_any_new(&now, &unmet);
+        (holds && !self.is_faulty_beside(&courses.lowered)).then_some(report)
+    }
+
+    /// Follows a drag of what counts up to the last count that holds, on the straight way from the press to what is
+    /// wanted, which leads `there`. Nothing where none holds but that of the press.
+    fn up_to_its_count(
+        &mut self,
+        model: Model<'_>,
+        (press, courses): (&mut Press, &mut Courses),
+        (wanted, there): (&[f64], &Values),
+        values: &mut Values,
+        host: &mut dyn Host,
+    ) -> Option<EditReport> {
+        let start = courses.start.clone();
+        let pressed = self.decided_at(&courses.pressed, &start);
+        let (mut low, mut holds) = (0.0, pressed.clone());
+        let (mut high, mut fails) = (1.0, self.decided_at(&courses.pressed, there));
+        self.press_on(model, (&mut *press, &mut *courses), &start)?;
+        for _ in 0..HALVINGS {
+            let mid = 0.5 * (low + high);
+            let wish = courses.between(wanted, mid);
+            self.pull_from(model, press, (&start, &wish), values, host);
+            let decided = self.decided_at(&courses.pressed, values);
+            if decided == holds {
+                low = mid;
+            } else if decided == fails {
+                high = mid;
+            } else {
+                let way = (&mut *press, &mut *courses);
+                if self.on_its_count(model, way, &wish, values, host).is_some() {
+                    (low, holds) = (mid, decided);
+                } else {
+                    (high, fails) = (mid, decided);
+                    self.press_on(model, (&mut *press, &mut *courses), &start)?;
+                }
+            }
+        }
+        if holds == pressed {
+            return None;
+        }
+        let wish = courses.between(wanted, low);
+        self.pull_from(model, press, (&start, &wish), values, host);
+        let found = self.on_its_count(model, (&mut *press, courses), &wish, values, host);
+        press.wish(wanted);
+        found
+    }
+
+    /// Follows a wish from where the press was.
+    fn pull_from(
+        &mut self,
+        model: Model<'_>,
+        press: &mut Press,
+        (start, wish): (&Values, &[f64]),
+        values: &mut Values,
+        host: &mut dyn Host,
+    ) -> EditReport {
+        press.wish(wish);
+        values.clone_from(start);
+        self.pull_all(model, press, values, host)
     }
 
     fn all_rules(&self) -> std::ops::Range<u32> {
@@ -239,10 +344,8 @@ impl Planner {
         values: &mut Values,
         host: &mut dyn Host,
     ) -> Option<EditReport> {
-        let other = &mut courses.others[at];
-        values.clone_from(&courses.start);
-        other.wish(wanted);
-        let report = self.pull_all(model, other, values, host);
+        let (other, start) = (&mut courses.others[at], &courses.start);
+        let report = self.pull_from(model, other, (start, wanted), values, host);
         if !self.is_on_course(&other.aim.guards, values) {
             return None;
         }
@@ -262,11 +365,8 @@ impl Planner {
         let guards = [&press.aim.guards[..], &courses.rules].concat();
         let (mut low, mut high) = (0.0, 1.0);
         let mut follow = |planner: &mut Self, part: f64, values: &mut Values| {
-            let mid: Vec<f64> =
-                courses.from.iter().zip(wanted).map(|(a, b)| a + part * (b - a)).collect();
-            press.wish(&mid);
-            values.clone_from(&courses.start);
-            planner.pull_all(model, press, values, host)
+            let wish = courses.between(wanted, part);
+            planner.pull_from(model, press, (&courses.start, &wish), values, host)
         };
         for _ in 0..HALVINGS {
             let mid = 0.5 * (low + high);

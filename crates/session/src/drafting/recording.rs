@@ -172,7 +172,7 @@ fn retexted(
             |d: &&base::Diagnostic| before.diagnostics.iter().all(|b| b.message != d.message);
         let new: Vec<_> =
             state.diagnostics.iter().filter(is_error).filter(is_new).cloned().collect();
-        open.planner.give_plans(planner.into_plans());
+        open.give_up(planner);
         return Err(words::refusal_of_text(&state, &new));
     }
     Ok(apply::step_to(open, label, state, planner))

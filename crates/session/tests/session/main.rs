@@ -6,6 +6,7 @@ mod classing;
 mod completing;
 mod constructed;
 mod copying;
+mod counting;
 mod demonstrations;
 mod desk;
 mod drafting;
