@@ -152,6 +152,16 @@ fn what_nests_or_goes_on_overflows_no_stack() {
             format!("a: Real = {}\n", around(5_000, "(", "1", ")")),
             Error("too-deep"),
         ),
+        (
+            "brackets around lists of lists",
+            format!("a: {}\n", around(20_000, "(List of ", "Real", ")")),
+            Error("expected-class"),
+        ),
+        (
+            "brackets around counted lists that nothing closes",
+            format!("a: {}\n", "List of 3 (".repeat(20_000)),
+            Error("expected-class"),
+        ),
         ("signs", format!("a: Real = {}1\n", "-".repeat(5_000)), Error("too-deep")),
         ("nots", format!("a: Bool = {}true\n", "not ".repeat(150)), Holds),
         (

@@ -81,10 +81,13 @@ impl Lowerer<'_> {
         let id = self.files.next_id();
         let parse = self.parse(id, name, text);
         for diagnostic in parse.diagnostics() {
-            match strange_unit(&parse, diagnostic) {
-                Some(word) => self.unknown_unit(id, syntax::span_of_token(&word), word.text()),
-                None => self.report(diagnostic.clone()),
-            }
+            self.report(match word_for_unit(&parse, diagnostic) {
+                Some(word) => {
+                    let place = Place { file: id, span: syntax::span_of_token(&word) };
+                    crate::hints::unknown_unit(place, word.text())
+                }
+                None => diagnostic.clone(),
+            });
         }
         self.warn_of_quotients(id, text, &parse);
         self.files.push(File { name: name.into(), text: text.into(), parse, table: None });
@@ -216,7 +219,7 @@ pub(crate) fn name_of(path: &ast::DottedName) -> String {
 }
 
 /// Returns the word after a number that was to be its unit, where that is what a diagnostic is at.
-pub(crate) fn strange_unit(parse: &Parse, diagnostic: &Diagnostic) -> Option<SyntaxToken> {
+pub(crate) fn word_for_unit(parse: &Parse, diagnostic: &Diagnostic) -> Option<SyntaxToken> {
     let span = diagnostic.place.span;
     let word = syntax::token_from(&parse.syntax(), span.start)?;
     if syntax::span_of_token(&word) != span {
@@ -230,6 +233,6 @@ pub(crate) fn strange_unit(parse: &Parse, diagnostic: &Diagnostic) -> Option<Syn
     };
     let is_unit = word.kind() == SyntaxKind::Ident
         && number.kind() == SyntaxKind::Number
-        && !matches!(word.text(), "within" | "until" | "to" | "times");
+        && !syntax::units::follows_operand(word.text());
     is_unit.then_some(word)
 }

@@ -3,10 +3,11 @@
 use crate::kinds::Kind;
 use crate::lower::Lowerer;
 use crate::members::is_constant;
-use crate::names::LONGEST_WORD;
+use crate::names::{LONGEST_WORD, raised};
 use crate::scope::Scope;
 use base::{Diagnostic, Name, Place, Span};
 use expr::dimension::Dimension;
+use kernel::builtin::{FUNCTIONS, find};
 use kernel::quantity::is_of_the_sheet;
 use kernel::{Class, ClassId, Document, Message, Path};
 use syntax::ast::{self, AstNode, BinaryOp, Expr, UnaryOp};
@@ -443,4 +444,28 @@ pub(crate) fn further_out(name: &Name, depth: usize) -> String {
     format!(
         "`{name}` is a part of the thing itself here: `{outwards}{name}` is that of what it belongs to"
     )
+}
+
+/// Says that a word is no unit, and which one is meant.
+pub(crate) fn unknown_unit(place: Place, spelling: &str) -> Diagnostic {
+    let message = format!("{spelling} is no unit that is known here");
+    let d = Diagnostic::error("unknown-unit", place, message);
+    // a unit after it or an operator's words: each of its factors by itself
+    let meant = expr::units::meant(spelling);
+    match meant.as_slice() {
+        [] if find(FUNCTIONS, spelling).is_some_and(|f| f.parameters.is_empty()) => {
+            let fix = format!("write * {spelling}");
+            let written = format!("* {spelling}");
+            d.hint(format!("a product has its sign: `* {spelling}`")).fix(fix, [(place, written)])
+        }
+        [] if let Some(power) = raised(spelling).filter(|u| expr::units::unit(u).is_some()) => d
+            .hint(format!("the unit is `{power}`"))
+            .fix(format!("write {power}"), [(place, power)]),
+        [] => d.hint(
+            "known are m, s, kg, N, J, W, V, A, ohm, … with every prefix, and ft, lb, psi, …; a product has its sign, \
+             `2 * x`",
+        ),
+        [one] => d.meant(one),
+        several => d.hint(format!("write {}", several.join(" or "))),
+    }
 }

@@ -17,7 +17,7 @@
 //! **Invariants**: lowering never fails; a member with an error is left out, or what it said before
 //! stays in force; reading a number that was written gives its bits.
 //!
-//! Reading order: `origins`, `lower`, `files`, `visible`, `classes`, `scope`, `members`, `programs`, `families`, `loops`,
+//! Reading order: `origins`, `lower`, `lowering`, `files`, `tables`, `visible`, `classes`, `scope`, `members`, `programs`, `families`, `loops`,
 //! `rules`, `switches`, `kept`, `names`, `hints`, `paths`, `refine`, `terms`, `components`, `calls`, `kin`, `kinds`,
 //! `settle`, `restore`,
 //! `alone`, `checks`, `lessons`, `views`,

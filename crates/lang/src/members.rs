@@ -211,6 +211,15 @@ impl Lowerer<'_> {
             matches!(self.document.classes[of].kind, ClassKind::Primitive(Primitive::Integer));
         let range = self.constant_range(scope, domain);
         let place = Place { file: scope.file, span: domain.span() };
+        if let Some(column) = crate::tables::column_of(domain) {
+            let message = "a column of a table is allowed of a parameter of a program alone";
+            let d = Diagnostic::error("not-a-domain", place, message);
+            let (file, name) = (column.file(), column.name());
+            self.report(d.hint(format!(
+                "a program asks for it: `program Bolt({name}: … in \"{file}\".{name} = …) {{ … }}`"
+            )));
+            return None;
+        }
         match range {
             Some((low, high)) if is_whole && low <= high => return range,
             Some((low, high)) if is_whole => {

@@ -7,6 +7,7 @@ use crate::scope::{Constant, Element, Scope};
 use base::{Diagnostic, FileId, Name, Place};
 use kernel::builtin;
 use kernel::{ClassId, ClassKind, Document, PartRef, PartRole, Path, Step, Term};
+use syntax::SyntaxKind;
 use syntax::ast::{self, AstNode, BinaryOp, Expr};
 
 /// How many expressions may stand inside one another before a message's worth is left open.
@@ -193,7 +194,7 @@ impl Lowerer<'_> {
                 }
                 None => format!("it is a class: `{name}(…)` makes a thing of it"),
             });
-        } else if self.is_label(place) {
+        } else if is_label(word) {
             d = d.hint(format!("a label is followed by a colon: `{}: …`", word.text()));
         } else if let Some(unit) = self.unit_below(place, word.text()) {
             d = d.meant(&unit);
@@ -245,15 +246,6 @@ impl Lowerer<'_> {
     fn goes_on(&self, place: Place, sign: &str) -> bool {
         let rest = self.files[place.file].text.get(place.span.end as usize..).unwrap_or_default();
         rest.trim_start_matches([' ', '\t']).starts_with(sign)
-    }
-
-    /// Returns true for the name before an `=` among arguments: `Point(x = 3, y = 4)`.
-    fn is_label(&self, place: Place) -> bool {
-        let before = self.files[place.file].text.get(..place.span.start as usize);
-        let before = before.unwrap_or_default().trim_end_matches([' ', '\t']);
-        let of = before.trim_end_matches('(').chars().last();
-        let is_argument = before.ends_with('(') && of.is_some_and(char::is_alphanumeric);
-        is_argument && self.goes_on(place, "=") && !self.goes_on(place, "==")
     }
 
     /// Returns the unit that is meant by a word below a unit: `h` in `30 km/hr`.
@@ -436,6 +428,18 @@ impl Lowerer<'_> {
             }
         })
     }
+}
+
+/// Returns true for the name before the `=` of an argument: `Point(x = 3, y = 4)`.
+fn is_label(word: &ast::Word) -> bool {
+    let name = word.token.parent();
+    let Some(equation) = name.as_ref().and_then(|name| ast::BinaryExpr::cast(name.parent()?))
+    else {
+        return false;
+    };
+    let is_left = equation.left().is_some_and(|left| Some(left.syntax()) == name.as_ref());
+    let is_argument = equation.syntax().parent().is_some_and(|of| of.kind() == SyntaxKind::Arg);
+    is_left && is_argument && equation.op() == Some(BinaryOp::Equal)
 }
 
 /// Returns the classes whose parts a bare name may mean, each with the term for its thing.

@@ -117,15 +117,15 @@ pub fn read_literal(
     let parse = syntax::parse_expression(OWN, typed.trim());
     let broken = || Diagnostic::error("not-a-value", place, format!("`{typed}` is no value"));
     if let Some(d) = parse.diagnostics().first() {
-        return Err(broken().hint(match crate::files::strange_unit(&parse, d) {
-            Some(word) => match units::meant(word.text()).as_slice() {
-                [] => format!("there is no unit {}", word.text()),
-                meant => {
-                    format!("there is no unit {}; meant may be {}", word.text(), meant.join(" or "))
-                }
-            },
-            None => d.message.clone(),
-        }));
+        return Err(match crate::files::word_for_unit(&parse, d) {
+            Some(word) => {
+                let before = (typed.len() - typed.trim_start().len()) as u32;
+                let Span { start, end } = syntax::span_of_token(&word);
+                let place = Place { file: OWN, span: Span::new(before + start, before + end) };
+                crate::hints::unknown_unit(place, word.text())
+            }
+            None => broken().hint(d.message.clone()),
+        });
     }
     let expr = parse.file().expression().ok_or_else(broken)?;
     let wanted = match wanted {

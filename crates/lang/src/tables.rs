@@ -1,16 +1,18 @@
 //! Tables beside a text: what is allowed of a parameter may come from a column of one, `d: Length in "bolts.csv".d`.
 //!
-//! A table is CSV: `#` begins a comment, the first line names the columns, each with its unit where it has one, `d [mm]`.
+//! A table is CSV: a line that begins with `#` is a comment, the first other line names the columns, each with its unit where it has one, `d [mm]`.
 
 use crate::files::File;
 use crate::kinds::Kind;
-use crate::lower::Lowerer;
+use crate::lower::{Lowered, Lowerer};
+use crate::names::LONGEST_WORD;
 use crate::numbers::{Wanted, read_literal};
 use crate::scope::Scope;
 use base::{Diagnostic, FileId, Name, Place, Span};
 use indexmap::IndexMap;
 use kernel::program::Allowed;
 use kernel::{ClassId, ClassKind, Document, Literal, Primitive, Term};
+use std::collections::BTreeSet;
 use std::rc::Rc;
 use syntax::SyntaxKind;
 use syntax::ast::{AstNode, Expr, Member, TextExpr, Word};
@@ -50,6 +52,8 @@ pub struct Table {
     pub columns: Vec<(String, String)>,
     /// Its rows, without the first line.
     pub rows: Vec<Row>,
+    /// The first cells of its comments, `#8` of `#8,4.2`: where one is missed a row was meant.
+    pub comments: BTreeSet<String>,
 }
 
 /// A table, or why a text is none.
@@ -83,7 +87,7 @@ impl Table {
             let line = record.position().map_or(0, |position| line_of(text, position));
             rows.push(Row { line, cells: record.iter().map(str::to_string).collect() });
         }
-        Ok(Self { columns, rows })
+        Ok(Self { columns, rows, comments: comments_of(text) })
     }
 
     /// Lists the names of its columns.
@@ -112,6 +116,13 @@ impl Table {
 
 /// What begins a comment.
 const COMMENT: u8 = b'#';
+
+/// Lists the first cells of the comments of a table that are as long as cells are.
+fn comments_of(text: &str) -> BTreeSet<String> {
+    let comments = text.lines().filter(|line| line.as_bytes().first() == Some(&COMMENT));
+    let cells = comments.filter_map(|line| line.split(',').next());
+    cells.filter(|cell| cell.len() <= LONGEST_WORD).map(|cell| cell.trim().to_string()).collect()
+}
 
 /// Returns the line of a record whose position is that of the comments and the empty lines before it.
 pub fn line_of(text: &str, position: &csv::Position) -> u32 {
@@ -189,7 +200,8 @@ impl Lowerer<'_> {
             return self.report(d.hint("a table lies beside the text, as `bolts.csv`"));
         }
         let name = beside(&self.files[file].name, &column.file());
-        if self.table(&name).is_some() {
+        // what is missing is told once
+        if self.table(&name).is_some() || self.missing.contains(&name) {
             return;
         }
         let Some(text) = load(&name) else {
@@ -261,6 +273,17 @@ impl Lowerer<'_> {
             values.push(value);
         }
         Some(Allowed::OneOf(values))
+    }
+}
+
+impl Lowered {
+    /// Returns what to do where a value is missed in a table that has it as a comment: `#8` of `#8,4.2`.
+    pub fn missed_row(&self, value: &str) -> Option<String> {
+        let tables = self.files.iter().filter_map(|(_, file)| file.table.as_ref()?.as_ref().ok());
+        let is_one = tables.into_iter().any(|table| table.comments.contains(value));
+        is_one.then(|| {
+            format!("a line that begins with `#` is a comment of the table: `\"{value}\"` in quotes is a value")
+        })
     }
 }
 

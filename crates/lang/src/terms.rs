@@ -2,13 +2,12 @@
 //! kernel's term and what it is worth; nothing where it is wrong, which is reported at its place.
 
 use crate::angles::ANGLE;
+use crate::hints::unknown_unit;
 use crate::kinds::{Kind, measured};
 use crate::lower::Lowerer;
-use crate::names::raised;
 use crate::scope::Scope;
 use base::{Diagnostic, Name, Place, Span};
 use expr::dimension::Dimension;
-use kernel::builtin::{FUNCTIONS, find};
 use kernel::{Argument, BinaryOperator, Term, UnaryOperator};
 use syntax::ast::{self, AstNode, BinaryOp, Expr, UnaryOp};
 
@@ -255,7 +254,8 @@ impl Lowerer<'_> {
             Some(unit) => match expr::units::read_quantity(digits.text(), unit.text()) {
                 Some((si, d)) => (kernel::quantity::from_si(&self.document, si, d), Some(d)),
                 None => {
-                    self.unknown_unit(scope.file, unit.span(), unit.text());
+                    let place = Place { file: scope.file, span: unit.span() };
+                    self.report(unknown_unit(place, unit.text()));
                     return None;
                 }
             },
@@ -268,30 +268,6 @@ impl Lowerer<'_> {
         let bare = dimension.is_none();
         let term = Term::Number { value, dimension: dimension.unwrap_or(Dimension::NONE), bare };
         Some((term, Kind::Number(dimension)))
-    }
-
-    pub(crate) fn unknown_unit(&mut self, file: base::FileId, span: Span, spelling: &str) {
-        let place = Place { file, span };
-        let message = format!("{spelling} is no unit that is known here");
-        let d = Diagnostic::error("unknown-unit", place, message);
-        // a unit after it or an operator's words: each of its factors by itself
-        let meant = expr::units::meant(spelling);
-        self.report(match meant.as_slice() {
-            [] if find(FUNCTIONS, spelling).is_some_and(|f| f.parameters.is_empty()) => {
-                let fix = format!("write * {spelling}");
-                let written = format!("* {spelling}");
-                d.hint(format!("a product has its sign: `* {spelling}`")).fix(fix, [(place, written)])
-            }
-            [] if let Some(power) = raised(spelling).filter(|u| expr::units::unit(u).is_some()) => d
-                .hint(format!("the unit is `{power}`"))
-                .fix(format!("write {power}"), [(place, power)]),
-            [] => d.hint(
-                "known are m, s, kg, N, J, W, V, A, ohm, … with every prefix, and ft, lb, psi, …; a product has its \
-                 sign, `2 * x`",
-            ),
-            [one] => d.meant(one),
-            several => d.hint(format!("write {}", several.join(" or "))),
-        });
     }
 
     /// Lowers a function of elements of this kind; what it answers is told beside it.
@@ -330,10 +306,18 @@ impl Lowerer<'_> {
                         "a unit stands behind its number without brackets: `{} {}`",
                         written.0, written.1
                     )),
-                    false if matches!(other, Kind::Text) => d.hint(format!(
-                        "its characters are a list: `{}.characters[{}]`",
-                        written.0, written.1
-                    )),
+                    false if matches!(other, Kind::Text) => {
+                        let at = crate::numbers::constant(&|e| self.known_number(scope, e), &at);
+                        let of_it = match at {
+                            Some(-1.0) => ".last".to_string(),
+                            Some(..0.0) => String::new(),
+                            _ => format!("[{}]", written.1),
+                        };
+                        d.hint(format!(
+                            "its characters are a list: `{}.characters{of_it}`",
+                            written.0
+                        ))
+                    }
                     false => d,
                 });
                 return None;
@@ -361,7 +345,8 @@ impl Lowerer<'_> {
             let place = Place { file: scope.file, span: at.span() };
             let d = Diagnostic::error("index", place, "an index is a whole number, from 0");
             let written = list.syntax().text();
-            self.report(match i < 0.0 && i.fract() == 0.0 {
+            let is_last = i.total_cmp(&-1.0).is_eq();
+            self.report(match is_last {
                 true => d.hint(format!("the last element is `{written}.last`")),
                 false => d,
             });

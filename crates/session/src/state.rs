@@ -317,7 +317,12 @@ fn ended_diagnostics(lowered: &Lowered, structure: &Structure, values: &Values) 
         let ended = run.ended.as_ref()?;
         let path = structure.path(document, thing);
         let message = format!("{path} is not drawn to its end: {ended}");
-        Some(Diagnostic::warning("run-ended", lowered.place(ended.origin), message))
+        let d = Diagnostic::warning("run-ended", lowered.place(ended.origin), message);
+        let mut values = ended.operands.iter().map(|(_, value)| value.trim_matches('"'));
+        Some(match values.find_map(|value| lowered.missed_row(value)) {
+            Some(hint) => d.hint(hint),
+            None => d,
+        })
     };
     (0..structure.things.len() as u32).map(ThingId).filter(draws).filter_map(diagnostic).collect()
 }

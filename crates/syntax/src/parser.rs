@@ -13,6 +13,9 @@ pub const MAX_DEPTH: u32 = 200;
 /// How high the tree of one expression may grow: `a + b + c` is as high as it has operators.
 pub const MAX_HEIGHT: u32 = 500;
 
+/// How many characters of a text a hint quotes.
+const LONGEST_QUOTE: usize = 80;
+
 /// A token that is not trivia.
 #[derive(Clone, Copy, Debug)]
 struct Token {
@@ -44,6 +47,8 @@ pub(crate) struct Parser<'t> {
     member: usize,
     /// Where the member before it begins, in the same body.
     previous: usize,
+    /// The name of the class that was read last.
+    class: usize,
     /// Brackets that are open and will be closed: a line end inside them ends nothing.
     pub(crate) brackets: u32,
     /// Brackets that are open and never closed: a line end inside them ends everything.
@@ -84,6 +89,7 @@ impl<'t> Parser<'t> {
             too_deep_said: false,
             member: 0,
             previous: 0,
+            class: 0,
             brackets: 0,
             unclosed: 0,
             in_bindings: false,
@@ -202,9 +208,32 @@ impl<'t> Parser<'t> {
     pub(crate) fn member_word(&self) -> &'t str {
         self.text_between(self.member, self.member)
     }
-    /// Returns true if a word stands at the beginning of the present member.
-    pub(crate) fn has_said(&self, word: &str) -> bool {
-        (self.member..self.pos).take(8).any(|at| self.text_between(at, at) == word)
+    /// Returns true if the class that the present member has named last is called so.
+    pub(crate) fn is_of(&self, class: &str) -> bool {
+        self.class > self.member && self.text_between(self.class, self.class) == class
+    }
+    /// What a hint quotes of the tokens from one to another: a line at most, shortened where that is long.
+    pub(crate) fn quoted(&self, first: usize, last: usize) -> String {
+        let all = self.text_between(first, last);
+        let line = all.lines().next().unwrap_or_default();
+        let end = line.char_indices().nth(LONGEST_QUOTE).map_or(line.len(), |(at, _)| at);
+        match end < all.len() {
+            true => format!("{} …", line[..end].trim_end()),
+            false => line.to_string(),
+        }
+    }
+    /// What a hint quotes of the rest of the line, from a token that stands on it.
+    pub(crate) fn quoted_line(&self, first: usize) -> String {
+        let ends = |at: &usize| {
+            let (next, body) = (self.tokens[at + 1], SyntaxKind::RBrace);
+            next.newline
+                || next.kind == Eof
+                || next.kind == body
+                || next.kind == SyntaxKind::Semicolon
+        };
+        let mut within = first..(first + LONGEST_QUOTE).min(self.tokens.len() - 1);
+        let last = within.find(ends).unwrap_or(within.end);
+        self.quoted(first, last)
     }
     /// How far the line of the token here is indented.
     pub(crate) fn indent(&self) -> usize {
@@ -221,6 +250,10 @@ impl<'t> Parser<'t> {
         self.token(0).closer != 0
     }
 
+    /// Notes that the name of a class stands here.
+    pub(crate) fn name_class(&mut self) {
+        self.class = self.pos;
+    }
     /// Notes that a member, or an element of a body, begins here, and where the one before it did.
     pub(crate) fn begin_member(&mut self, previous: usize) {
         (self.member, self.previous) = (self.pos, previous);
@@ -629,12 +662,17 @@ fn line_before(text: &str, span: Span) -> &str {
     before.rsplit('\n').next().unwrap_or_default()
 }
 
-/// Returns true for `#ff8000`, `#f80`: a sign before three or six hexadecimal digits.
+/// Returns true for `#ff8000`, `#f80`: a sign before three or six hexadecimal digits. Where a line begins with it that
+/// is a comment of other languages, `#add more`, unless it is an element between others.
 fn is_colour(text: &str, span: Span) -> bool {
     let rest = text.get(span.range().start + 1..).unwrap_or_default();
-    let digits = rest.bytes().take_while(u8::is_ascii_alphanumeric);
-    let (hex, other): (Vec<u8>, Vec<u8>) = digits.partition(u8::is_ascii_hexdigit);
-    other.is_empty() && matches!(hex.len(), 3 | 6)
+    let length = rest.bytes().take_while(u8::is_ascii_alphanumeric).count();
+    let (digits, after) = rest.split_at(length);
+    let is_first = line_before(text, span).trim().is_empty();
+    let is_element = after.trim_start().starts_with([',', ']', ')']);
+    digits.bytes().all(|digit| digit.is_ascii_hexdigit())
+        && matches!(length, 3 | 6)
+        && (!is_first || is_element)
 }
 
 /// Returns true for a dollar sign before a number.

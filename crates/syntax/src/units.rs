@@ -27,6 +27,20 @@ pub fn unit_length(text: &str) -> usize {
     end
 }
 
+/// Returns true for a word that joins two operands or follows one, where it might be taken for the unit of a number.
+///
+/// ```
+/// assert!(syntax::units::follows_operand("until"));
+/// assert!(!syntax::units::follows_operand("furlong"));
+/// ```
+pub fn follows_operand(word: &str) -> bool {
+    const WORDS: [&str; 16] = [
+        "in", "is", "mod", "union", "subset", "within", "reads", "of", "until", "to", "times",
+        "as", "with", "into", "only", "for",
+    ];
+    WORDS.contains(&word)
+}
+
 /// The length of a simple unit and its exponent: `s^2`, `m`, `s^-1`.
 fn power_length(text: &str) -> usize {
     let word = word_length(text);

@@ -190,3 +190,66 @@ fn what_stands_in_the_wrong_place_is_said() {
         ],
     );
 }
+#[test]
+fn hints_quote_a_line_at_most_and_lists_in_brackets_are_told_once() {
+    let nest = |n: usize| format!("x: {}Real{}", "(List of ".repeat(n), ")".repeat(n));
+    for text in
+        [nest(3), nest(5_000), nest(5_000).replace(')', ""), nest(1).replace("Real", "\nReal")]
+    {
+        let parse = parse(FileId(0), &text);
+        let told: Vec<_> =
+            parse.diagnostics().iter().filter(|d| d.code == "expected-class").collect();
+        assert_eq!(told.len(), 1, "{}", text.len());
+        let hint = told[0].hint.as_deref().unwrap_or_default();
+        assert!(hint.len() < 200 && !hint.contains('\n'), "{hint}");
+        assert_eq!(parse.text(), text);
+    }
+    let line = "constraint a b = 3 * c  ".repeat(400);
+    let parse = parse(FileId(0), &line);
+    let quoted = parse.diagnostics().iter().filter_map(|d| d.hint.as_deref());
+    assert!(quoted.map(str::len).sum::<usize>() < 2 * line.len());
+}
+#[test]
+fn what_brackets_hold_elsewhere_is_told_once_and_ends_with_them() {
+    check(
+        "x = f([1 2, [3, 4]], sqrt(4)) + 1\ny: Real",
+        &["expected-comma at `2`: found `2`, wanted `,` before it"],
+    );
+    check(
+        "x = f(2 * i for i in [1, g(2)]) + 1\ny: Real",
+        &["expected-bracket at `for`: found `for`, wanted `)` after the arguments"],
+    );
+}
+#[test]
+fn a_number_written_as_elsewhere_is_one_mistake_with_one_correction() {
+    let corrected = |text: &str| {
+        let parse = parse(FileId(0), text);
+        let [d] = parse.diagnostics() else { panic!("{text}: {:?}", parse.diagnostics()) };
+        let fix = d.fixes.first().expect("there is a correction");
+        let (place, insert) = fix.edits.first().expect("it changes something");
+        let mut corrected = text.to_string();
+        corrected.replace_range(place.span.range(), insert);
+        corrected
+    };
+    assert_eq!(
+        corrected("a, b, c, d, e: Resistance = 4k7"),
+        "a, b, c, d, e: Resistance = 4.7 kohm"
+    );
+    assert_eq!(corrected("r: Real = 4k7 ohm"), "r: Real = 4.7 kohm");
+    assert_eq!(
+        corrected("program P(r: Resistance = 1M2) { }"),
+        "program P(r: Resistance = 1.2 Mohm) { }"
+    );
+    assert_eq!(corrected("c: Velocity = 3x10^-8 m/s"), "c: Velocity = 3e-8 m/s");
+    assert_eq!(corrected("r: Resistance\ns: Real = 4k7"), "r: Resistance\ns: Real = 4 * k7");
+}
+#[test]
+fn what_may_be_a_product_or_a_name_is_not_corrected() {
+    for text in
+        ["constraint a b = 12", "constraint a deg = 3", "check \"c\" { expect a = 1, b = 2 }"]
+    {
+        let parse = parse(FileId(0), text);
+        let [d] = parse.diagnostics() else { panic!("{text}: {:?}", parse.diagnostics()) };
+        assert!(d.fixes.is_empty(), "{text}");
+    }
+}

@@ -107,3 +107,24 @@ fn lines_are_counted_with_comments_and_both_kinds_of_ends() {
         assert_eq!(lines, [5, 6, 7], "{end:?}");
     }
 }
+
+#[test]
+fn a_row_that_begins_as_a_comment_does_is_known_where_it_is_missed() {
+    let load =
+        |name: &str| (name == "t.csv").then(|| "size, d\n#8, 4.2\n\"#6\", 3.5\n".to_string());
+    let text = "program Bolt(size: Text in \"t.csv\".size = \"#8\") { }\n";
+    let lowered = lang::lower(text, &load, None);
+    let hint =
+        "a line that begins with `#` is a comment of the table: `\"#8\"` in quotes is a value";
+    assert_eq!(lowered.missed_row("#8").as_deref(), Some(hint));
+    assert_eq!(lowered.missed_row("#6"), None);
+    assert_eq!(lowered.missed_row("M3"), None);
+}
+
+#[test]
+fn a_table_that_is_not_there_is_told_once() {
+    let text = PROGRAM.replace("t.csv", "gone.csv");
+    let lowered = lang::lower(&text, &load, None);
+    let said: Vec<&str> = lowered.diagnostics.iter().map(|d| d.message.as_str()).collect();
+    assert_eq!(said, ["there is no table gone.csv beside this one"]);
+}

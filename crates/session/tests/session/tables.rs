@@ -23,6 +23,7 @@ impl Host for Shelf {
     fn read(&self, name: &str) -> Option<String> {
         match name {
             "bolts.csv" => Some(BOLTS.into()),
+            "sizes.csv" => Some("size, d\n#8, 4.2\n#10, 4.8\nM3, 3\n".into()),
             "empty.csv" => Some("d\n".into()),
             // a used text in a folder has a table of its own, by the same name there
             "parts/bolts.csv" => Some("k [mm]\n1\n2\n".into()),
@@ -167,4 +168,18 @@ fn a_thing_may_be_called_as_tables_end() {
     let rows = session.values(id);
     let row = rows.iter().find(|row| row.path == "csv").expect("it is shown");
     assert!(!row.is_layout);
+}
+
+#[test]
+fn a_value_whose_row_is_a_comment_is_told_to_stand_in_quotes() {
+    let (session, id) = opened(
+        "program Screw(size: Text in \"sizes.csv\".size = \"M3\") { a = size }\n\
+         screw: Screw { size = \"#8\" }\nother: Screw { size = \"M4\" }\n",
+    );
+    let found = session.text(id).diagnostics;
+    let ended = found.iter().filter(|d| d.code == "run-ended");
+    let hints: Vec<&str> = ended.map(|d| d.hint.as_deref().unwrap_or_default()).collect();
+    let quoted =
+        "a line that begins with `#` is a comment of the table: `\"#8\"` in quotes is a value";
+    assert_eq!(hints, [quoted, ""]);
 }

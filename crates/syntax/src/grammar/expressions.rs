@@ -4,7 +4,7 @@ use super::mistakes;
 use super::types::class_name;
 use crate::kind::SyntaxKind::{
     self, AllExpr, AndKw, Arg, ArgList, BinaryExpr, Binding, BoolExpr, CallExpr, Caret, ChainExpr,
-    Colon, ColonEq, Comma, CopyExpr, Dot, DotDot, ElseKw, Eof, Eq, EqEq, FalseKw, FatArrow,
+    Colon, ColonEq, Comma, CopyExpr, Dot, DotDot, ElseKw, Eof, Eq, EqEq, Error, FalseKw, FatArrow,
     FieldExpr, Greater, GreaterEq, Ident, IfExpr, IfKw, IndexExpr, IsExpr, LBrace, LBracket,
     LParen, LambdaExpr, Less, LessEq, LetExpr, LetKw, ListExpr, Minus, NameExpr, NotEq, NotKw,
     Number, NumberExpr, OrKw, OwnerExpr, OwnerKw, ParenExpr, Plus, RBrace, RBracket, RParen,
@@ -263,6 +263,13 @@ fn primary(p: &mut Parser<'_>, start: Checkpoint) -> u32 {
             p.bump();
             p.eat(Unit);
             p.finish();
+            if let Some(length) = mistakes::elsewhere::strange_number(p) {
+                p.start_at(start, BinaryExpr);
+                (0..length).for_each(|_| p.bump());
+                p.eat(Unit);
+                p.finish();
+                return 2;
+            }
             if mistakes::implied_product(p) {
                 let height = operators(p, Power::Sign);
                 p.start_at(start, BinaryExpr);
@@ -458,7 +465,9 @@ pub(super) fn bracketed(
     mut element: impl FnMut(&mut Parser<'_>) -> u32,
 ) -> u32 {
     let mut height = 0;
+    let end = p.pos() + p.bracket_length();
     in_brackets(p, |p| {
+        let is_closed = p.is_closed();
         p.bump();
         while !p.at(closer) && !p.at(Eof) && !p.at(RBrace) && !begins_next_member(p) {
             let before = p.pos();
@@ -473,16 +482,22 @@ pub(super) fn bracketed(
                 break;
             }
         }
-        if !mistakes::elsewhere::in_brackets(p) {
+        if !mistakes::elsewhere::in_brackets(p, wanted) {
             p.expect(closer, "expected-bracket", wanted);
             return;
         }
         if p.at(LParen) {
             return;
         }
-        while !p.at(closer) && !p.at(Eof) && !p.at(RBrace) && !p.line_ended(0) {
+        let is_over = |p: &Parser<'_>| match is_closed {
+            true => p.pos() >= end,
+            false => p.at(closer) || p.at(Eof) || p.at(RBrace) || p.line_ended(0),
+        };
+        p.start(Error);
+        while !is_over(p) {
             p.bump();
         }
+        p.finish();
         p.eat(closer);
     });
     height + 1

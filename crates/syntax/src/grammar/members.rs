@@ -499,6 +499,6 @@ pub(super) fn unknown(p: &mut Parser<'_>) {
     } else {
         None
     };
-    p.expected_hint("expected-member", "a part, constraint, message or value", hint);
+    p.expected_hint("expected-member", mistakes::MEMBER, hint);
     p.skip_line();
 }

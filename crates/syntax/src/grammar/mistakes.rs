@@ -9,8 +9,11 @@ use crate::kind::SyntaxKind::{
     Slash, Star, Text, Unit,
 };
 use crate::parser::Parser;
-use crate::units::unit_length;
+use crate::units::{follows_operand, unit_length};
 use base::Span;
+
+/// What a member is, where another word begins one.
+pub(super) const MEMBER: &str = "a part, constraint, message or value";
 
 /// Reports a `{` that nothing closes, and what its body ended at.
 pub(super) fn unclosed(p: &mut Parser<'_>, opener: usize) {
@@ -128,7 +131,7 @@ fn increment(p: &mut Parser<'_>) -> bool {
         let (of, sign) = (p.text_between(first, first + n - 1), p.word(n));
         let said = (
             "expected-member",
-            format!("found `{sign}=`, wanted a part, constraint, message or value"),
+            format!("found `{sign}=`, wanted {MEMBER}"),
             format!(
                 "nothing is done step by step: a value is what it is, `{of} = …`, and what is made of it is another"
             ),
@@ -159,7 +162,7 @@ pub(super) fn called_member(p: &mut Parser<'_>) -> bool {
         ),
         false => (
             "expected-member",
-            format!("found `{name}({of})`, wanted a part, constraint, message or value"),
+            format!("found `{name}({of})`, wanted {MEMBER}"),
             format!(
                 "nothing is called for what it does: `thinglab run` shows what `{of}` is; a rule is `constraint …`"
             ),
@@ -290,11 +293,7 @@ fn declared_elsewhere(p: &mut Parser<'_>) -> bool {
             }
             value => format!("what is computed is a message: `{name} => {value}`"),
         };
-        let said = (
-            "expected-member",
-            format!("found `{}`, wanted a part, constraint, message or value", p.word(0)),
-            hint,
-        );
+        let said = ("expected-member", format!("found `{}`, wanted {MEMBER}", p.word(0)), hint);
         p.report_mistake((at, at), said, None);
     }
     is_one
@@ -310,7 +309,7 @@ fn enumeration(p: &mut Parser<'_>) -> bool {
         let (at, name) = (p.pos(), p.word(1));
         let said = (
             "expected-member",
-            format!("found `{}`, wanted a part, constraint, message or value", p.word(0)),
+            format!("found `{}`, wanted {MEMBER}", p.word(0)),
             format!("options with names are a choice: `choice {name} {{ one, other }}`"),
         );
         p.report_mistake((at, at), said, None);
@@ -339,7 +338,7 @@ pub(super) fn equation_since(p: &mut Parser<'_>, first: usize, last: usize) {
     let short = if rule.len() > 60 { "x = y" } else { rule };
     let said = (
         "bare-equation",
-        "found an equation by itself, wanted a part, constraint, message or value".to_string(),
+        format!("found an equation by itself, wanted {MEMBER}"),
         format!("write `constraint {short}`"),
     );
     let start = p.span_at(first).start;
@@ -356,7 +355,7 @@ fn held(p: &mut Parser<'_>) -> bool {
         let at = p.pos();
         let said = (
             "expected-member",
-            format!("found `{}`, wanted a part, constraint, message or value", p.word(0)),
+            format!("found `{}`, wanted {MEMBER}", p.word(0)),
             format!(
                 "what shall stay as it is is held by `anchor {}`",
                 p.text_between(at + 1, p.line_end())
@@ -421,9 +420,7 @@ fn class_and_brackets(p: &mut Parser<'_>) -> bool {
         let count = if p.nth(1) == RBracket { String::new() } else { format!("{} ", p.word(1)) };
         let said = (
             "expected-member",
-            format!(
-                "found `[` after the class {class}, wanted a part, constraint, message or value"
-            ),
+            format!("found `[` after the class {class}, wanted {MEMBER}"),
             format!("a list is written `{name}: List of {count}{class}`"),
         );
         (said, None)
@@ -443,7 +440,7 @@ fn values_in_braces(p: &mut Parser<'_>) -> bool {
         let class = p.text_between(at - 2, at - 2);
         let said = (
             "expected-member",
-            format!("found `{}`, wanted a part, constraint, message or value", p.word(0)),
+            format!("found `{}`, wanted {MEMBER}", p.word(0)),
             format!(
                 "the parts of a {class} by their places stand in round brackets: `= (…)` after its class"
             ),
@@ -527,7 +524,7 @@ pub(super) fn constant_without_class(p: &mut Parser<'_>) {
         return;
     }
     let (at, name) = (p.pos(), p.text_between(p.pos() - 1, p.pos() - 1));
-    let value = p.text_between(at + 1, p.line_end());
+    let value = if p.begins_line(1) { String::new() } else { p.quoted_line(at + 1) };
     let unit = (p.nth(1) == Number && p.nth(2) == Unit).then(|| p.word(2));
     let dimension = unit.and_then(expr::units::unit).map(|unit| unit.dimension);
     let class = match (p.nth(1), dimension) {
@@ -562,11 +559,7 @@ fn anchored_value(p: &mut Parser<'_>) -> bool {
 
 /// `2x`, `2 (x + 1)`: a product without its operator. Returns true where one was reported.
 pub(super) fn implied_product(p: &mut Parser<'_>) -> bool {
-    const WORDS: [&str; 14] = [
-        "is", "in", "subset", "union", "mod", "within", "until", "to", "as", "into", "only",
-        "times", "with", "of",
-    ];
-    let is_word = is_keyword(p.word(0)) || WORDS.contains(&p.word(0));
+    let is_word = is_keyword(p.word(0)) || follows_operand(p.word(0));
     let is_name = p.at(Ident)
         && p.is_adjacent(0)
         && !is_word
@@ -578,13 +571,12 @@ pub(super) fn implied_product(p: &mut Parser<'_>) -> bool {
         let at = p.pos();
         let number = p.text_between(at - 1, at - 1);
         let factor = if is_name { p.word(0) } else { "(…)" };
-        let meant = if is_name { elsewhere::number(p) } else { None };
         let fix = p.span_at(at).start;
-        let fix = meant.is_none().then(|| (Span::new(fix, fix), " * ".into()));
+        let fix = Some((Span::new(fix, fix), " * ".into()));
         let said = (
             "implied-product",
             format!("found a number before `{}`, wanted an operator between them", p.word(0)),
-            meant.unwrap_or_else(|| format!("write `{number} * {factor}`")),
+            format!("write `{number} * {factor}`"),
         );
         p.report_mistake((at - 1, at), said, fix);
     }

@@ -20,7 +20,8 @@ pub(super) fn constraint(p: &mut Parser<'_>) {
         p.bump();
         p.bump();
     } else if mistakes::elsewhere::name_without_colon(p) {
-        p.bump();
+        p.skip_line();
+        return p.finish();
     }
     rule(p);
     tolerance(p);

@@ -10,12 +10,19 @@ use crate::parser::Parser;
 
 /// `List of 12 C`, `Set of C`, `Path to C`, `Placed of C`, `geometry.Line`.
 pub(super) fn class_name(p: &mut Parser<'_>) {
+    class_within(p, false);
+}
+
+/// A class, within brackets that were told already or not.
+fn class_within(p: &mut Parser<'_>, is_told: bool) {
     if mistakes::elsewhere::is_list_in_brackets(p, 0) {
-        mistakes::elsewhere::list_in_brackets(p);
+        if !is_told {
+            mistakes::elsewhere::list_in_brackets(p);
+        }
         p.start(Error);
         p.bump();
         p.finish();
-        class_name(p);
+        class_within(p, true);
         if p.at(RParen) {
             p.start(Error);
             p.bump();
@@ -42,8 +49,9 @@ pub(super) fn class_name(p: &mut Parser<'_>) {
             if counted {
                 count(p);
             }
-            class_name(p);
+            class_within(p, is_told);
         } else {
+            p.name_class();
             p.bump_as(Ident);
             dotted_rest(p);
         }

@@ -1,18 +1,12 @@
 //! Words and signs that other languages have where a member begins: what stands for them here.
 
+use super::MEMBER;
 use crate::kind::SyntaxKind::{
     Caret, Colon, Comma, Eof, Eq, Greater, GreaterEq, Ident, LParen, Less, LessEq, Minus, NotEq,
     Number, Plus, RBrace, RParen, Semicolon, Slash, Star, Text, Unit,
 };
 use crate::parser::Parser;
-
-/// Words that stand between operands, or behind an expression.
-const WORDS: [&str; 13] = [
-    "in", "is", "mod", "union", "subset", "within", "reads", "of", "until", "to", "times", "as",
-    "with",
-];
-/// What a member is, where another word begins one.
-const MEMBER: &str = "a part, constraint, message or value";
+use crate::units::{follows_operand, unit_length};
 
 /// Reports what begins no member as the word or sign of another language; returns false where it is none that is known.
 pub(super) fn of_member(p: &mut Parser<'_>) -> bool {
@@ -73,8 +67,8 @@ fn sign(p: &Parser<'_>) -> Option<String> {
     let hint = match p.current() {
         Comma if of == "use" => format!("each has a line of its own: `use {}`", p.word(1)),
         Comma if ends_line(p, 1) => "nothing follows the comma: leave it out".into(),
+        Comma if rule_follows(p) && of == "expect" => "each has its own `expect`".into(),
         Comma if rule_follows(p) => "two rules are joined by `and`".into(),
-        Comma if of == "expect" => "each has its own `expect`".into(),
         Colon if of == "constraint" && p.behind(1) == Text => {
             let name = before(1).trim_matches('"');
             format!("the name of a constraint has no quotes: `constraint {name}: …`")
@@ -100,7 +94,8 @@ fn sign(p: &Parser<'_>) -> Option<String> {
     Some(hint)
 }
 
-/// `sum x = 3` after `constraint`: a name without its colon. Returns true where it was reported.
+/// `sum x = 3` after `constraint`: a name without its colon, or a product without its sign. Returns true where it was
+/// reported.
 pub(in crate::grammar) fn name_without_colon(p: &mut Parser<'_>) -> bool {
     let compares = matches!(
         p.nth(2),
@@ -111,39 +106,70 @@ pub(in crate::grammar) fn name_without_colon(p: &mut Parser<'_>) -> bool {
         && compares
         && !p.begins_line(1)
         && !p.begins_line(2)
-        && ![p.word(0), p.word(1)].iter().any(|word| WORDS.contains(word));
+        && ![p.word(0), p.word(1)].iter().any(|word| follows_operand(word));
     if is_one {
         let at = p.pos();
-        let (name, next) = (p.word(0), p.word(1));
+        let (name, next, rest) = (p.word(0), p.word(1), p.quoted_line(at + 1));
+        let times = if unit_length(next) == next.len() { "* 1" } else { "*" };
         let said = (
             "expected-colon",
             format!("found `{next}` after the name `{name}`, wanted `:`"),
-            format!("write `constraint {name}: {}`", p.text_between(at + 1, p.line_end())),
+            format!(
+                "a name has its colon, `constraint {name}: {rest}`; a product its sign, `constraint {name} {times} {rest}`"
+            ),
         );
-        p.report_mistake((at + 1, at + 1), said, Some((p.span_at(at), format!("{name}:"))));
+        p.report_mistake((at + 1, at + 1), said, None);
     }
     is_one
 }
 
-/// `3x10^8`, `4k7`: numbers as they are written elsewhere. Returns what is written for one.
-pub(super) fn number(p: &Parser<'_>) -> Option<String> {
-    let (digits, word) = (p.text_between(p.pos() - 1, p.pos() - 1), p.word(0));
-    if word == "x10" && p.nth(1) == Caret {
-        let sign = usize::from(p.nth(2) == Minus);
-        let power = Some(p.word(2 + sign)).filter(|power| is_whole(power))?;
-        let is_plain = digits.chars().all(|c| c.is_ascii_digit() || c == '.');
-        return is_plain
-            .then(|| format!("write `{digits}e{}{power}`", if sign == 1 { "-" } else { "" }));
+/// `3x10^8`, `4k7`, `4k7 ohm` behind the number that it begins with. Returns how many tokens belong to it, where it was
+/// reported.
+pub(in crate::grammar) fn strange_number(p: &mut Parser<'_>) -> Option<usize> {
+    if !p.at(Ident) || !p.is_adjacent(0) {
+        return None;
     }
-    let (unit, rest) = match word.split_at_checked(1)? {
-        ("k", rest) => ("kohm", rest),
-        ("M", rest) => ("Mohm", rest),
-        ("R", rest) => ("ohm", rest),
+    let ((length, number), at) = (power_of_ten(p).or_else(|| resistance(p))?, p.pos());
+    let (digits, last) = (p.text_between(at - 1, at - 1), at + length - 1);
+    let said = (
+        "implied-product",
+        format!("found `{}` right after `{digits}`, wanted one number", p.word(0)),
+        match length {
+            1 | 2 => format!("a number has its point and its unit: `{number}`"),
+            _ => format!("write `{number}`"),
+        },
+    );
+    let span = p.span_at(at - 1).join(p.span_at(last));
+    p.report_mistake((at - 1, last), said, Some((span, number)));
+    Some(length)
+}
+
+/// `3x10^8`: how many tokens it has behind its number, and how it is written.
+fn power_of_ten(p: &Parser<'_>) -> Option<(usize, String)> {
+    if p.word(0) != "x10" || p.nth(1) != Caret {
+        return None;
+    }
+    let sign = usize::from(p.nth(2) == Minus);
+    let power = Some(p.word(2 + sign)).filter(|power| is_whole(power))?;
+    let digits = p.text_between(p.pos() - 1, p.pos() - 1);
+    let is_plain = digits.chars().all(|c| c.is_ascii_digit() || c == '.');
+    let (length, minus) = (3 + sign, if sign == 1 { "-" } else { "" });
+    is_plain.then(|| (length, format!("{digits}e{minus}{power}")))
+}
+
+/// `4k7`, `4k7 ohm`: how many tokens it has behind its number, and how it is written.
+fn resistance(p: &Parser<'_>) -> Option<(usize, String)> {
+    let (digits, (prefix, rest)) =
+        (p.text_between(p.pos() - 1, p.pos() - 1), p.word(0).split_at_checked(1)?);
+    let unit = match prefix {
+        "k" => "kohm",
+        "M" => "Mohm",
+        "R" => "ohm",
         _ => return None,
     };
-    let is_split = is_whole(digits) && is_whole(rest);
-    let is_resistance = is_split && (p.word(1) == "ohm" || p.has_said("Resistance"));
-    is_resistance.then(|| format!("a number has its point and its unit: `{digits}.{rest} {unit}`"))
+    let has_unit = p.nth(1) == Ident && p.word(1) == "ohm" && !p.begins_line(1);
+    let is_one = is_whole(digits) && is_whole(rest) && (has_unit || p.is_of("Resistance"));
+    is_one.then(|| (1 + usize::from(has_unit), format!("{digits}.{rest} {unit}")))
 }
 
 fn is_whole(number: &str) -> bool {
@@ -159,7 +185,8 @@ fn ends_line(p: &Parser<'_>, n: usize) -> bool {
 pub(in crate::grammar) fn rule_follows(p: &Parser<'_>) -> bool {
     let declares =
         p.nth(1) == Ident && p.nth(2) == Colon && p.word(3).starts_with(char::is_uppercase);
-    p.at(Comma) && p.word_before() == "constraint" && !ends_line(p, 1) && !declares
+    let is_rule = matches!(p.word_before(), "constraint" | "replace" | "expect" | "task");
+    p.at(Comma) && is_rule && !ends_line(p, 1) && !declares
 }
 
 /// Returns true where the class of a list stands in brackets, so many tokens ahead: `(List of 3 Integer)`.
@@ -179,16 +206,20 @@ fn is_of_list(p: &Parser<'_>, at: usize) -> bool {
     matches!(word, "List" | "Set" | "Path" | "Placed" | "of" | "to") || is_count()
 }
 
-/// Reports the brackets around the class of a list.
+/// Reports the brackets around the class of a list; those within are none either.
 pub(in crate::grammar) fn list_in_brackets(p: &mut Parser<'_>) {
     let at = p.pos();
-    let last = at + p.bracket_length();
     let mut first = at;
     while first > 0 && is_of_list(p, first - 1) {
         first -= 1;
     }
     let before = if first < at { p.text_between(first, at - 1) } else { "" };
-    let inner = p.text_between(at + 1, last.saturating_sub(1).max(at + 1));
+    let inner = match p.bracket_length() {
+        0 => p.quoted_line(at + 1),
+        length => p.quoted(at + 1, (at + length - 1).max(at + 1)),
+    };
+    let computes = inner.contains(['+', '-', '*', '/']);
+    let inner = if computes { inner } else { inner.replace(['(', ')'], "") };
     let class = format!("{before} {inner}");
     let said = (
         "expected-class",
@@ -207,19 +238,19 @@ pub(in crate::grammar) fn strange_unit(p: &mut Parser<'_>) -> bool {
         && !p.begins_line(1)
         && p.names_itself(2);
     if is_one {
-        p.expected("expected-member", "a part, constraint, message or value");
+        p.expected("expected-member", MEMBER);
     }
     is_one
 }
 
-/// `Point(3 4)`, `[2 * i for i in 1..3]`, `Circle(…)` where a parameter stands: what brackets hold elsewhere. Returns true
-/// where it was reported.
-pub(in crate::grammar) fn in_brackets(p: &mut Parser<'_>) -> bool {
+/// `Point(3 4)`, `[2 * i for i in 1..3]`, `Circle(…)` where a parameter stands: what brackets hold elsewhere, where their
+/// end is wanted. Returns true where it was reported.
+pub(in crate::grammar) fn in_brackets(p: &mut Parser<'_>, wanted: &str) -> bool {
     let at = p.pos();
     let said = match p.current() {
         Ident if p.word(0) == "for" && p.nth(1) == Ident => (
             "expected-bracket",
-            "found `for` in a list, wanted `]`".to_string(),
+            format!("found `for`, wanted {wanted}"),
             "a list of what is computed is `(1..3).map(i => 2 * i)`".to_string(),
         ),
         Number if matches!(p.behind(1), Number | Unit) && !p.begins_line(0) => (
@@ -244,7 +275,7 @@ pub(in crate::grammar) fn in_brackets(p: &mut Parser<'_>) -> bool {
 /// `copy a`: returns true where it was reported.
 pub(in crate::grammar) fn copy_without_of(p: &mut Parser<'_>) -> bool {
     let is_one =
-        p.nth(1) == Ident && !p.begins_line(1) && !p.names_itself(2) && !WORDS.contains(&p.word(1));
+        p.nth(1) == Ident && !p.begins_line(1) && !p.names_itself(2) && !follows_operand(p.word(1));
     if is_one {
         let (at, of) = (p.pos(), p.word(1));
         let said = (
