@@ -13,9 +13,9 @@ pub struct FileSet {
     pub wanted: BTreeSet<String>,
 }
 
-/// Whether a file is a table: `bolts.csv`.
-pub fn is_table(name: &str) -> bool {
-    name.ends_with(".csv")
+/// Whether a wanted path is one of a table: `shop/bolts.csv`. Those of documents end otherwise.
+pub fn is_table(path: &str) -> bool {
+    path.ends_with(".csv")
 }
 
 impl FileSet {
@@ -29,7 +29,7 @@ impl FileSet {
         if let Some(library) = self.libraries.get(name) {
             return Some(library.clone());
         }
-        let path = match is_table(name) {
+        let path = match session::is_table_name(name) {
             true => format!("{folder}{name}"),
             false => format!("{folder}{}.thing", name.replace('.', "/")),
         };

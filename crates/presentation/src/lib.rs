@@ -1,5 +1,5 @@
 //! The page's room below the browser: what is painted of a picture and picked in it, which rows are in sight, how
-//! numbers, sentences and paths are put, what is found by words, what drafts are kept.
+//! numbers, sentences and paths are put, what is found by words and read of keys, what drafts are kept.
 //!
 //! Its nouns: a [`sheet::View`] is where the sheet lies on the screen; a [`paint::DisplayList`] is what is painted;
 //! [`marks::Marked`] is what is selected or under the pointer; a [`rows::Shown`] is a row that no shut row hides; a
@@ -16,6 +16,7 @@ pub mod chart;
 pub mod course;
 pub mod drafts;
 pub mod files;
+pub mod find;
 pub mod marks;
 pub mod numbers;
 pub mod orbit;
@@ -29,3 +30,4 @@ pub mod sentences;
 pub mod sheet;
 pub mod shelves;
 pub mod table;
+pub mod typing;

@@ -1,5 +1,6 @@
 //! The palette: what has the words that are wanted, of actions, constructions, classes and documents.
 
+use crate::find::has_words;
 use session::drafting::view::ConstructionRow;
 
 /// An action: itself, its name, its label.
@@ -23,6 +24,19 @@ pub struct Makeable {
     pub class: String,
     /// The library that has it, where the document does not use that yet.
     pub unused: Option<String>,
+}
+
+/// Finds what somebody means who types the name of a class and looks no further: what is called so, else what begins
+/// so, else the only one there is; what is in use comes first each time.
+pub fn called<'m>(all: &'m [Makeable], typed: &str) -> Option<&'m Makeable> {
+    let typed = typed.trim().to_lowercase();
+    let by = |is_it: &dyn Fn(&str) -> bool| {
+        let mut ones = all.iter().filter(|one| is_it(&one.class.to_lowercase()));
+        let first = ones.next()?;
+        Some(std::iter::once(first).chain(ones).find(|one| one.unused.is_none()).unwrap_or(first))
+    };
+    let only = || all.first().filter(|_| all.len() == 1);
+    by(&|class| class == typed).or_else(|| by(&|class| class.starts_with(&typed))).or_else(only)
 }
 
 /// What can be chosen.
@@ -72,16 +86,16 @@ pub fn matching<A: Clone>(
         (rank.map(|rank| rank.max((0, 2))), Choice::Open(one.clone()))
     };
     let has = |text: &str| !wanted.is_empty() && has_words(text, &wanted);
-    let called = |text: &str| match text.to_lowercase().starts_with(&wanted) {
+    let begins = |text: &str| match text.to_lowercase().starts_with(&wanted) {
         true => (0, 1),
         false => (2, 1),
     };
     let construction = |row: &ConstructionRow| {
         let text = [&row.label, row.also].join(" ");
-        (has(&text).then(|| called(&row.label)), Choice::Draw(row.clone()))
+        (has(&text).then(|| begins(&row.label)), Choice::Draw(row.clone()))
     };
     let class = |one: &Makeable| {
-        let rank = has(&one.class).then(|| called(&one.class));
+        let rank = has(&one.class).then(|| begins(&one.class));
         let later = usize::from(one.unused.is_some());
         (rank.map(|(rank, place)| (rank, place + later)), Choice::Insert(one.clone()))
     };
@@ -92,12 +106,6 @@ pub fn matching<A: Clone>(
     found.into_iter().map(|(_, choice)| choice).collect()
 }
 
-/// Whether a text has each of the wanted words somewhere, in capitals or not.
-pub fn has_words(text: &str, wanted: &str) -> bool {
-    let (text, wanted) = (text.to_lowercase(), wanted.to_lowercase());
-    wanted.split_whitespace().all(|word| text.contains(word))
-}
-
 fn scattered(label: &str, wanted: &str) -> bool {
     let mut letters = label.chars();
     wanted.chars().all(|letter| letters.any(|found| found == letter))
@@ -105,7 +113,7 @@ fn scattered(label: &str, wanted: &str) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::{Choice, ConstructionRow, Listed, Makeable, Named, matching};
+    use super::{Choice, ConstructionRow, Listed, Makeable, Named, called, matching};
 
     /// Some of the page's.
     const ACTIONS: [Named<&str>; 15] = [
@@ -128,6 +136,21 @@ mod tests {
 
     fn makeable(class: &str, unused: Option<&str>) -> Makeable {
         Makeable { class: String::from(class), unused: unused.map(String::from) }
+    }
+
+    #[test]
+    fn the_name_of_a_class_means_it_wherever_it_lies() {
+        let all = [
+            makeable("ConstantLengthLine", None),
+            makeable("Constant", Some("calculator")),
+            makeable("Times", Some("calculator")),
+        ];
+        let meant = |typed| called(&all, typed).map(|one| one.class.as_str());
+        assert_eq!(meant("constant"), Some("Constant"));
+        assert_eq!(meant("constant l"), None);
+        assert_eq!(meant("const"), Some("ConstantLengthLine"));
+        assert_eq!(meant("product"), None);
+        assert_eq!(called(&all[2..], "product").map(|one| one.class.as_str()), Some("Times"));
     }
 
     #[test]

@@ -118,7 +118,7 @@ impl View {
         self.panned(way(ax, bx, size.0), way(ay, by, size.1))
     }
 
-    /// The same of one that is besides a good part of the canvas: wide or high enough to work on.
+    /// Whether a canvas holds a box that is a good part of it: wide or high enough to work on.
     pub fn shows_well(&self, drawn: Bounds, (width, height): (f64, f64)) -> bool {
         let (wide, high) = (drawn.most.x - drawn.least.x, drawn.most.y - drawn.least.y);
         let part = self.scale * f64::max(wide / width, high / height);

@@ -7,9 +7,9 @@
 //! Nothing is known of any construction: `catalogue` finds them in the classes in scope, `outcome` tries
 //! them in a copy of the text. So a construction that a library gains is a tool at once.
 //!
-//! Reading order: `catalogue`, `synonyms`, `scene`, `edges`, `typed`, `outcome`, `dialogue`, `older`, `hands`, `recording`,
-//! `parameters`, `blocks`, `operands`, `patterns`, `repeat`, `choice`, `demonstrating`, `measure`, `steps`,
-//! `visit`, `remove`, `erase`, `changing`, `visiting`, `text`.
+//! Reading order: `catalogue`, `synonyms`, `compound`, `scene`, `edges`, `typed`, `outcome`, `dialogue`, `older`,
+//! `hands`, `recording`, `reading`, `parameters`, `blocks`, `operands`, `patterns`, `repeat`, `choice`, `demonstrating`,
+//! `measure`, `steps`, `visit`, `remove`, `erase`, `changing`, `visiting`, `text`.
 mod blocks;
 mod catalogue;
 mod changing;

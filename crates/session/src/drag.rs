@@ -141,14 +141,18 @@ pub(crate) fn at_once(
 fn begin_several(open: &mut Open, paths: &[Path]) -> Result<(f64, f64), Refusal> {
     let state = open.state.clone();
     let figures = state.evaluator(&state.values).computed_figures(DOCUMENT);
-    // one that cannot be made now is nothing to aim at
     let is_figure = |path: &Path| match path.0.as_slice() {
         [Step::Part(name)] => figures.contains(name),
         _ => false,
     };
     let mut moving: Vec<(Path, ThingId)> = Vec::new();
     let mut computed: Vec<(&Path, Term)> = Vec::new();
-    for path in paths.iter().filter(|path| !is_figure(path)) {
+    // beside what moves, a figure follows as its construction says; where figures alone are dragged, all have to
+    let (figures, others): (Vec<&Path>, Vec<&Path>) =
+        paths.iter().partition(|path| is_figure(path));
+    let alone = if others.is_empty() { figures } else { Vec::new() };
+    let is_made = |path: &&Path| state.evaluator(&state.values).at(path).is_ok();
+    for path in others.into_iter().chain(alone.into_iter().filter(is_made)) {
         match apply::aim(&state, path)? {
             Aim::Thing(thing) if !places(&state.structure, &[thing]).is_empty() => {
                 moving.push((path.clone(), thing));
@@ -163,7 +167,7 @@ fn begin_several(open: &mut Open, paths: &[Path]) -> Result<(f64, f64), Refusal>
     }
     all_go_along(&state, &open.planner, &moving, &computed)?;
     let alone = match moving.as_slice() {
-        [] => paths.first(),
+        [] => computed.first().map(|(path, _)| *path),
         [(path, _)] => Some(path),
         _ => None,
     };
@@ -192,14 +196,9 @@ fn all_go_along(
     moving: &[(Path, ThingId)],
     computed: &[(&Path, Term)],
 ) -> Result<(), Refusal> {
+    let Some((_, first)) = computed.first() else { return Ok(()) };
     let slots = moving.iter().flat_map(|(_, thing)| state.structure.slots_under(*thing));
-    let moved: BTreeSet<SlotId> = match (moving, computed.first()) {
-        ([], Some((_, first))) => read_by(state, first),
-        _ => slots.collect(),
-    };
-    if computed.is_empty() {
-        return Ok(());
-    }
+    let moved = if moving.is_empty() { read_by(state, first) } else { slots.collect() };
     let moved = planner.tied_to(moved);
     match computed.iter().find(|(_, term)| read_by(state, term).is_disjoint(&moved)) {
         Some((path, _)) => {

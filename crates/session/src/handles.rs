@@ -12,8 +12,9 @@ use crate::prototype::Lone;
 use crate::session::thing_at;
 use crate::state::State;
 use eval::{Answer, Evaluator};
-use kernel::{ClassId, DOCUMENT, Handle, Path, SlotId, Step, Term, ThingId, Values};
+use kernel::{DOCUMENT, Handle, Path, SlotId, Step, Structure, Term, ThingId, Values};
 use plan::{EditReport, Host, Planner, Press, Target};
+use std::cell::LazyCell;
 use std::collections::BTreeSet;
 
 /// How often the way to where a thing is flat is halved.
@@ -118,14 +119,15 @@ fn handles_of(state: &State, whole: &Path) -> impl Iterator<Item = Way> {
         None => class_at(state, whole),
     };
     let handles = class.map(|class| document.handles(class)).unwrap_or_default();
+    let prototype = LazyCell::new(|| Lone::of(document, class?));
     let way = |handle: &Handle| {
         let dragged = whole.join(&handle.place);
         let kept = handle.keeps.iter().map(|kept| whole.join(kept));
         let keeps: Vec<Path> = kept.flat_map(|kept| elements(state, kept)).collect();
-        let side = match (keeps.as_slice(), class) {
-            ([kept], Some(class)) => {
+        let side = match keeps.as_slice() {
+            [kept] => {
                 let side = side_of(state, &state.values, (&dragged, kept)).unwrap_or_default();
-                as_in_class(state, class, handle, side)
+                as_in_class(|| prototype.as_ref(), handle, side)
             }
             _ => Vec::new(),
         };
@@ -145,41 +147,40 @@ fn elements(state: &State, path: Path) -> Vec<Path> {
 
 /// Returns the numbers of the place at a path.
 fn place_at(state: &State, values: &Values, path: &Path) -> Option<Vec<f64>> {
-    if let Some(thing) = thing_at(state, path) {
-        let slots = coordinates(&state.structure, thing)?;
+    place_in((&state.structure, values), &state.evaluator(values), path)
+}
+
+fn place_in(
+    (structure, values): (&Structure, &Values),
+    evaluator: &Evaluator<'_>,
+    path: &Path,
+) -> Option<Vec<f64>> {
+    if let Ok(thing) = structure.follow(DOCUMENT, path) {
+        let slots = coordinates(structure, thing)?;
         return Some(slots.map(|(_, slot)| values.numbers[slot]).to_vec());
     }
-    let evaluator = state.evaluator(values);
     let numbers = numbers_of(&evaluator.at(path).ok()?)?;
     Some(numbers.into_iter().map(|(x, _)| x).collect())
 }
 
-/// Returns on which side a handle lies, where a thing that is flat does not say it: the one of the class's prototype.
-fn as_in_class(state: &State, class: ClassId, handle: &Handle, mut side: Vec<i8>) -> Vec<i8> {
-    if !side.contains(&0) {
-        return side;
-    }
-    let Some(lone) = Lone::of(&state.lowered.document, class) else { return side };
+/// Returns on which side a handle lies, where a thing that is flat does not say it: the one of its class's prototype.
+fn as_in_class<'l>(
+    prototype: impl FnOnce() -> Option<&'l Lone>,
+    handle: &Handle,
+    side: Vec<i8>,
+) -> Vec<i8> {
+    let lone = if side.contains(&0) { prototype() } else { None };
+    let Some(lone) = lone else { return side };
     let (values, _) = eval::given_values(&lone.document, &lone.structure);
     let evaluator = Evaluator::new(&lone.document, &lone.structure, &values);
     let whole = lone.structure.path(&lone.document, lone.thing);
-    let place = |place: &Path| {
-        let path = whole.join(place);
-        if let Ok(thing) = lone.structure.follow(DOCUMENT, &path) {
-            let slots = coordinates(&lone.structure, thing)?;
-            return Some(slots.map(|(_, slot)| values.numbers[slot]).to_vec());
-        }
-        let numbers = numbers_of(&evaluator.at(&path).ok()?)?;
-        Some(numbers.into_iter().map(|(x, _)| x).collect())
+    let place = |place: &Path| place_in((&lone.structure, &values), &evaluator, &whole.join(place));
+    let (Some(held), Some(kept)) = (place(&handle.place), handle.keeps.first().and_then(place))
+    else {
+        return side;
     };
-    if let (Some(held), Some(kept)) = (place(&handle.place), handle.keeps.first().and_then(place)) {
-        for (sign, (a, b)) in side.iter_mut().zip(held.iter().zip(&kept)) {
-            if *sign == 0 {
-                *sign = i8::from(a > b) - i8::from(a < b);
-            }
-        }
-    }
-    side
+    let own = side.into_iter().zip(signs(&held, &kept));
+    own.map(|(sign, usual)| if sign == 0 { usual } else { sign }).collect()
 }
 
 /// Returns true for the signs of a coordinate on two sides.
@@ -190,8 +191,12 @@ fn is_turned((now, was): &(&i8, &i8)) -> bool {
 /// Returns on which side of another a place lies.
 fn side_of(state: &State, values: &Values, (place, other): (&Path, &Path)) -> Option<Vec<i8>> {
     let (place, other) = (place_at(state, values, place)?, place_at(state, values, other)?);
+    Some(signs(&place, &other))
+}
+
+fn signs(place: &[f64], other: &[f64]) -> Vec<i8> {
     let sign = |(a, b): (&f64, &f64)| i8::from(a > b) - i8::from(a < b);
-    Some(place.iter().zip(&other).map(sign).collect())
+    place.iter().zip(other).map(sign).collect()
 }
 
 impl Keeping {

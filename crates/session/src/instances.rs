@@ -177,7 +177,7 @@ fn figures(state: &State, thing: &str) -> Result<Vec<Plain>, Refusal> {
         };
         let class = evaluator.class_of(&answer).ok_or_else(none)?;
         let mut values = Values::new();
-        let is_figure = document.figure(class).is_some() || compound::of(document, class).is_some();
+        let is_figure = compound::is_drawn(document, class);
         let is_plain = is_figure && flatten(document, &answer, &Path::default(), &mut values);
         let says = match is_plain {
             true => Says::Figure(values),

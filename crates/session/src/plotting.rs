@@ -6,10 +6,10 @@
 use crate::apply::{self, Aim};
 use crate::document::Open;
 use crate::drag;
-use crate::host::Host;
-use crate::session::parse_path;
+use crate::host::{Beside, Host};
+use crate::session::{Session, parse_path};
 use crate::state::State;
-use crate::view::{PlotEntry, Refusal};
+use crate::view::{DocumentId, PlotEntry, Refusal};
 use crate::words;
 use eval::Answer;
 use expr::Dimension;
@@ -164,6 +164,57 @@ impl Trace {
 
 /// So many steps a view of a class has.
 const VIEW_STEPS: u32 = 200;
+
+impl Session {
+    /// Makes the plot of a sweep, in a copy of the document.
+    ///
+    /// # Errors
+    /// What is shown or swept means nothing, the range is none, or the value cannot be moved.
+    pub fn plot(&self, id: DocumentId, request: &Request) -> Result<Plot, Refusal> {
+        if request.sweep.is_none() {
+            let trace = self.document(id).trace.as_ref();
+            return Ok(trace.map(Trace::plot).unwrap_or_default());
+        }
+        let mut sweeping = self.begin_sweep(id, request)?;
+        while self.go_on(id, &mut sweeping)? {}
+        sweeping.finished()
+    }
+
+    /// Begins the plot of a sweep, in a copy of the document.
+    ///
+    /// # Errors
+    /// What is shown or swept means nothing, the range is none, or the value cannot be moved.
+    pub fn begin_sweep(&self, id: DocumentId, request: &Request) -> Result<Sweeping, Refusal> {
+        let beside = Beside::of(&*self.host, &self.documents, id);
+        let sweep = request.sweep.clone().unwrap_or_default();
+        Sweeping::begin(self.document(id), &beside, request, &sweep)
+    }
+
+    /// Goes on with a sweep to its next value; returns false at its end.
+    ///
+    /// # Errors
+    /// The value cannot be moved the other way.
+    pub fn go_on(&self, id: DocumentId, sweeping: &mut Sweeping) -> Result<bool, Refusal> {
+        sweeping.step(&Beside::of(&*self.host, &self.documents, id))
+    }
+
+    /// Returns the views that the class of a thing defines, the nearest class's first.
+    pub fn views_of(&self, id: DocumentId, path: &Path) -> Vec<PlotEntry> {
+        views_of(&self.document(id).state, path)
+    }
+
+    /// From the next press on, every event of a drag is a sample of what a request shows; without one none is.
+    ///
+    /// # Errors
+    /// What is shown means nothing; then what was watched before goes on.
+    pub fn watch(&mut self, id: DocumentId, request: Option<&Request>) -> Result<(), Refusal> {
+        let beside = Beside::of(&*self.host, &self.documents, id);
+        let open = self.document(id);
+        let trace = request.map(|request| Trace::of(open, &beside, request)).transpose()?;
+        self.document_mut(id).trace = trace;
+        Ok(())
+    }
+}
 
 /// Returns the views that the class of a thing defines, as plots of that thing.
 pub(crate) fn views_of(state: &State, path: &Path) -> Vec<PlotEntry> {

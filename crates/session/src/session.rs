@@ -12,7 +12,7 @@ use crate::ghosts;
 use crate::host::{self, Beside, Host};
 use crate::joining;
 use crate::opening::Opening;
-use crate::plotting::{self, Plot, Request, Sweeping};
+use crate::plotting;
 use crate::recognise;
 use crate::state::State;
 use crate::texts::Texts;
@@ -21,9 +21,8 @@ use crate::tools::{self, Tool};
 use crate::view::{
     Advice, Affected, Along, Analysis, BinEntry, Change, CheckReport, CompletionView,
     DiagnosticView, DocumentId, DragState, Explanation, FamilyRow, FamilyView, FixView, Ghost,
-    HeldView, MovedView, PictureView, PlotEntry, Pointer, Question, Recognised, Refusal,
-    RowFormats, RowOutcome, Status, StructureRow, TableView, TextView, TokenView, ToolView,
-    ValueRow,
+    HeldView, MovedView, PictureView, Pointer, Question, Recognised, Refusal, RowFormats,
+    RowOutcome, Status, StructureRow, TableView, TextView, TokenView, ToolView, ValueRow,
 };
 use crate::views;
 use crate::views::listing::Listing;
@@ -468,55 +467,10 @@ impl Session {
         let beside = Beside::of(&*self.host, &self.documents, id);
         plotting::read(&self.document(id).state, &beside, &[written]).map(drop)
     }
-    /// Makes the plot of a sweep, in a copy of the document.
-    ///
-    /// # Errors
-    /// What is shown or swept means nothing, the range is none, or the value cannot be moved.
-    pub fn plot(&self, id: DocumentId, request: &Request) -> Result<Plot, Refusal> {
-        if request.sweep.is_none() {
-            let trace = self.document(id).trace.as_ref();
-            return Ok(trace.map(plotting::Trace::plot).unwrap_or_default());
-        }
-        let mut sweeping = self.begin_sweep(id, request)?;
-        while self.go_on(id, &mut sweeping)? {}
-        sweeping.finished()
-    }
-    /// Begins the plot of a sweep, in a copy of the document.
-    ///
-    /// # Errors
-    /// What is shown or swept means nothing, the range is none, or the value cannot be moved.
-    pub fn begin_sweep(&self, id: DocumentId, request: &Request) -> Result<Sweeping, Refusal> {
-        let beside = Beside::of(&*self.host, &self.documents, id);
-        let sweep = request.sweep.clone().unwrap_or_default();
-        Sweeping::begin(self.document(id), &beside, request, &sweep)
-    }
-    /// Goes on with a sweep to its next value; returns false at its end.
-    ///
-    /// # Errors
-    /// The value cannot be moved the other way.
-    pub fn go_on(&self, id: DocumentId, sweeping: &mut Sweeping) -> Result<bool, Refusal> {
-        sweeping.step(&Beside::of(&*self.host, &self.documents, id))
-    }
     /// Returns the values of some expressions in words, as of the drag where one goes on, or why they have none.
     pub fn calculate(&mut self, id: DocumentId, written: &[String]) -> Vec<Result<String, String>> {
         let (open, beside) = self.beside_others(id);
         calculator::values(open, &beside, written)
-    }
-    /// Returns the views that the class of a thing defines, the nearest class's first.
-    pub fn views_of(&self, id: DocumentId, path: &Path) -> Vec<PlotEntry> {
-        plotting::views_of(&self.document(id).state, path)
-    }
-    /// From the next press on, every event of a drag is a sample of what a request shows; without one none is.
-    ///
-    /// # Errors
-    /// What is shown means nothing; then what was watched before goes on.
-    pub fn watch(&mut self, id: DocumentId, request: Option<&Request>) -> Result<(), Refusal> {
-        let beside = Beside::of(&*self.host, &self.documents, id);
-        let open = self.document(id);
-        let trace =
-            request.map(|request| plotting::Trace::of(open, &beside, request)).transpose()?;
-        self.document_mut(id).trace = trace;
-        Ok(())
     }
     /// Gives a drag up: all is as it was before the press.
     pub fn cancel(&mut self, id: DocumentId) {

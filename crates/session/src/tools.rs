@@ -195,7 +195,7 @@ impl Tool {
     fn typed(&self, state: &State, pointer: &Pointer, last: (f64, f64)) -> Catch {
         let way = (pointer.at.0 - last.0, pointer.at.1 - last.1);
         let far = hypot(way.0, way.1);
-        let length = pointer.length.map_or(far, |length| on_sheet(state, length));
+        let length = pointer.length.as_ref().map_or(far, |length| on_sheet(state, length));
         let radians = |degrees: f64| degrees * std::f64::consts::PI / 180.0;
         let (dx, dy) = match pointer.angle.map(radians) {
             Some(angle) => (cos(angle), sin(angle)),
@@ -207,7 +207,10 @@ impl Tool {
             let name = &self.name;
             let run = format!("atan2({name}.p2.y - {name}.p1.y, {name}.p2.x - {name}.p1.x)");
             let said = [
-                pointer.length.map(|length| format!("{name}.length = {}", written(length))),
+                pointer
+                    .length
+                    .as_ref()
+                    .map(|length| format!("{name}.length = {}", written(length))),
                 pointer.angle.map(|x| format!("{run} = {} deg", shortest(x))),
             ];
             catch.rules.extend(said.into_iter().flatten());
@@ -370,10 +373,11 @@ impl Tool {
 }
 
 /// A typed length in the units of the sheet. One that has no unit yet takes over the unit that is typed.
-fn on_sheet(state: &State, length: TypedLength) -> f64 {
+fn on_sheet(state: &State, length: &TypedLength) -> f64 {
     let document = &state.lowered.document;
     let number = length.number;
-    let metres = length.unit.and_then(|unit| expr::units::read_quantity(&shortest(number), unit));
+    let metres =
+        length.unit.as_ref().and_then(|unit| expr::units::read_quantity(&shortest(number), unit));
     match metres {
         Some((metres, _)) if document.unit.is_some() || state.lowered.measures_lengths() => {
             metres * document.units_per_metre
@@ -383,9 +387,9 @@ fn on_sheet(state: &State, length: TypedLength) -> f64 {
 }
 
 /// A typed length as the text has it.
-fn written(length: TypedLength) -> String {
+fn written(length: &TypedLength) -> String {
     let number = shortest(length.number);
-    length.unit.map_or(number.clone(), |unit| format!("{number} {unit}"))
+    length.unit.as_ref().map_or(number.clone(), |unit| format!("{number} {unit}"))
 }
 
 /// The dashed lines that say what a catch was found by.

@@ -9,6 +9,8 @@ use crate::sheet::{fit, with_words};
 use crate::{icons, keyboard, words};
 use leptos::html::Canvas;
 use leptos::prelude::*;
+use presentation::find::has_words;
+use presentation::palette::{Makeable, called};
 use presentation::shelves::{Shelf, shelved};
 use session::view::{BinEntry, PictureView};
 
@@ -27,8 +29,7 @@ pub fn Bin(
         lab.id().map(|id| lab.ask(|session| session.bin(id))).unwrap_or_default()
     });
     let has = move |entry: &BinEntry| {
-        let wanted = wanted.get().to_lowercase();
-        entry.class.to_lowercase().contains(&wanted) || entry.doc.to_lowercase().contains(&wanted)
+        wanted.with(|wanted| has_words(&[&*entry.class, &*entry.doc].join(" "), wanted))
     };
     let found = Memo::new(move |_| {
         entries.with(|all| all.iter().filter(|entry| has(entry)).cloned().collect::<Vec<_>>())
@@ -61,23 +62,19 @@ pub fn Bin(
         let is_typed = |name: &String| name.to_lowercase() == typed;
         let library = libraries.get_untracked().into_iter().find(is_typed);
         let document = beside.get_untracked().into_iter().find(is_typed);
-        let meant = |found: &Vec<BinEntry>| {
-            let is_it = |entry: &&BinEntry| entry.class.to_lowercase() == typed;
-            let begins = |entry: &&BinEntry| entry.class.to_lowercase().starts_with(&typed);
-            let entry = found.iter().find(is_it).or_else(|| found.iter().find(begins));
-            entry.or_else(|| found.first().filter(|_| found.len() == 1)).cloned()
+        let makeable = |entry: BinEntry, is_used: bool| Makeable {
+            class: entry.class,
+            unused: (!is_used).then_some(entry.library),
         };
-        match (library, document, found.with_untracked(meant), offered.with_untracked(meant)) {
+        let own = found.get_untracked().into_iter().map(|entry| makeable(entry, true));
+        let other = offered.get_untracked().into_iter().map(|entry| makeable(entry, false));
+        let all: Vec<Makeable> = own.chain(other).collect();
+        match (library, document, called(&all, &typed)) {
             (Some(library), ..) => {
                 lab.use_library(&library);
             }
-            (_, Some(document), ..) => lab.use_document(document),
-            (.., Some(entry), _) => lab.insert(&entry.class),
-            (.., Some(entry)) => {
-                if lab.use_library(&entry.library) {
-                    lab.insert(&entry.class);
-                }
-            }
+            (_, Some(document), _) => lab.use_document(document),
+            (.., Some(one)) => lab.with_library(one, Lab::insert),
             _ => lab.say_refused(words::nothing_called(&typed)),
         }
     };
@@ -197,13 +194,11 @@ fn Tile(lab: Lab, entry: BinEntry, is_used: bool) -> impl IntoView {
             .unwrap_or_default()
     });
     let (class, name) = (StoredValue::new(entry.class.clone()), entry.class.clone());
-    let library = StoredValue::new((!is_used).then(|| entry.library.clone()));
-    let with_library = move |take: fn(Lab, &str)| {
-        let class = class.get_value();
-        if library.get_value().is_none_or(|library| lab.use_library(&library)) {
-            take(lab, &class);
-        }
-    };
+    let made = StoredValue::new(Makeable {
+        class: entry.class.clone(),
+        unused: (!is_used).then(|| entry.library.clone()),
+    });
+    let take = move |take: fn(Lab, &str)| lab.with_library(&made.get_value(), take);
     let held = Memo::new(move |_| lab.tool.get() == Some(class.get_value()));
     let is_own = entry.library.is_empty();
     let by_finger = StoredValue::new(false);
@@ -215,14 +210,14 @@ fn Tile(lab: Lab, entry: BinEntry, is_used: bool) -> impl IntoView {
                     by_finger.set_value(e.pointer_type() == "touch");
                     if e.button() == 0 && !by_finger.get_value() {
                         e.prevent_default();
-                        with_library(Lab::take_tool);
+                        take(Lab::take_tool);
                         lab.carried.set_value(true);
                     }
                 }
                 on:click=move |_| {
                     // a finger that comes down may scroll the bin; what it takes is placed where the sheet was
                     if by_finger.get_value() {
-                        with_library(Lab::take_tool);
+                        take(Lab::take_tool);
                         lab.sheet.set(Sheet::Shut);
                     }
                 }
@@ -230,7 +225,7 @@ fn Tile(lab: Lab, entry: BinEntry, is_used: bool) -> impl IntoView {
                     if e.key() == "Enter" || e.key() == " " {
                         e.prevent_default();
                         e.stop_propagation();
-                        with_library(Lab::insert);
+                        take(Lab::insert);
                     }
                 }>
                 {is_drawn.then(|| view! { <canvas node_ref=canvas aria-hidden="true"></canvas> })}

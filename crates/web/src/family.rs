@@ -299,7 +299,7 @@ fn file_of(
     Effect::new(move |_| {
         if let Some(path) = wanted.get() {
             leptos::task::spawn_local(async move {
-                let found = server::table(&path).await;
+                let found = lab.table(&path).await;
                 let text = found.and_then(|text| text.ok_or_else(|| words::no_table(&path)));
                 fetched.set(Some((path, text)));
             });

@@ -5,7 +5,8 @@ use crate::lab::Lab;
 use crate::picture::thumbnail::Thumbnail;
 use crate::{actions, lesson, route, words};
 use leptos::prelude::*;
-use presentation::palette::{Listed, has_words};
+use presentation::find::has_words;
+use presentation::palette::Listed;
 use presentation::sentences::first_sentence;
 use session::view::DocumentId;
 

@@ -201,7 +201,7 @@ pub struct Lab {
     pub menu: RwSignal<Option<Menu>>,
     /// While a class is made of the selection, the points by which its things are placed.
     pub attachers: RwSignal<Option<Vec<String>>>,
-    /// How many stages of a long opening are done, while there is one.
+    /// How many stages of a long opening are done, with the part of the present one, while there is one.
     pub opening: RwSignal<Option<f64>>,
     /// How often long openings were given up: one goes on as long as this is what it was when it began.
     pub given_up: StoredValue<usize>,

@@ -57,11 +57,9 @@ fn Open(lab: Lab) -> impl IntoView {
         match choice {
             Choice::Do(action) => actions::run(action, lab),
             Choice::Draw(row) => lab.begin_construction(&row.id),
-            Choice::Insert(Makeable { class, unused }) => {
-                if unused.is_none_or(|library| lab.use_library(&library)) {
-                    lab.take_tool(&class);
-                    crate::keyboard::focus("#picture");
-                }
+            Choice::Insert(one) => {
+                lab.with_library(&one, Lab::take_tool);
+                crate::keyboard::focus("#picture");
             }
             Choice::Open(listed) => route::go(&route::to(&listed.path)),
         }

@@ -309,15 +309,24 @@ fn follow_size(lab: Lab, size: RwSignal<(f64, f64)>) {
             lab.zoom.set(Some(Zoom::Fit));
         } else if let Some(moved) = moved.filter(|moved| moved.size == now) {
             hidden.set_value(None);
-            lab.view.set(moved.view);
+            look(lab, moved.view);
         } else if let Some(all) = all().filter(|_| now.0 > 0.0) {
             let seen = view.with_in_sight(all, now, margin(now));
             let first = Hidden { size: before.unwrap_or(now), view, seen };
             hidden.set_value(Some(Hidden { seen, ..moved.unwrap_or(first) }));
-            lab.view.set(seen);
+            look(lab, seen);
         }
         now
     });
+}
+
+/// Shows the sheet by another view; the pointer of the keyboard stays where it was on the sheet.
+fn look(lab: Lab, view: View) {
+    let before = lab.view.get_untracked();
+    if view != before {
+        lab.view.set(view);
+        lab.keep_cursor(before);
+    }
 }
 
 /// How far what is fitted stays from the sides of a canvas of that size.
@@ -346,11 +355,7 @@ fn zoom_as_asked(lab: Lab, size: (f64, f64)) {
     let room = if size.1 > LOW { size.1 - BELOW } else { size.1 };
     match asked {
         Zoom::Over(all) => {
-            let view = lab.view.get_untracked();
-            let seen = view.with_in_sight(all, size, margin);
-            if seen != view {
-                lab.view.set(seen);
-            }
+            look(lab, lab.view.get_untracked().with_in_sight(all, size, margin));
         }
         Zoom::Fit => {
             // what is drawn must not move under a hand that holds a tool

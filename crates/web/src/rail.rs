@@ -4,7 +4,9 @@ use crate::actions::{self, ACTIONS, Action, Group};
 use crate::lab::{Lab, Notice};
 use crate::{icons, keyboard, words};
 use leptos::prelude::*;
-use session::view::{Along, Pointer, Refusal, RowKind, ToolView, TypedLength};
+use presentation::palette::Makeable;
+use presentation::typing::{adds, pointed};
+use session::view::{Along, Pointer, Refusal, RowKind, ToolView};
 
 /// The tools, one below the other; those that the document has no classes for say why not.
 #[component]
@@ -225,7 +227,7 @@ impl Lab {
                 });
                 return true;
             }
-            one if self.takes_character(one) => {
+            one if self.typed.with_untracked(|typed| adds(typed, one)) => {
                 self.typed.update(|typed| typed.push_str(one));
                 return true;
             }
@@ -235,14 +237,6 @@ impl Lab {
         self.cursor.set(Some((at.0 + by.0, at.1 + by.1)));
         self.tool_moved(&self.keyboard_pointer(size));
         true
-    }
-
-    /// Whether a key adds to what is typed for a tool: a digit and its signs; behind one a unit, too.
-    fn takes_character(self, key: &str) -> bool {
-        let mut characters = key.chars();
-        let (Some(c), None) = (characters.next(), characters.next()) else { return false };
-        let is_begun = self.typed.with_untracked(|typed| !typed.is_empty());
-        c.is_ascii_digit() || ".,<-".contains(c) || is_begun && (c == ' ' || c.is_alphabetic())
     }
 
     /// Brings the pointer of the keyboard to a place of the sheet.
@@ -301,6 +295,13 @@ impl Lab {
         }
     }
 
+    /// Does something with a class; the document uses its library from then on.
+    pub fn with_library(self, one: &Makeable, act: fn(Self, &str)) {
+        if one.unused.as_ref().is_none_or(|library| self.use_library(library)) {
+            act(self, &one.class);
+        }
+    }
+
     /// Has the document use a library; returns whether it does.
     pub fn use_library(self, name: &str) -> bool {
         self.flush_text();
@@ -318,21 +319,4 @@ impl Lab {
 /// A tool that nobody sees yet: where its thing would lie is known once the pointer comes.
 fn aside(view: ToolView) -> ToolView {
     ToolView { preview: drawing::Drawing::default(), caught: None, ..view }
-}
-
-/// The pointer with what was typed: coordinates on the sheet, `120,40`, or a length and, after `<`, an angle in degrees,
-/// `3 cm<45`; nothing where it is neither.
-fn pointed(typed: &str, pointer: Pointer) -> Option<Pointer> {
-    let is_empty = |text: &str| text.trim().is_empty();
-    if is_empty(typed) {
-        return Some(pointer);
-    }
-    if let Some((x, y)) = typed.split_once(',') {
-        let at = (x.trim().parse().ok()?, y.trim().parse().ok()?);
-        return Some(Pointer { at, alone: true, ..pointer });
-    }
-    let (length, angle) = typed.split_once('<').unwrap_or((typed, ""));
-    let angle = if is_empty(angle) { None } else { Some(angle.trim().parse().ok()?) };
-    let length = if is_empty(length) { None } else { Some(TypedLength::read(length)?) };
-    Some(Pointer { length, angle, ..pointer })
 }

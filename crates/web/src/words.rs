@@ -542,16 +542,6 @@ pub const GIVE_UP: &str = "Done";
 pub const RECORD: &str = "Record";
 /// Ends a recording.
 pub const STOP: &str = "Stop";
-/// The field for the name of a program.
-pub const PROGRAM_NAME: &str = "Program, as Washer";
-/// Defines a parameter.
-pub const DEFINE: &str = "Define";
-/// The field for the name of a parameter.
-pub const PARAMETER_NAME: &str = "Name";
-/// The field for the example of a parameter.
-pub const EXAMPLE: &str = "Example";
-/// The field for what is asked.
-pub const QUESTION: &str = "Question";
 /// Deletes a step.
 pub const DELETE_STEP: &str = "Delete step";
 /// The field that finds constructions.

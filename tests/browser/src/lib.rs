@@ -5,6 +5,7 @@
 //! environment: `THINGLAB` and `CHROMIUM`. Without these a test fails and says so.
 
 mod chromium;
+pub mod drafting;
 pub mod hands;
 
 use std::io::{BufRead, BufReader};

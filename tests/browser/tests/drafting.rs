@@ -1,44 +1,8 @@
 //! Drawing by constructions, and a program recorded by drawing one example: with the mouse, and without a line of text.
 
 use browser::Visit;
-use browser::hands::{self, state, text_of};
-use fantoccini::Locator;
-use fantoccini::actions::MOUSE_BUTTON_LEFT;
-use std::time::Duration;
-
-async fn press(visit: &Visit, selector: &str) {
-    let found = visit.client.wait().for_element(Locator::Css(selector)).await;
-    let found = found.unwrap_or_else(|e| panic!("{selector}: {e}"));
-    found.click().await.unwrap_or_else(|e| panic!("{selector}: {e}"));
-}
-
-async fn fill(visit: &Visit, selector: &str, text: &str) {
-    let found = visit.client.find(Locator::Css(selector)).await;
-    let found = found.unwrap_or_else(|e| panic!("{selector}: {e}"));
-    found.send_keys(text).await.unwrap_or_else(|e| panic!("{selector}: {e}"));
-}
-
-/// Clicks where a place of the sheet is seen.
-async fn point(visit: &Visit, x: f64, y: f64) {
-    let script = format!(
-        "const grips = window.__thinglab.state().grips;
-         const grip = path => grips.find(g => g.path === path);
-         const [a, b, c] = ['ground.p1', 'ground.p2', 'driver.center'].map(grip);
-         return [a.px + (b.px - a.px) / (b.x - a.x) * ({x} - a.x),
-             a.py + (c.py - a.py) / (c.y - a.y) * ({y} - a.y)]"
-    );
-    let at = visit.script(&script).await;
-    let at = |n: usize| at[n].as_f64().expect("a number");
-    hands::point(visit, (at(0), at(1)), MOUSE_BUTTON_LEFT).await;
-}
-
-const OPERAND: &str = "input[name='operand']";
-const ENTER: &str = "\u{e007}";
-
-async fn enter(visit: &Visit, typed: &str) {
-    fill(visit, OPERAND, &format!("{typed}{ENTER}")).await;
-    tokio::time::sleep(Duration::from_millis(80)).await;
-}
+use browser::drafting::{asked, calculate, define, enter, fill, pick, press, submit};
+use browser::hands::{state, text_of};
 
 #[tokio::test]
 async fn the_circle_that_is_nearest_to_the_picks_is_drawn() {
@@ -47,8 +11,8 @@ async fn the_circle_that_is_nearest_to_the_picks_is_drawn() {
     press(&visit, "#tab-draw").await;
     press(&visit, "[data-construction='Circle.tangent(first,second,radius)']").await;
     // the ground from above, and the larger wheel from its right: the circle lies between
-    point(&visit, 60.0, -100.0).await;
-    point(&visit, 58.0, -15.0).await;
+    pick(&visit, 60.0, -100.0).await;
+    pick(&visit, 58.0, -15.0).await;
     enter(&visit, "20").await;
     let text = text_of(&state(&visit).await);
     assert!(text.contains("circle => Circle.tangent("), "{text}");
@@ -65,17 +29,13 @@ async fn a_washer_is_recorded_by_drawing_one() {
     for (name, example, question) in
         [("inner", "84", "Clearance hole?"), ("outer", "160", "Outer diameter?")]
     {
-        visit.client.wait().for_element(Locator::Css("input[name='parameter']")).await.expect("it");
-        fill(&visit, "input[name='parameter']", name).await;
-        fill(&visit, "input[name='example']", example).await;
         fill(&visit, "input[name='question']", question).await;
-        press(&visit, "[data-draft='define']").await;
-        visit.until(&format!("document.querySelector(\"[data-parameter='{name}']\")")).await;
+        define(&visit, name, example).await;
     }
     press(&visit, "[data-construction='Circle']").await;
-    point(&visit, 290.0, -70.0).await;
+    pick(&visit, 290.0, -70.0).await;
     enter(&visit, "inner / 2").await;
-    point(&visit, 290.0, -70.0).await;
+    pick(&visit, 290.0, -70.0).await;
     enter(&visit, "outer / 2").await;
     visit.until("document.querySelectorAll('.steps li').length === 2").await;
     let text = text_of(&state(&visit).await);
@@ -85,41 +45,16 @@ async fn a_washer_is_recorded_by_drawing_one() {
     visit.until("document.querySelector(\".tile[data-class='Washer']\")").await;
 }
 
-/// Clicks where a place of the sheet is seen, in a document without grips.
-async fn pick(visit: &Visit, x: f64, y: f64) {
-    let sheet = state(visit).await["sheet"].clone();
-    let of = |name: &str| sheet[name].as_f64().expect("a number");
-    let at = (of("px") + x * of("scale"), of("py") - y * of("scale"));
-    hands::point(visit, at, MOUSE_BUTTON_LEFT).await;
-}
-
-async fn keys(visit: &Visit, labels: &[&str]) {
-    for label in labels {
-        press(visit, &format!("[data-key='{label}']")).await;
-    }
-}
-
-/// Waits until the prompt says something.
-async fn asked(visit: &Visit, words: &str) {
-    let script = format!("document.querySelector('.prompt')?.innerText.includes('{words}')");
-    visit.until(&script).await;
-}
-
 /// Records figure 7.6 up to the end of its first turn.
 async fn first_ring(visit: &Visit) {
     visit.until("document.querySelector('main') && window.__thinglab").await;
     visit.script("location.hash = '#/figure.thing'").await;
     visit.until("window.__thinglab.state().path === 'figure.thing'").await;
     press(visit, "#tab-draw").await;
-    visit.client.wait().for_element(Locator::Css("input[name='program']")).await.expect("it");
     fill(visit, "input[name='program']", "Rings").await;
     press(visit, "[data-draft='record']").await;
     for (name, example) in [("radius", "40"), ("minimum", "2")] {
-        visit.client.wait().for_element(Locator::Css("input[name='parameter']")).await.expect("it");
-        fill(visit, "input[name='parameter']", name).await;
-        fill(visit, "input[name='example']", example).await;
-        press(visit, "[data-draft='define']").await;
-        visit.until(&format!("document.querySelector(\"[data-parameter='{name}']\")")).await;
+        define(visit, name, example).await;
     }
     press(visit, "[data-construction='Axis.horizontal(y)']").await;
     pick(visit, 200.0, 0.0).await;
@@ -139,9 +74,9 @@ async fn first_ring(visit: &Visit) {
     press(visit, "[data-measure='radius']").await;
     pick(visit, -80.0, 40.0).await;
     visit.until("document.querySelector('[name=operand]').value === 'circle.radius'").await;
-    keys(visit, &["÷", "2"]).await;
+    calculate(visit, &["÷", "2"]).await;
     visit.until("document.querySelector('.computed').innerText.includes('20')").await;
-    keys(visit, &["give"]).await;
+    calculate(visit, &["give"]).await;
     visit.until("window.__thinglab.state().text.includes('circle2 = ')").await;
 }
 
@@ -159,14 +94,14 @@ async fn figure_7_6_is_drawn_as_its_chapter_tells() {
     press(&visit, "[data-draft='calculator']").await;
     press(&visit, "[data-measure='radius']").await;
     pick(&visit, -80.0, 40.0).await;
-    keys(&visit, &["÷", "2", "give"]).await;
+    calculate(&visit, &["÷", "2", "give"]).await;
     asked(&visit, "after the last turn").await;
     press(&visit, "[data-measure='radius']").await;
     pick(&visit, -80.0, 40.0).await;
-    keys(&visit, &["<"]).await;
+    calculate(&visit, &["<"]).await;
     press(&visit, "[data-parameter='minimum']").await;
     visit.until("document.querySelector('.computed').innerText.includes('false')").await;
-    keys(&visit, &["give"]).await;
+    calculate(&visit, &["give"]).await;
     visit.until("window.__thinglab.state().text.includes('until circle.radius < minimum')").await;
     let of_turns = "document.querySelector(\"[data-step='turns']\").innerText";
     visit.until(&format!("{of_turns}.includes('6 turns')")).await;
@@ -222,7 +157,7 @@ async fn a_wrong_step_is_found_by_what_it_drew_and_replaced() {
         .script(&format!("{number}.dispatchEvent(new MouseEvent('dblclick', {{bubbles: true}}))"))
         .await;
     visit.until("document.activeElement?.name === 'step-number'").await;
-    fill(&visit, "input[name='step-number']", &format!("circle.radius / 8{ENTER}")).await;
+    submit(&visit, "input[name='step-number']", "circle.radius / 8").await;
     visit.until("window.__thinglab.state().text.includes('radius: circle.radius / 8')").await;
     // how often the loop runs is asked anew, from what it was
     press(&visit, "[data-step='turns'] .step").await;
@@ -256,7 +191,7 @@ async fn a_family_is_a_grid_in_which_rows_are_changed_and_used() {
     // an outer diameter within the bore
     visit.until("!document.querySelector(\"[data-cell='4,2']\").readOnly").await;
     visit.script("document.querySelector(\"[data-cell='4,2']\").select()").await;
-    fill(&visit, "[data-cell='4,2']", &format!("10 mm{ENTER}")).await;
+    submit(&visit, "[data-cell='4,2']", "10 mm").await;
     visit.until(&format!("{}.includes('wall is not met')", outcome("6204"))).await;
     press(&visit, "[data-row='6206'] [data-family='apply']").await;
     visit.until("window.__thinglab.state().text.includes('outer = 62')").await;

@@ -1,49 +1,8 @@
 //! Standard parts recorded from an empty document: by the mouse, by the keyboard alone, and on a narrow page.
 
 use browser::Visit;
+use browser::drafting::{asked, calculate, construct, define, enter, fill, has, pick, press, set};
 use browser::hands::{self, key, state, text_of};
-use fantoccini::Locator;
-use fantoccini::actions::MOUSE_BUTTON_LEFT;
-
-async fn press(visit: &Visit, selector: &str) {
-    let found = visit.client.wait().for_element(Locator::Css(selector)).await;
-    let found = found.unwrap_or_else(|e| panic!("{selector}: {e}"));
-    found.click().await.unwrap_or_else(|e| panic!("{selector}: {e}"));
-}
-
-/// Types into a field in place of what is there.
-async fn fill(visit: &Visit, selector: &str, text: &str) {
-    let found = visit.client.wait().for_element(Locator::Css(selector)).await;
-    let found = found.unwrap_or_else(|e| panic!("{selector}: {e}"));
-    visit.script(&format!("document.querySelector(\"{selector}\").select()")).await;
-    found.send_keys(text).await.unwrap_or_else(|e| panic!("{selector}: {e}"));
-}
-
-async fn construct(visit: &Visit, id: &str) {
-    press(visit, &format!("[data-construction='{id}']")).await;
-}
-
-async fn enter(visit: &Visit, typed: &str) {
-    fill(visit, "input[name='operand']", &format!("{typed}{}", key::ENTER)).await;
-    tokio::time::sleep(std::time::Duration::from_millis(80)).await;
-}
-
-/// Clicks where a place of the sheet is seen.
-async fn pick(visit: &Visit, x: f64, y: f64) {
-    let sheet = state(visit).await["sheet"].clone();
-    let of = |name: &str| sheet[name].as_f64().expect("a number");
-    let at = (of("px") + x * of("scale"), of("py") - y * of("scale"));
-    hands::point(visit, at, MOUSE_BUTTON_LEFT).await;
-}
-
-async fn has(visit: &Visit, text: &str) {
-    visit.until(&format!("window.__thinglab.state().text.includes('{text}')")).await;
-}
-
-/// Waits until the prompt says something.
-async fn asked(visit: &Visit, words: &str) {
-    visit.until(&format!("document.querySelector('.prompt')?.innerText.includes('{words}')")).await;
-}
 
 /// Begins a program with its parameters, each with its example and a class.
 async fn record(visit: &Visit, program: &str, parameters: &[(&str, &str, &str)]) {
@@ -51,14 +10,12 @@ async fn record(visit: &Visit, program: &str, parameters: &[(&str, &str, &str)])
     fill(visit, "input[name='program']", program).await;
     press(visit, "[data-draft='record']").await;
     for (name, example, class) in parameters {
-        fill(visit, "input[name='parameter']", name).await;
-        fill(visit, "input[name='example']", example).await;
         if !class.is_empty() {
+            visit.until("document.querySelector('.define details')").await;
             visit.script("document.querySelector('.define details').open = true").await;
             press(visit, &format!("select[name='class'] option[value='{class}']")).await;
         }
-        press(visit, "[data-draft='define']").await;
-        visit.until(&format!("document.querySelector(\"[data-parameter='{name}']\")")).await;
+        define(visit, name, example).await;
     }
 }
 
@@ -68,20 +25,11 @@ async fn enlarge(visit: &Visit, times: usize) {
     }
 }
 
-/// Gives the example another value.
-async fn set(visit: &Visit, parameter: &str, value: &str) {
-    let field = format!("input[name='value-{parameter}']");
-    fill(visit, &field, &format!("{value}{}", key::ENTER)).await;
-    tokio::time::sleep(std::time::Duration::from_millis(80)).await;
-}
-
 /// Begins an `if` whose condition the calculator says: a parameter, and keys.
 async fn branch(visit: &Visit, parameter: &str, keys: &[&str]) {
     press(visit, "[data-draft='if']").await;
     press(visit, &format!("[data-parameter='{parameter}']")).await;
-    for label in keys {
-        press(visit, &format!("[data-key='{label}']")).await;
-    }
+    calculate(visit, keys).await;
     press(visit, "[data-key='give']").await;
 }
 
@@ -382,10 +330,8 @@ async fn a_flange_counts_its_holes_by_a_plain_number_and_is_applied_by_its_quest
     construct(&visit, "Axis.vertical(x)").await;
     enter(&visit, "100").await;
     construct(&visit, "Point:mirrored").await;
-    let sheet = state(&visit).await["sheet"].clone();
-    let of = |name: &str| sheet[name].as_f64().expect("a number");
-    let at = |x: f64, y: f64| (of("px") + x * of("scale"), of("py") - y * of("scale"));
-    hands::drag(&visit, at(-65.0, 65.0), at(65.0, -65.0)).await;
+    let (from, to) = (seen(&visit, -65.0, 65.0).await, seen(&visit, 65.0, -65.0).await);
+    hands::drag(&visit, from, to).await;
     asked(&visit, "pick a line").await;
     pick(&visit, 100.0, 20.0).await;
     has(&visit, "mirrored2 = pattern.mirrored(about: axis)").await;
@@ -518,6 +464,21 @@ async fn a_column_of_a_file_beside_the_document_says_what_is_allowed() {
     fill(&visit, "input[name='parameter']", "d").await;
     fill(&visit, "input[name='example']", "8 mm").await;
     press(&visit, "[data-draft='further']").await;
+    // on a sheet without a unit the first one is that of the sheet from now on
+    visit.until("document.querySelector('[name=understood]').innerText.includes('8 mm')").await;
+    // what is empty again stays in sight
+    fill(&visit, "input[name='range']", "3").await;
+    fill(&visit, "input[name='range']", &key::DELETE.to_string()).await;
+    assert_eq!(visit.script("return document.querySelector('.define details').open").await, true);
+    // a table that comes later is looked for again
+    fill(&visit, "input[name='range']", "nuts.csv.d").await;
+    press(&visit, "[data-draft='define']").await;
+    visit.until("document.querySelector('#wrong-range').innerText.includes('no table')").await;
+    visit.put("nuts.csv", "d [mm]\n8\n9\n");
+    press(&visit, "[data-draft='define']").await;
+    visit
+        .until("document.querySelector('.define details .understood').innerText === '8 mm or 9 mm'")
+        .await;
     // what is wrong is said below its field
     fill(&visit, "input[name='range']", "bolts.csv.diameter").await;
     press(&visit, "input[name='question']").await;

@@ -2,9 +2,7 @@
 //! actions are counted: one choice, one pick, one key of the calculator, one thing that is typed.
 
 use browser::Visit;
-use browser::hands::{self, key, state};
-use fantoccini::Locator;
-use fantoccini::actions::MOUSE_BUTTON_LEFT;
+use browser::{drafting, hands};
 use std::cell::Cell;
 use std::time::Duration;
 
@@ -22,24 +20,14 @@ impl Hand {
     }
 
     fn act(&self) {
-        self.actions.set(self.actions.get() + 1);
+        self.actions.update(|n| n + 1);
     }
 
     /// Chooses something by a click.
     async fn press(&self, selector: &str) {
         self.act();
-        let found = self.visit.client.wait().for_element(Locator::Css(selector)).await;
-        let found = found.unwrap_or_else(|e| panic!("{selector}: {e}"));
-        found.click().await.unwrap_or_else(|e| panic!("{selector}: {e}"));
+        drafting::press(&self.visit, selector).await;
         tokio::time::sleep(Duration::from_millis(60)).await;
-    }
-
-    async fn fill(&self, selector: &str, text: &str) {
-        self.act();
-        let found = self.visit.client.wait().for_element(Locator::Css(selector)).await;
-        let found = found.unwrap_or_else(|e| panic!("{selector}: {e}"));
-        self.visit.script(&format!("document.querySelector(\"{selector}\").select()")).await;
-        found.send_keys(text).await.unwrap_or_else(|e| panic!("{selector}: {e}"));
     }
 
     async fn draft(&self, what: &str) {
@@ -52,8 +40,8 @@ impl Hand {
 
     /// Types an operand.
     async fn enter(&self, typed: &str) {
-        self.fill("input[name='operand']", &format!("{typed}{}", key::ENTER)).await;
-        tokio::time::sleep(Duration::from_millis(80)).await;
+        self.act();
+        drafting::enter(&self.visit, typed).await;
     }
 
     async fn enter_all(&self, all: &[&str]) {
@@ -65,42 +53,38 @@ impl Hand {
     /// Clicks where a place of the sheet is seen.
     async fn pick(&self, x: f64, y: f64) {
         self.act();
-        let sheet = state(&self.visit).await["sheet"].clone();
-        let of = |name: &str| sheet[name].as_f64().expect("a number");
-        let at = (of("px") + x * of("scale"), of("py") - y * of("scale"));
-        hands::point(&self.visit, at, MOUSE_BUTTON_LEFT).await;
+        drafting::pick(&self.visit, x, y).await;
         tokio::time::sleep(Duration::from_millis(80)).await;
     }
 
     async fn keys(&self, all: &[&str]) {
-        for label in all {
-            self.press(&format!("[data-key='{label}']")).await;
+        self.actions.update(|n| n + all.len());
+        drafting::calculate(&self.visit, all).await;
+    }
+
+    /// Begins a program with its parameters, each by a name, an example and *Define*.
+    async fn record(&self, program: &str, parameters: &[(&str, &str)]) {
+        self.act();
+        drafting::fill(&self.visit, "input[name='program']", program).await;
+        self.draft("record").await;
+        for (name, example) in parameters {
+            self.define(name, example).await;
         }
     }
 
-    /// Begins a program with its parameters, each by a name and an example.
-    async fn record(&self, program: &str, parameters: &[(&str, &str)]) {
-        self.fill("input[name='program']", program).await;
-        self.draft("record").await;
-        for (name, example) in parameters {
-            self.fill("input[name='parameter']", name).await;
-            self.fill("input[name='example']", example).await;
-            self.draft("define").await;
-            self.visit
-                .until(&format!("document.querySelector(\"[data-parameter='{name}']\")"))
-                .await;
-        }
+    async fn define(&self, name: &str, example: &str) {
+        self.actions.update(|n| n + 3);
+        drafting::define(&self.visit, name, example).await;
     }
 
     /// Gives the example another value.
     async fn set(&self, parameter: &str, value: &str) {
-        let field = format!("input[name='value-{parameter}']");
-        self.fill(&field, &format!("{value}{}", key::ENTER)).await;
-        tokio::time::sleep(Duration::from_millis(80)).await;
+        self.act();
+        drafting::set(&self.visit, parameter, value).await;
     }
 
     async fn has(&self, text: &str) {
-        self.visit.until(&format!("window.__thinglab.state().text.includes('{text}')")).await;
+        drafting::has(&self.visit, text).await;
     }
 
     /// Waits until a step says something of what it made.
@@ -284,11 +268,9 @@ async fn terminals_become_workstations_wherever_they_stand() {
 /// Draws the curve of von Koch by a program that is applied within itself.
 async fn curve(hand: &Hand) {
     hand.record("Koch", &[("from", "0,0"), ("to", "90,0")]).await;
-    hand.fill("input[name='parameter']", "depth").await;
-    hand.fill("input[name='example']", "0").await;
     hand.draft("further").await;
     hand.press("select[name='class'] option[value='Integer']").await;
-    hand.draft("define").await;
+    hand.define("depth", "0").await;
     hand.draft("if").await;
     hand.press("[data-parameter='depth']").await;
     hand.keys(&["=", "0", "give"]).await;

@@ -342,7 +342,7 @@ pub(crate) fn tools(state: &State, home: &Home) -> Vec<Tool> {
             continue;
         }
         let is_program = document.program(id).is_some();
-        let is_drawn = document.figure(id).is_some() || compound::of(document, id).is_some();
+        let is_drawn = compound::is_drawn(document, id);
         if is_program || is_drawn && !matches!(home, Home::Document) {
             let is_placed = is_program && matches!(home, Home::Document);
             let mut tool = constructor(document, id, is_program);
@@ -440,8 +440,7 @@ fn moved(document: &Document) -> Option<Tool> {
     let slots = [("what", None, point), ("by", Some("by".to_string()), point)];
     let mut slots = slots.map(|(name, label, class)| Slot::of(document, name, label, class));
     slots[0].kind = SlotKind::Set;
-    let is_figure =
-        |id: ClassId| document.figure(id).is_some() || compound::of(document, id).is_some();
+    let is_figure = |id: ClassId| compound::is_drawn(document, id);
     let figures = document.classes.iter().filter(|(id, _)| is_figure(*id));
     slots[0].also = figures.map(|(_, class)| class.name.clone()).collect();
     let doc = "Moved so far to the right and up as a point lies from the origin: all turns of a loop, or \
@@ -537,7 +536,7 @@ fn constructor(document: &Document, id: ClassId, is_program: bool) -> Option<Too
 /// Returns the tool that a message is, if it makes a figure of what it is given.
 fn of_message(document: &Document, id: ClassId, message: &Message) -> Option<Tool> {
     let class = &document.classes[id];
-    let is_drawn = document.figure(id).is_some() || compound::of(document, id).is_some();
+    let is_drawn = compound::is_drawn(document, id);
     if !is_drawn && !is_planar(document, id) {
         return None;
     }

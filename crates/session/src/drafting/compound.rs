@@ -38,3 +38,8 @@ pub(crate) fn of(document: &Document, class: ClassId) -> Option<&'static Compoun
     };
     ALL.iter().find(is_it)
 }
+
+/// Whether things of a class are drawn as figures: it is one, or made of others.
+pub(crate) fn is_drawn(document: &Document, class: ClassId) -> bool {
+    document.figure(class).is_some() || of(document, class).is_some()
+}

@@ -163,9 +163,7 @@ impl Taken<'_> {
             answer.is_some_and(|answer| {
                 let class = self.evaluator.class_of(&answer);
                 matches!(answer, Answer::Number(..) | Answer::Bool(_))
-                    || class.is_some_and(|class| {
-                        document.figure(class).is_some() || compound::of(document, class).is_some()
-                    })
+                    || class.is_some_and(|class| compound::is_drawn(document, class))
             })
         };
         let n = (1..=steps.len()).find(is_whole).ok_or_else(none)?;

@@ -5,6 +5,7 @@ use super::view::{NewParameter, ParameterField, ParameterReading};
 use super::{Home, outcome, text, typed};
 use crate::document::Open;
 use crate::host::Host;
+use crate::sheet;
 use lang::tables::Table;
 use outcome::Worth;
 use std::rc::Rc;
@@ -54,6 +55,12 @@ pub(crate) fn read(
                     (Ok(Worth::Number(_)), "Length") if bare => {
                         let unit = open.state.lowered.document.unit.as_ref();
                         unit.map_or_else(|| example.clone(), |unit| format!("{example} {unit}"))
+                    }
+                    // its unit becomes that of the sheet
+                    (Ok(Worth::Number(_)), _)
+                        if sheet::unit_from(&open.state, &example).is_some() =>
+                    {
+                        example.clone()
                     }
                     // an angle is typed in degrees, and read as it is typed
                     (Ok(Worth::Number(_)), "Angle") => example.clone(),

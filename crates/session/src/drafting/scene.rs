@@ -471,8 +471,7 @@ impl<'a> Scene<'_, 'a> {
                 continue;
             }
             let path = structure.path(document, thing).to_string();
-            let is_compound = compound::of(document, t.class).is_some();
-            if is_compound || document.figure(t.class).is_some() {
+            if compound::is_drawn(document, t.class) {
                 self.add((&path, &[]), &Answer::Thing(thing), false);
             } else if document.program(t.class).is_some()
                 && let Some(run) = drawn::shown(self.evaluator, thing)

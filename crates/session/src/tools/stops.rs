@@ -33,7 +33,7 @@ impl Tool {
         let now = near.filter(|(far, _)| *far <= pointer.reach).min_by(|a, b| a.0.total_cmp(&b.0));
         let last = self.set.last().map(|catch| catch.at);
         let holds = |at: &(f64, f64)| {
-            let pointer = Pointer { at: *at, reach: 1e-6 * pointer.reach, ..*pointer };
+            let pointer = Pointer { at: *at, reach: 1e-6 * pointer.reach, ..pointer.clone() };
             let Catch { joins, rules, is_level, .. } = self.catch(state, &pointer);
             let is_caught = joins.is_some() || !rules.is_empty();
             is_caught && !is_level && last.is_none_or(|last| !is_one(last, *at))

@@ -1,7 +1,9 @@
 //! What hands and their tools ask, and are answered.
 
+use expr::{Dimension, units};
+
 /// Where a pointer is, for a tool.
-#[derive(Clone, Copy, PartialEq, Debug, Default)]
+#[derive(Clone, PartialEq, Debug, Default)]
 pub struct Pointer {
     /// On the sheet.
     pub at: (f64, f64),
@@ -18,29 +20,26 @@ pub struct Pointer {
 }
 
 /// A length as it was typed: `30`, `3 cm`.
-#[derive(Clone, Copy, PartialEq, Debug)]
+#[derive(Clone, PartialEq, Debug)]
 pub struct TypedLength {
     /// The number.
     pub number: f64,
     /// Its unit; a bare number is one of the sheet.
-    pub unit: Option<&'static str>,
+    pub unit: Option<String>,
 }
-
-/// The units in which one types how long something is drawn.
-const LENGTHS: [&str; 11] = ["nm", "um", "mm", "cm", "dm", "m", "km", "in", "ft", "yd", "mi"];
 
 impl TypedLength {
     /// Reads a number, and the unit of a length after it; nothing where it is something else.
     pub fn read(typed: &str) -> Option<Self> {
-        let end = typed.find(|c: char| c.is_alphabetic()).unwrap_or(typed.len());
-        let (number, unit) = typed.split_at(end);
-        let unit = match unit.trim() {
-            "" => None,
-            "µm" | "μm" => Some("um"),
-            unit => Some(*LENGTHS.iter().find(|known| **known == unit)?),
-        };
-        let number = number.trim().parse().ok().filter(|number: &f64| number.is_finite())?;
-        Some(Self { number, unit })
+        let typed = typed.trim();
+        let is_number = |end: &usize| typed[..*end].trim_end().parse::<f64>().is_ok();
+        let mut ends = typed.char_indices().map(|(at, c)| at + c.len_utf8()).rev();
+        let end = ends.find(is_number)?;
+        let (number, unit) = (typed[..end].trim_end().parse().ok()?, typed[end..].trim());
+        let is_length = |unit| units::unit(unit).is_some_and(|u| u.dimension == Dimension::LENGTH);
+        let unit = if unit.is_empty() { None } else { Some(unit) };
+        (f64::is_finite(number) && unit.is_none_or(is_length))
+            .then(|| Self { number, unit: unit.map(String::from) })
     }
 }
 

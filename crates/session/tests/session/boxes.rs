@@ -1,22 +1,8 @@
 //! Rectangles and regular polygons as steps: drawn from corner to corner, picked by their sides and corners, copied whole.
 
 use crate::desk::Desk;
-use session::drafting::view::{Ends, NewParameter, Turn};
+use session::drafting::view::{Ends, Turn};
 use session::view::Pointer;
-
-fn record(parameters: &[(&str, &str)]) -> Desk {
-    let mut desk = Desk::of("use contours\nunit mm\n");
-    desk.session.record(desk.id, "Floor").expect("a new program");
-    for (name, example) in parameters {
-        let new = NewParameter {
-            name: (*name).into(),
-            example: (*example).into(),
-            ..NewParameter::default()
-        };
-        desk.session.define_parameter(desk.id, &new).expect("it is new");
-    }
-    desk
-}
 
 fn begin(desk: &mut Desk, tool: &str) {
     desk.session.begin(desk.id, tool).unwrap_or_else(|r| panic!("{tool}: {}", r.message));
@@ -25,6 +11,13 @@ fn begin(desk: &mut Desk, tool: &str) {
 fn enter(desk: &mut Desk, typed: &str) -> Turn {
     let turn = desk.session.enter(desk.id, typed);
     turn.unwrap_or_else(|r| panic!("{typed}: {}\n{}", r.message, desk.text()))
+}
+
+/// Draws by a construction whose operands are typed.
+fn draw(desk: &mut Desk, tool: &str, operands: &[&str]) -> String {
+    begin(desk, tool);
+    let turns = operands.iter().map(|typed| enter(desk, typed));
+    text(turns.last().expect("it has an operand"))
 }
 
 fn pick(desk: &mut Desk, x: f64, y: f64) -> Turn {
@@ -46,10 +39,8 @@ fn value(desk: &Desk, path: &str) -> String {
 
 #[test]
 fn a_rectangle_is_a_step_from_corner_to_corner() {
-    let mut desk = record(&[("width", "90"), ("depth", "48")]);
-    begin(&mut desk, "Rectangle.between(first,second)");
-    enter(&mut desk, "0,0");
-    let room = text(enter(&mut desk, "@width, depth"));
+    let mut desk = Desk::recording("Floor", &[("width", "90"), ("depth", "48")]);
+    let room = draw(&mut desk, "Rectangle.between(first,second)", &["0,0", "@width, depth"]);
     assert_eq!(room, "Rectangle.between(Point(0, 0), Point(width, depth))");
     // the other one goes on from its corner, and has a third of its width
     begin(&mut desk, "Rectangle");
@@ -73,12 +64,8 @@ fn a_rectangle_is_a_step_from_corner_to_corner() {
 
 #[test]
 fn a_side_of_a_rectangle_is_a_line_and_a_copy_takes_all_of_it() {
-    let mut desk = record(&[("w", "20"), ("n", "3")]);
-    begin(&mut desk, "Rectangle");
-    for typed in ["0, 0", "w"] {
-        enter(&mut desk, typed);
-    }
-    text(enter(&mut desk, "w"));
+    let mut desk = Desk::recording("Floor", &[("w", "20"), ("n", "3")]);
+    draw(&mut desk, "Rectangle", &["0, 0", "w", "w"]);
     begin(&mut desk, "Line.perpendicular(from,to)");
     enter(&mut desk, "30, 10");
     let across = text(pick(&mut desk, 20.0, 7.0));
@@ -100,10 +87,8 @@ fn a_side_of_a_rectangle_is_a_line_and_a_copy_takes_all_of_it() {
 
 #[test]
 fn a_rounded_outline_is_taken_by_a_side_of_its_rectangle() {
-    let mut desk = record(&[("w", "60"), ("r", "8")]);
-    begin(&mut desk, "Rectangle.between(first,second)");
-    enter(&mut desk, "0, 0");
-    text(enter(&mut desk, "w, w / 2"));
+    let mut desk = Desk::recording("Floor", &[("w", "60"), ("r", "8")]);
+    draw(&mut desk, "Rectangle.between(first,second)", &["0, 0", "w, w / 2"]);
     begin(&mut desk, "Contour.rounded(of,radius)");
     pick(&mut desk, 30.0, 0.0);
     let outline = text(enter(&mut desk, "r"));
@@ -118,12 +103,8 @@ fn a_rounded_outline_is_taken_by_a_side_of_its_rectangle() {
 
 #[test]
 fn one_side_alone_is_copied_after_tab() {
-    let mut desk = record(&[("w", "20")]);
-    begin(&mut desk, "Rectangle");
-    for typed in ["0, 0", "w"] {
-        enter(&mut desk, typed);
-    }
-    text(enter(&mut desk, "w"));
+    let mut desk = Desk::recording("Floor", &[("w", "20")]);
+    draw(&mut desk, "Rectangle", &["0, 0", "w", "w"]);
     begin(&mut desk, ":moved(by)");
     desk.session.pick_wider(desk.id);
     pick(&mut desk, 7.0, 20.0);
@@ -136,12 +117,8 @@ fn one_side_alone_is_copied_after_tab() {
 
 #[test]
 fn a_polygon_is_picked_by_its_sides_and_turned_whole() {
-    let mut desk = record(&[("s", "16")]);
-    begin(&mut desk, "RegularPolygon");
-    for typed in ["0, 0", "s, 0"] {
-        enter(&mut desk, typed);
-    }
-    text(enter(&mut desk, "4"));
+    let mut desk = Desk::recording("Floor", &[("s", "16")]);
+    draw(&mut desk, "RegularPolygon", &["0, 0", "s, 0", "4"]);
     begin(&mut desk, "Point.middle(first,second)");
     pick(&mut desk, 16.0, 0.0);
     let middle = text(pick(&mut desk, 0.0, 16.0));
@@ -156,20 +133,12 @@ fn a_polygon_is_picked_by_its_sides_and_turned_whole() {
 
 #[test]
 fn what_is_drawn_after_a_replacement_stands_at_the_end_again() {
-    let mut desk = record(&[("w", "20")]);
-    begin(&mut desk, "Circle");
-    enter(&mut desk, "0, 0");
-    text(enter(&mut desk, "w"));
-    begin(&mut desk, "Circle");
-    enter(&mut desk, "50, 0");
-    text(enter(&mut desk, "w"));
+    let mut desk = Desk::recording("Floor", &[("w", "20")]);
+    draw(&mut desk, "Circle", &["0, 0", "w"]);
+    draw(&mut desk, "Circle", &["50, 0", "w"]);
     desk.session.begin_replace(desk.id, "circle").expect("it is no block");
-    begin(&mut desk, "Rectangle.between(first,second)");
-    enter(&mut desk, "0, 0");
-    text(enter(&mut desk, "@w, w"));
-    begin(&mut desk, "Circle");
-    enter(&mut desk, "90, 0");
-    text(enter(&mut desk, "w"));
+    draw(&mut desk, "Rectangle.between(first,second)", &["0, 0", "@w, w"]);
+    draw(&mut desk, "Circle", &["90, 0", "w"]);
     let steps = desk.session.steps(desk.id, None).expect("it is recorded");
     let names: Vec<&str> = steps.rows.iter().map(|row| row.name.as_str()).collect();
     assert_eq!(names, ["circle", "circle2", "circle3"]);
@@ -178,11 +147,9 @@ fn what_is_drawn_after_a_replacement_stands_at_the_end_again() {
 
 #[test]
 fn a_stair_begins_its_next_step_where_the_last_one_ends() {
-    let mut desk = record(&[("rise", "17"), ("going", "29"), ("n", "5")]);
+    let mut desk = Desk::recording("Floor", &[("rise", "17"), ("going", "29"), ("n", "5")]);
     desk.session.begin_loop(desk.id, "").expect("a program is recorded");
-    begin(&mut desk, "Line.vertical(from,length)");
-    enter(&mut desk, "0, 0");
-    text(enter(&mut desk, "rise"));
+    draw(&mut desk, "Line.vertical(from,length)", &["0, 0", "rise"]);
     begin(&mut desk, "Line.horizontal(from,length)");
     pick(&mut desk, 0.0, 17.0);
     text(enter(&mut desk, "going"));
@@ -203,10 +170,8 @@ fn a_stair_begins_its_next_step_where_the_last_one_ends() {
 
 /// A rectangle of 60 by 30 with words at its far corner, as steps.
 fn labelled() -> Desk {
-    let mut desk = record(&[("w", "60"), ("r", "8")]);
-    begin(&mut desk, "Rectangle.between(first,second)");
-    enter(&mut desk, "0, 0");
-    text(enter(&mut desk, "w, w / 2"));
+    let mut desk = Desk::recording("Floor", &[("w", "60"), ("r", "8")]);
+    draw(&mut desk, "Rectangle.between(first,second)", &["0, 0", "w, w / 2"]);
     desk
 }
 
@@ -252,12 +217,8 @@ fn words_are_copied_by_where_they_lie() {
 
 #[test]
 fn a_polygon_is_copied_whole_near_a_vertex() {
-    let mut desk = record(&[("s", "16")]);
-    begin(&mut desk, "RegularPolygon");
-    for typed in ["0, 0", "s, 0"] {
-        enter(&mut desk, typed);
-    }
-    text(enter(&mut desk, "4"));
+    let mut desk = Desk::recording("Floor", &[("s", "16")]);
+    draw(&mut desk, "RegularPolygon", &["0, 0", "s, 0", "4"]);
     begin(&mut desk, ":moved(by)");
     pick(&mut desk, 15.9, 0.1);
     let moved = text(enter(&mut desk, "0, s"));
@@ -266,19 +227,15 @@ fn a_polygon_is_copied_whole_near_a_vertex() {
 
 #[test]
 fn a_replacement_that_is_given_up_is_no_place_to_return_to() {
-    let mut desk = record(&[("w", "20")]);
+    let mut desk = Desk::recording("Floor", &[("w", "20")]);
     for at in ["0, 0", "50, 0", "100, 0"] {
-        begin(&mut desk, "Circle");
-        enter(&mut desk, at);
-        text(enter(&mut desk, "w"));
+        draw(&mut desk, "Circle", &[at, "w"]);
     }
     desk.session.begin_replace(desk.id, "circle").expect("it is no block");
     begin(&mut desk, "Circle");
     desk.session.give_up(desk.id);
     desk.session.begin_replace(desk.id, "circle2").expect("it is no block");
-    begin(&mut desk, "Circle");
-    enter(&mut desk, "60, 0");
-    text(enter(&mut desk, "w"));
+    draw(&mut desk, "Circle", &["60, 0", "w"]);
     let steps = desk.session.steps(desk.id, None).expect("it is recorded");
     assert_eq!(steps.at, None, "recording goes on at the end");
 }

@@ -4,20 +4,6 @@ use crate::desk::Desk;
 use session::drafting::view::{Ends, Go, NewParameter, Turn, Wants};
 use session::view::Pointer;
 
-fn record(name: &str, parameters: &[(&str, &str)]) -> Desk {
-    let mut desk = Desk::of("use contours\nunit mm\n");
-    desk.session.record(desk.id, name).expect("a new program");
-    for (name, example) in parameters {
-        let new = NewParameter {
-            name: (*name).into(),
-            example: (*example).into(),
-            ..NewParameter::default()
-        };
-        desk.session.define_parameter(desk.id, &new).expect("it is new");
-    }
-    desk
-}
-
 /// An operand: typed, or picked.
 #[derive(Clone, Copy)]
 enum By<'t> {
@@ -63,7 +49,7 @@ fn value(desk: &Desk, path: &str) -> String {
 
 #[test]
 fn a_nut_is_a_flat_in_a_polar_pattern() {
-    let mut desk = record("Nut", &[("s", "16"), ("d", "10")]);
+    let mut desk = Desk::recording("Nut", &[("s", "16"), ("d", "10")]);
     guide(&mut desk, "Point", &[Typed("0"), Typed("0")]);
     guide(&mut desk, "Point", &[Typed("0"), Typed("s / (2 * cos(30 deg))")]);
     guide(&mut desk, "Point:turned", &[At(0.0, 9.24), At(0.0, 0.0), Typed("60")]);
@@ -104,7 +90,7 @@ fn a_nut_is_a_flat_in_a_polar_pattern() {
 
 #[test]
 fn a_pattern_draws_all_flats_where_the_first_one_is_deleted() {
-    let mut desk = record("Nut", &[]);
+    let mut desk = Desk::recording("Nut", &[]);
     guide(&mut desk, "Point", &[Typed("0"), Typed("0")]);
     guide(&mut desk, "Point", &[Typed("0"), Typed("9")]);
     guide(&mut desk, "Point", &[Typed("-8"), Typed("4.5")]);
@@ -146,7 +132,7 @@ fn a_pattern_of_what_is_only_typed_draws_all_of_it() {
     let mut desk = Desk::of("use geometry\nunit mm\n");
     draw(&mut desk, ":pattern(about,count)", &[Typed(typed), Typed("0, 0"), Typed("6")]);
     assert_eq!(value(&desk, "pattern"), "6 figures");
-    let mut desk = record("Flange", &[]);
+    let mut desk = Desk::recording("Flange", &[]);
     let operands = [Typed(typed), Typed("0, 0"), Typed("6")];
     draw(&mut desk, ":pattern(about,count)", &operands);
     assert_eq!(value(&desk, "flange.pattern"), "6 figures");
@@ -162,7 +148,7 @@ fn a_pattern_of_what_is_only_typed_draws_all_of_it() {
 
 #[test]
 fn a_rubber_band_for_copies_takes_no_guides() {
-    let mut desk = record("Flange", &[]);
+    let mut desk = Desk::recording("Flange", &[]);
     guide(&mut desk, "Circle", &[Typed("0, 0"), Typed("3")]);
     draw(&mut desk, "Circle", &[Typed("10, 0"), Typed("2")]);
     guide(&mut desk, "Axis.vertical(x)", &[Typed("100")]);
@@ -197,7 +183,7 @@ program P() {
 #[test]
 fn a_retaining_ring_has_the_lug_that_its_size_asks_for() {
     let parameters = [("d1", "20"), ("d3", "18.5"), ("a", "4"), ("b", "2.6"), ("d5", "2")];
-    let mut desk = record("Ring", &parameters);
+    let mut desk = Desk::recording("Ring", &parameters);
     guide(&mut desk, "Point", &[Typed("0"), Typed("0")]);
     guide(&mut desk, "Circle", &[At(0.0, 0.0), Typed("d3 / 2")]);
     guide(&mut desk, "Circle", &[Typed("Point(0, -b / 5)"), Typed("d3 / 2 + 4 * b / 5")]);
@@ -228,7 +214,7 @@ fn a_retaining_ring_has_the_lug_that_its_size_asks_for() {
 
 #[test]
 fn what_is_drawn_for_construction_is_in_sight_while_it_can_be_picked() {
-    let mut desk = record("Ring", &[("a", "4")]);
+    let mut desk = Desk::recording("Ring", &[("a", "4")]);
     let seen = |desk: &Desk| desk.session.guides(desk.id).elements.len();
     guide(&mut desk, "Circle", &[Typed("0,0"), Typed("a")]);
     draw(&mut desk, "Circle", &[At(0.0, 0.0), Typed("a / 2")]);
@@ -244,7 +230,7 @@ fn what_is_drawn_for_construction_is_in_sight_while_it_can_be_picked() {
 
 #[test]
 fn a_place_that_is_typed_from_another_is_one_place() {
-    let mut desk = record("Slot", &[("d", "10")]);
+    let mut desk = Desk::recording("Slot", &[("d", "10")]);
     draw(&mut desk, "Line", &[Typed("0, d / 2"), Typed("@30,0")]);
     draw(&mut desk, "Line", &[At(30.0, 5.0), Typed("@0,-d")]);
     draw(&mut desk, "Line", &[At(30.0, -5.0), Typed("@-d / 2, 2 * d")]);
@@ -256,7 +242,7 @@ fn a_place_that_is_typed_from_another_is_one_place() {
 
 #[test]
 fn a_construction_that_gives_an_operand_is_kept_only_if_that_is_said() {
-    let mut desk = record("Mark", &[("a", "4")]);
+    let mut desk = Desk::recording("Mark", &[("a", "4")]);
     guide(&mut desk, "Circle", &[Typed("0,0"), Typed("a")]);
     desk.session.draw_guides(desk.id, true);
     desk.session.begin(desk.id, "Circle").expect("it is in scope");
@@ -274,7 +260,7 @@ fn a_construction_that_gives_an_operand_is_kept_only_if_that_is_said() {
 
 #[test]
 fn a_figure_that_is_a_parameter_is_in_sight_and_picked() {
-    let mut desk = record("Third", &[("from", "0,0"), ("to", "270,0")]);
+    let mut desk = Desk::recording("Third", &[("from", "0,0"), ("to", "270,0")]);
     assert_eq!(desk.session.guides(desk.id).elements.len(), 2);
     assert_eq!(desk.session.parameters(desk.id), ["from", "to"]);
     // the pointer is nearer to the other end when the ratio is typed
@@ -291,7 +277,7 @@ fn a_figure_that_is_a_parameter_is_in_sight_and_picked() {
 /// Records a hole, then a row of them, then rows of rows: each by its first turn and what the second one takes.
 #[test]
 fn a_plate_is_rows_of_rows_of_holes() {
-    let mut desk = record("Plate", &[("pitch", "8"), ("hole", "5")]);
+    let mut desk = Desk::recording("Plate", &[("pitch", "8"), ("hole", "5")]);
     for (name, example) in [("rows", "5"), ("columns", "8")] {
         let new = NewParameter {
             name: name.into(),
@@ -338,7 +324,7 @@ fn draw_answer(desk: &mut Desk, by: &str) {
 
 #[test]
 fn half_a_shaft_is_mirrored_by_one_rubber_band() {
-    let mut desk = record("Shaft", &[("d", "30"), ("length", "40")]);
+    let mut desk = Desk::recording("Shaft", &[("d", "30"), ("length", "40")]);
     guide(&mut desk, "Axis.horizontal(y)", &[Typed("0")]);
     draw(&mut desk, "Line", &[Typed("0, 0"), Typed("0, d / 2")]);
     draw(&mut desk, "Line", &[Typed("line.p2"), Typed("@length, 0")]);
@@ -357,7 +343,7 @@ fn half_a_shaft_is_mirrored_by_one_rubber_band() {
 
 #[test]
 fn a_rubber_band_takes_a_pattern_as_a_whole_so_that_its_count_may_change() {
-    let mut desk = record("Flange", &[("holes", "6")]);
+    let mut desk = Desk::recording("Flange", &[("holes", "6")]);
     draw(&mut desk, "Circle", &[Typed("0, 0"), Typed("60")]);
     draw(&mut desk, "Circle", &[Typed("45, 0"), Typed("5")]);
     draw(&mut desk, ":pattern(about,count)", &[Typed("circle2"), Typed("0, 0"), Typed("holes")]);
@@ -407,7 +393,7 @@ p: P
 
 #[test]
 fn a_step_cannot_speak_of_itself() {
-    let mut desk = record("Mark", &[]);
+    let mut desk = Desk::recording("Mark", &[]);
     draw(&mut desk, "Circle", &[Typed("0, 0"), Typed("3")]);
     desk.session.begin_change(desk.id, ("circle", "center")).expect("it has a centre");
     let pointer = Pointer { at: (3.0, 0.0), reach: 0.4, ..Pointer::default() };
@@ -478,7 +464,7 @@ flange: Flange
 
 /// Half of a disc with a notch in its floor, as lines and arcs that are drawn in no order.
 fn half_disc() -> Desk {
-    let mut desk = record("Half", &[("r", "20")]);
+    let mut desk = Desk::recording("Half", &[("r", "20")]);
     guide(&mut desk, "Circle", &[Typed("0, 0"), Typed("r")]);
     draw(&mut desk, "Line", &[Typed("r, 0"), Typed("4, 0")]);
     draw(&mut desk, "Arc", &[Typed("0, 0"), Typed("r, 0"), Typed("-r, 0")]);
@@ -538,7 +524,7 @@ fn where_two_edges_go_on_the_next_is_picked_and_an_open_contour_is_refused() {
 
 #[test]
 fn a_step_speaks_of_the_edge_of_a_union_by_what_it_comes_from() {
-    let mut desk = record("Plate", &[("r", "5"), ("w", "40")]);
+    let mut desk = Desk::recording("Plate", &[("r", "5"), ("w", "40")]);
     draw(&mut desk, "Line", &[Typed("0, 0"), Typed("w, 0")]);
     draw(&mut desk, "Line", &[Typed("w, 0"), Typed("w, 20")]);
     draw(&mut desk, "Line", &[Typed("w, 20"), Typed("0, 20")]);

@@ -1,5 +1,6 @@
 //! A desk: one open document and the hands that work on it.
 
+use session::drafting::view::NewParameter;
 use session::view::{Change, DragState, Refusal, ValueRow};
 use session::{Command, DocumentId, Host, Literal, Path, Session, parse_path};
 use std::fs;
@@ -42,6 +43,20 @@ impl Desk {
         let mut session = Session::new(Box::new(Library));
         let id = session.open("desk", text);
         Self { session, id }
+    }
+    /// A sheet in millimetres on which a program is recorded, with its parameters, each by a name and an example.
+    pub(crate) fn recording(program: &str, parameters: &[(&str, &str)]) -> Self {
+        let mut desk = Self::of("use contours\nunit mm\n");
+        desk.session.record(desk.id, program).expect("a new program");
+        for (name, example) in parameters {
+            let new = NewParameter {
+                name: (*name).into(),
+                example: (*example).into(),
+                ..NewParameter::default()
+            };
+            desk.session.define_parameter(desk.id, &new).expect("it is new");
+        }
+        desk
     }
     pub(crate) fn text(&self) -> String {
         self.session.text(self.id).source

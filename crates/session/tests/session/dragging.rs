@@ -523,6 +523,18 @@ fn what_is_computed_from_something_else_is_not_left_behind_in_silence() {
 }
 
 #[test]
+fn of_several_figures_that_are_constructed_none_is_left_behind_in_silence() {
+    let mut desk = Desk::of(
+        "use geometry\np: Point = (0, 0)\nq: Point = (90, 90)\na => Circle(center: p, radius: 5)\n\
+         b => Circle(center: q, radius: 5)\nc => Circle(center: p, radius: 9)\n",
+    );
+    let refused = desk.session.press_all(desk.id, &["a", "b"].map(at));
+    let message = refused.expect_err("the other would stay").message;
+    assert!(message.starts_with("b is computed from none of these"), "{message}");
+    desk.session.press_all(desk.id, &["a", "c"].map(at)).expect("both follow from p");
+}
+
+#[test]
 fn a_free_pivot_is_no_wall() {
     let mut desk = Desk::of(
         "use geometry\nclass Arrow {\n    base: Point = (0, 0)\n    tip: Point = (30, 20)\n    handle tip keeps base\n    handle base keeps tip\n}\narrow: Arrow\n",

@@ -127,13 +127,17 @@ fn a_length_that_is_typed_holds() {
 #[test]
 fn a_length_is_typed_with_its_unit_while_one_draws() {
     assert_eq!(TypedLength::read("12.5"), Some(12.5.into()));
-    assert_eq!(TypedLength::read("3 cm"), Some(TypedLength { number: 3.0, unit: Some("cm") }));
-    assert_eq!([TypedLength::read("3 furlong"), TypedLength::read("cm")], [None, None]);
+    assert_eq!(
+        TypedLength::read("3 cm"),
+        Some(TypedLength { number: 3.0, unit: Some("cm".into()) })
+    );
+    assert_eq!(TypedLength::read("2.5e-1in").map(|length| length.number), Some(0.25));
+    assert_eq!([TypedLength::read("3 kg"), TypedLength::read("cm")], [None, None]);
     let drawn = |text: &str, number: f64, unit: &'static str| {
         let mut desk = Desk::of(text);
         desk.session.take_tool(desk.id, "Line").expect("a tool");
         click(&mut desk, &pointer(0.0, 0.0));
-        let length = Some(TypedLength { number, unit: Some(unit) });
+        let length = Some(TypedLength { number, unit: Some(unit.into()) });
         click(&mut desk, &Pointer { length, ..pointer(6.0, 8.0) });
         holds(&desk);
         (desk.place("line.p2"), desk.session.text(desk.id).source)
@@ -371,8 +375,12 @@ fn a_line_is_drawn_along_across_and_touching_what_is_there() {
     desk.session.take_tool(desk.id, "Line").expect("a tool");
     click(&mut desk, &pointer(0.0, 200.0));
     let near = pointer(101.0, 248.0);
-    assert_eq!(caught(&mut desk, near).as_deref(), Some("parallel to a"));
-    assert_eq!(caught(&mut desk, Pointer { alone: true, ..near }), None, "Shift suppresses it");
+    assert_eq!(caught(&mut desk, near.clone()).as_deref(), Some("parallel to a"));
+    assert_eq!(
+        caught(&mut desk, Pointer { alone: true, ..near.clone() }),
+        None,
+        "Shift suppresses it"
+    );
     click(&mut desk, &near);
     // on from its end, at a right angle
     assert_eq!(

@@ -535,10 +535,7 @@ pub const ACTIONS: &[Action] = &[
         label: words::FIT,
         keys: &["F"],
         enabled: |lab| document(lab).map(drop),
-        run: |lab| {
-            lab.zoom.set(Some(Zoom::Fit));
-            lab.fits.set_value(lab.tool.with_untracked(Option::is_none));
-        },
+        run: |lab| lab.zoom.set(Some(Zoom::Fit)),
     },
     Action {
         id: "zoom-in",

@@ -5,7 +5,7 @@ use crate::keyboard::focus;
 use crate::lab::Lab;
 use crate::words;
 use leptos::prelude::*;
-use session::drafting::view::{NewParameter, ParameterField, ParameterReading};
+use session::drafting::view::{NewParameter, ParameterField, ParameterReading, StepsView};
 
 /// The classes of parameters that can be chosen instead of the example's own.
 const CLASSES: [&str; 11] = [
@@ -52,25 +52,41 @@ impl Form {
 pub fn Define(
     /// The lab.
     lab: Lab,
-    /// Whether the program has steps already: then there is room for these.
-    is_drawn: Memo<bool>,
+    /// The program.
+    steps: Memo<Option<StepsView>>,
 ) -> impl IntoView {
+    let of_program = move |is_it: fn(&StepsView) -> bool| {
+        Memo::new(move |_| steps.with(|steps| steps.as_ref().is_some_and(is_it)))
+    };
+    // what is drawn already wants the room
+    let is_drawn = of_program(|steps| !steps.rows.is_empty());
+    let is_first = of_program(|steps| steps.parameters.is_empty());
     let new = lab.drafting.parameter;
     let folded = RwSignal::new(false);
+    let is_other = Memo::new(move |_| new.with(|n| !n.instead_of.is_empty()));
     Effect::new(move |_| folded.set(is_drawn.get()));
     Effect::new(move |_| {
-        if new.with(|n| !n.instead_of.is_empty()) {
+        if is_other.get() {
             folded.set(false);
         }
     });
     let reading = Memo::new(move |_| {
         lab.drafting.turned.track();
         let typed = new.get();
-        lab.forget_missing_tables();
         lab.tell(|session, id| session.read_parameter(id, &typed)).unwrap_or_default()
     });
-    // a table that is named is fetched, and then looked into
+    // a table that is named is looked for, and looked for again once another word is said of it
+    let range = Memo::new(move |_| new.with(|n| n.range.clone()));
+    let look_again = move || {
+        lab.forget_missing_tables();
+        lab.drafting.turned.update(|n| *n += 1);
+    };
     Effect::new(move |_| {
+        range.track();
+        look_again();
+    });
+    Effect::new(move |_| {
+        lab.drafting.turned.track();
         reading.track();
         lab.fetch_table(move || lab.drafting.turned.update(|n| *n += 1));
     });
@@ -87,20 +103,25 @@ pub fn Define(
         match FIELDS.iter().find(|(field, _)| Some(*field) == first) {
             Some((field, input)) => {
                 form.leave(*field);
-                // what is wrong is seen
                 if *field == ParameterField::Allowed {
-                    unfold();
+                    // what is wrong is seen, and may be right by now
+                    unfold(true);
+                    look_again();
                 }
                 focus(&format!(".define input[name='{input}']"));
             }
-            None => lab.define_parameter(),
+            None => {
+                lab.define_parameter();
+                unfold(new.with_untracked(|n| *n != NewParameter::default()));
+            }
         }
     };
-    let is_other = Memo::new(move |_| new.with(|n| !n.instead_of.is_empty()));
-    let is_first = Memo::new(move |_| {
-        lab.drafting.turned.track();
-        let steps = lab.ask_of_shown(|session, id| session.steps(id, None)).flatten();
-        steps.is_some_and(|steps| steps.parameters.is_empty())
+    // what is said of one that is changed is in sight
+    Effect::new(move |_| {
+        let is_said = |n: &NewParameter| !n.range.is_empty() || !n.class.is_empty();
+        if is_other.get() && new.with_untracked(is_said) {
+            unfold(true);
+        }
     });
     view! {
         <button type="button" class="unfold" data-draft="unfold" aria-expanded=move || (!folded.get()).to_string()
@@ -138,28 +159,25 @@ pub fn Define(
     }
 }
 
-/// Opens what else is said of a parameter.
-fn unfold() {
+/// Opens what else is said of a parameter, or shuts it.
+fn unfold(is_open: bool) {
     let details = document().query_selector(".define details").ok().flatten();
     if let Some(details) = details {
-        // It has the attribute, or its field is found as well.
-        let _ = details.set_attribute("open", "");
+        // It takes the attribute, or its field is found as well.
+        let _ = details.toggle_attribute_with_force("open", is_open);
     }
 }
 
-/// The class, where it is another than the example's, and the values that are allowed: open where one is said.
+/// The class, where it is another than the example's, and the values that are allowed.
 #[component]
 fn Further(form: Form) -> impl IntoView {
     let new = form.new;
-    let is_said = Memo::new(move |_| {
-        new.with(|n| !n.range.is_empty() || !n.instead_of.is_empty() && !n.class.is_empty())
-    });
     let class = move || match new.with(|n| n.class.is_empty()) {
         true => form.reading.with(|r| words::class_of_example(&r.class)),
         false => words::class_of_example(""),
     };
     view! {
-        <details prop:open=move || is_said.get()>
+        <details>
             <summary data-draft="further">{words::FURTHER}</summary>
             <label><span>{words::PARAMETER_CLASS}</span>
                 <select name="class" prop:value=move || new.with(|n| n.class.clone())

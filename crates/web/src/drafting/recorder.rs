@@ -19,8 +19,6 @@ pub fn Recorder(
     let recorded = Memo::new(move |_| {
         steps.with(|s| s.as_ref().filter(|s| s.is_recorded).map(|s| s.program.clone()))
     });
-    let is_drawn =
-        Memo::new(move |_| steps.with(|s| s.as_ref().is_some_and(|s| !s.rows.is_empty())));
     let begin = move |e: leptos::ev::SubmitEvent| {
         e.prevent_default();
         lab.record(&name.get_untracked());
@@ -35,7 +33,7 @@ pub fn Recorder(
                     <span class="lamp" aria-hidden="true"></span>{words::recording(&program)}
                     <button data-draft="stop" on:click=move |_| lab.stop_recording()>{words::STOP}</button>
                 </p>
-                <parameter::Define lab=lab is_drawn=is_drawn />
+                <parameter::Define lab=lab steps=steps />
                 {move || view! { <Blocks lab=lab open=open.get() /> }}
             }.into_any(),
             None => view! {

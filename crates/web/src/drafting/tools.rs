@@ -3,6 +3,7 @@
 use crate::lab::Lab;
 use crate::{keyboard, words};
 use leptos::prelude::*;
+use presentation::find::has_words;
 use session::drafting::view::ConstructionRow;
 
 /// The list of all constructions.
@@ -90,8 +91,7 @@ pub fn Constructions(
 
 /// Whether a construction's words, with other words for it, have all that are wanted.
 fn says(row: &ConstructionRow, also: &str, wanted: &str) -> bool {
-    let text = [&row.label, &row.id, &row.operands, &row.doc, also].join(" ").to_lowercase();
-    wanted.split_whitespace().all(|word| text.contains(word))
+    has_words(&[&row.label, &row.id, &row.operands, &row.doc, also].join(" "), wanted)
 }
 
 #[component]

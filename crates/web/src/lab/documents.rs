@@ -169,12 +169,7 @@ impl Lab {
         for path in wanted.unwrap_or_default() {
             if presentation::files::is_table(&path) {
                 // one that cannot be read now is asked for again
-                if let Ok(table) = server::table(&path).await {
-                    found |= table.is_some();
-                    self.files.update_value(|files| {
-                        files.texts.insert(path, table);
-                    });
-                }
+                found |= self.table(&path).await.is_ok_and(|table| table.is_some());
                 continue;
             }
             // a server that does not answer is asked again
@@ -187,6 +182,18 @@ impl Lab {
             }
         }
         found
+    }
+
+    /// Fetches a table as it is now; nothing where there is none.
+    ///
+    /// # Errors
+    /// One sentence, where the server does not say.
+    pub async fn table(self, path: &str) -> Result<Option<String>, String> {
+        let table = server::table(path).await?;
+        self.files.update_value(|files| {
+            files.texts.insert(String::from(path), table.clone());
+        });
+        Ok(table)
     }
 
     /// Forgets which tables were not there: by now they may be.

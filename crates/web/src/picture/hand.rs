@@ -427,7 +427,10 @@ impl Hand {
             Mode::Tool { start } if distance(start, at) > PULL && self.lab.drafts() => {
                 self.lab.draft_point(&self.pointer(at));
             }
-            Mode::Tool { start } if distance(start, at) > PULL => {
+            // Escape may have laid the tool down already.
+            Mode::Tool { start }
+                if distance(start, at) > PULL && self.lab.tool.with_untracked(Option::is_some) =>
+            {
                 self.lab.tool_set(&self.pointer(at));
             }
             Mode::Band { start } if distance(start, at) > PULL => self.lab.take_band(start, at),

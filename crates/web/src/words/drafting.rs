@@ -1,5 +1,15 @@
-//! What the page says of recording among what is drawn already, and of solutions.
+//! What the page says of a program and its parameters, of recording among what is drawn already, and of solutions.
 
+/// The field for the name of a program.
+pub const PROGRAM_NAME: &str = "Program, as Washer";
+/// Defines a parameter.
+pub const DEFINE: &str = "Define";
+/// The field for the name of a parameter.
+pub const PARAMETER_NAME: &str = "Name";
+/// The field for the example of a parameter.
+pub const EXAMPLE: &str = "Example";
+/// The field for what is asked.
+pub const QUESTION: &str = "Question";
 /// The class of a parameter.
 pub const PARAMETER_CLASS: &str = "Class";
 /// The field for the values that are allowed.
