@@ -87,6 +87,12 @@ pub(crate) fn begin(open: &mut Open, paths: &[Path]) -> Result<(f64, f64), Refus
                 (None, Some((_, whole))) if !whole.is_empty() => {
                     return begin(open, &[Path(whole.to_vec())]);
                 }
+                // a figure is held by the things that it is made about
+                (None, Some(_)) if answer.as_ref().is_some_and(is_about_things) => {
+                    let things: BTreeSet<ThingId> = answer.iter().flat_map(things_of).collect();
+                    let things: Vec<ThingId> = things.into_iter().collect();
+                    press(&state, &mut open.planner, &things, path.clone())
+                }
                 _ => press_computed(&state, &mut open.planner, term, path.clone()),
             }
         }
@@ -162,7 +168,14 @@ fn begin_several(open: &mut Open, paths: &[Path]) -> Result<(f64, f64), Refusal>
                     format!("{path} has no place of its own: it is not dragged with others");
                 return Err(words::refuse(message));
             }
-            Aim::Term(term) => computed.push((path, term)),
+            Aim::Term(term) => {
+                let answer = state.evaluator(&state.values).at(path).ok();
+                let about = answer.as_ref().filter(|_| is_figure(path)).map(things_of);
+                match about.unwrap_or_default() {
+                    about if about.is_empty() => computed.push((path, term)),
+                    about => moving.extend(about.into_iter().map(|thing| (path.clone(), thing))),
+                }
+            }
         }
     }
     all_go_along(&state, &open.planner, &moving, &computed)?;
@@ -174,7 +187,10 @@ fn begin_several(open: &mut Open, paths: &[Path]) -> Result<(f64, f64), Refusal>
     if let Some(path) = alone {
         return begin(open, std::slice::from_ref(path));
     }
-    let (paths, things): (Vec<Path>, Vec<ThingId>) = moving.into_iter().unzip();
+    let (mut paths, mut things): (Vec<Path>, Vec<ThingId>) = moving.into_iter().unzip();
+    paths.dedup();
+    let mut seen = BTreeSet::new();
+    things.retain(|thing| seen.insert(*thing));
     let Some(path) = paths.first() else { return Err(words::refuse("nothing is selected".into())) };
     let drag = press(&state, &mut open.planner, &things, path.clone());
     let mut drag =
@@ -215,6 +231,34 @@ fn read_by(state: &State, term: &Term) -> BTreeSet<SlotId> {
     let evaluator = state.evaluator(&state.values);
     let (_, read) = evaluator.listening(|| evaluator.evaluate(term, DOCUMENT));
     read.into_iter().collect()
+}
+
+/// Returns true for what is made about things of the document, and is none itself.
+fn is_about_things(answer: &Answer<'_>) -> bool {
+    !matches!(answer, Answer::Thing(_)) && !things_of(answer).is_empty()
+}
+
+/// Lists the things of the document in an answer.
+fn things_of(answer: &Answer<'_>) -> Vec<ThingId> {
+    let mut things = Vec::new();
+    things_in(answer, &mut things);
+    things
+}
+
+/// Adds the things of the document in an answer: the centre of a circle that is made about it.
+fn things_in(answer: &Answer<'_>, things: &mut Vec<ThingId>) {
+    match answer {
+        Answer::Thing(thing) => things.push(*thing),
+        Answer::Made(made) => made.fields.iter().for_each(|field| things_in(field, things)),
+        Answer::List(list) => list.iter().for_each(|element| things_in(element, things)),
+        Answer::Number(..)
+        | Answer::Bool(_)
+        | Answer::Option(..)
+        | Answer::Text(_)
+        | Answer::Context(_)
+        | Answer::Picture(_)
+        | Answer::Function(_) => {}
+    }
 }
 
 /// Begins a drag: of a number, of a place, or of things with all the places that they are made of.

@@ -481,7 +481,7 @@ impl Lab {
     /// The visit goes on until what is under the pointer is drawn.
     pub fn visit_picked(self, pointer: &Pointer) {
         self.drafting.seeking.set(false);
-        self.visit(&Go::UntilPicked(*pointer));
+        self.visit(&Go::UntilPicked(pointer.clone()));
     }
 
     fn replace_step(self, step: &str) {

@@ -4,7 +4,7 @@
 //! an example. What comes of each row is asked of the session.
 
 use crate::lab::{Kind, Lab, Notice, Told};
-use crate::{field, js, server, words};
+use crate::{field, js, words};
 use leptos::prelude::*;
 use session::Session;
 use session::jobs::{LongAnswer, LongQuestion};

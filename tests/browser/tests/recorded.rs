@@ -1,7 +1,9 @@
 //! Standard parts recorded from an empty document: by the mouse, by the keyboard alone, and on a narrow page.
 
 use browser::Visit;
-use browser::drafting::{asked, calculate, construct, define, enter, fill, has, pick, press, set};
+use browser::drafting::{
+    asked, calculate, construct, define, enter, fill, has, pick, press, seen, set,
+};
 use browser::hands::{self, key, state, text_of};
 
 /// Begins a program with its parameters, each with its example and a class.

@@ -523,15 +523,20 @@ fn what_is_computed_from_something_else_is_not_left_behind_in_silence() {
 }
 
 #[test]
-fn of_several_figures_that_are_constructed_none_is_left_behind_in_silence() {
+fn figures_that_are_constructed_move_with_what_they_are_made_about() {
     let mut desk = Desk::of(
         "use geometry\np: Point = (0, 0)\nq: Point = (90, 90)\na => Circle(center: p, radius: 5)\n\
          b => Circle(center: q, radius: 5)\nc => Circle(center: p, radius: 9)\n",
     );
-    let refused = desk.session.press_all(desk.id, &["a", "b"].map(at));
-    let message = refused.expect_err("the other would stay").message;
-    assert!(message.starts_with("b is computed from none of these"), "{message}");
+    desk.session.press_all(desk.id, &["a", "b"].map(at)).expect("each is about a place");
+    assert!(desk.session.drag(desk.id, (5.0, 7.0)).reached);
+    desk.session.release(desk.id).expect("it is kept");
+    assert_eq!((desk.place("p"), desk.place("q")), ((5.0, 7.0), (95.0, 97.0)));
+    desk.undo();
     desk.session.press_all(desk.id, &["a", "c"].map(at)).expect("both follow from p");
+    desk.session.cancel(desk.id);
+    desk.drag("a", &[(1.0, 2.0)]);
+    assert_eq!((desk.place("p"), desk.place("q")), ((1.0, 2.0), (90.0, 90.0)));
 }
 
 #[test]
