@@ -9,7 +9,9 @@
 use std::io::{BufRead as _, BufReader};
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode, Stdio};
+use std::sync::OnceLock;
 use std::sync::mpsc::{self, Receiver, Sender};
+use std::time::Instant;
 
 use crate::bundle::{self, Effort};
 use crate::compiled;
@@ -158,11 +160,11 @@ fn native(wish: &Wish, page: Page, compiled: Option<Sender<Programs>>) -> Count 
             None => say!("the browser tests did not compile"),
         }
     }
-    say!("== compiling the tests, and lints");
+    heading("compiling the tests, and lints");
     let made = compiled::make(&[], selection);
     count.add(Count::one(made.is_whole));
     count.add(Count::one(made.is_clean));
-    say!("== documentation");
+    heading("documentation");
     count.add(Count::one(documentation::write(&made)));
     match thinglab {
         // no part of the project needs it: without it the audit is left out, which is said
@@ -186,6 +188,7 @@ fn in_the_browser(length: Length, page: Page, programs: &Receiver<Programs>) -> 
         Length::Long => Effort::Full,
     };
     let built = bundle::build(&tools::wasm_compiler().expect("required above"), effort);
+    heading("the page is built");
     let mut count = Count::one(built.is_ok());
     match &built {
         Ok(Some(made)) if page == Page::AsItIsBuilt => {
@@ -241,8 +244,15 @@ fn audit(thinglab: &Path) -> Count {
     count
 }
 
+/// Says what begins or has ended, and how long after the first of these.
+fn heading(name: &str) {
+    static BEGAN: OnceLock<Instant> = OnceLock::new();
+    let seconds = BEGAN.get_or_init(Instant::now).elapsed().as_secs();
+    say!("== {}:{:02} {name}", seconds / 60, seconds % 60);
+}
+
 fn step(name: &str, command: &mut Command) -> Count {
-    say!("== {name}");
+    heading(name);
     let passed = command.stdin(Stdio::null()).status().is_ok_and(|status| status.success());
     if !passed {
         say!("{name} failed");
@@ -259,9 +269,9 @@ enum Show {
 }
 
 /// Runs tests, showing what they print under a heading.
-fn tested(command: &mut Command, heading: &str, show: Show) -> Count {
+fn tested(command: &mut Command, name: &str, show: Show) -> Count {
     if show == Show::AtOnce {
-        say!("== {heading}");
+        heading(name);
     }
     let child = command.stdin(Stdio::null()).stdout(Stdio::piped()).spawn();
     let Ok(mut child) = child else { return Count::one(false) };
@@ -277,10 +287,11 @@ fn tested(command: &mut Command, heading: &str, show: Show) -> Count {
     }
     let ended_well = child.wait().is_ok_and(|status| status.success());
     if show == Show::AtTheEnd {
-        say!("== {heading}\n{}", kept.join("\n"));
+        heading(name);
+        say!("{}", kept.join("\n"));
     }
     if !ended_well && count.failed == 0 {
-        say!("{heading}: they broke off");
+        say!("{name}: they broke off");
         count.failed = 1;
     }
     count
