@@ -115,6 +115,8 @@ pub struct Lab {
     pub first: RwSignal<bool>,
     /// The lesson that goes on.
     pub lesson: RwSignal<Option<LessonView>>,
+    /// How far its card reaches down over the picture at the most, in pixels.
+    pub card: RwSignal<f64>,
     /// What the lesson has one trace.
     pub traced: Memo<drawing::Drawing>,
     /// The lesson that the shown document offers.
@@ -307,6 +309,7 @@ impl Lab {
             first: RwSignal::new(first::is_offered()),
             lesson,
             traced,
+            card: RwSignal::new(0.0),
             lesson_offered: RwSignal::new(None),
             clip: RwSignal::new(None),
             band: RwSignal::new(None),

@@ -3,6 +3,7 @@
 use crate::lab::{Lab, Zoom};
 use crate::{icons, route, theme, words};
 use drawing::Point;
+use leptos::html::Div;
 use leptos::prelude::*;
 use session::Session;
 use session::view::LessonView;
@@ -26,6 +27,7 @@ impl Lab {
     pub fn meet_lesson(self, path: &str) {
         let lessons = self.ask_of_shown(Session::lessons).unwrap_or_default();
         self.lesson.set(None);
+        self.card.set(0.0);
         self.lesson_offered.set(lessons.first().map(|lesson| lesson.title.clone()));
         if is_lesson(path) && theme::keep(&key(path)).is_none() {
             self.begin_lesson();
@@ -55,6 +57,7 @@ impl Lab {
     pub fn leave_lesson(self) {
         self.tell(|session, id| session.begin_lesson(id, None));
         self.lesson.set(None);
+        self.card.set(0.0);
         self.lesson_offered.set(None);
         if let Some(path) = self.current.get_untracked() {
             theme::put(&key(&path), Some("over"));
@@ -140,10 +143,21 @@ fn Step(lab: Lab, lesson: LessonView) -> impl IntoView {
         let done = lab.tell(Session::show_solution);
         lab.settle(done);
     };
+    let card = NodeRef::<Div>::new();
+    Effect::new(move |_| {
+        let Some(card) = card.get() else { return };
+        // it has its size once it is laid out
+        request_animation_frame(move || {
+            let reaches = f64::from(card.offset_top() + card.offset_height());
+            if lab.card.get_untracked() < reaches {
+                lab.card.set(reaches);
+            }
+        });
+    });
     let hints = StoredValue::new(hints);
     let missing = StoredValue::new(missing);
     view! {
-        <div class="coach lesson" role="region" aria-label=words::LESSON>
+        <div class="coach lesson" role="region" aria-label=words::LESSON node_ref=card>
             <p class="place">{place}
                 <span class="ticks" aria-hidden="true">{"●".repeat(at as usize)}{"○".repeat((steps - at) as usize)}</span>
             </p>

@@ -51,6 +51,7 @@ pub fn Picture(
     });
     on_cleanup(move || painter.with_value(|p| p.as_ref().map(Painter::stop)).unwrap_or_default());
     follow_size(lab, size);
+    follow_card(lab);
     Effect::new(move |_| zoom_as_asked(lab, size.get()));
     Effect::new(move |_| {
         lab.colors.changes.track();
@@ -320,6 +321,18 @@ fn follow_size(lab: Lab, size: RwSignal<(f64, f64)>) {
     });
 }
 
+/// What a lesson speaks of does not lie behind its card, unless somebody looked elsewhere or has begun to draw.
+fn follow_card(lab: Lab) {
+    Effect::new(move |before: Option<f64>| {
+        let now = lab.card.get();
+        let is_shown = lab.fits.get_value() || !lab.looked.get_value() && drawn(lab).is_none();
+        if is_shown && before.is_some_and(|before| now > before) {
+            lab.zoom.set(Some(Zoom::Fit));
+        }
+        now
+    });
+}
+
 /// Shows the sheet by another view; the pointer of the keyboard stays where it was on the sheet.
 fn look(lab: Lab, view: View) {
     let before = lab.view.get_untracked();
@@ -351,8 +364,7 @@ fn zoom_as_asked(lab: Lab, size: (f64, f64)) {
     }
     lab.zoom.set(None);
     let margin = margin(size);
-    // what waits or is offered lies over the lower edge
-    let room = if size.1 > LOW { size.1 - BELOW } else { size.1 };
+    let room = Room::of(lab, size);
     match asked {
         Zoom::Over(all) => {
             look(lab, lab.view.get_untracked().with_in_sight(all, size, margin));
@@ -365,11 +377,10 @@ fn zoom_as_asked(lab: Lab, size: (f64, f64)) {
         }
         Zoom::Sized if !lab.looked.get_value() => {
             let view = lab.view.get_untracked();
-            if drawn(lab).is_some_and(|drawn| !view.shows_well(drawn, (size.0, room))) {
+            if drawn(lab).is_some_and(|drawn| !view.shows_well(drawn, (size.0, room.height))) {
                 show_all(lab, size, (room, margin));
                 // what is drawn next has room beside it
-                let middle = (size.0 / 2.0, room / 2.0);
-                lab.view.update(|view| *view = view.zoomed(GOOD_PART, middle));
+                lab.view.update(|view| *view = view.zoomed(GOOD_PART, room.middle()));
                 lab.keep_cursor(view);
             }
         }
@@ -381,7 +392,7 @@ fn zoom_as_asked(lab: Lab, size: (f64, f64)) {
         }
         Zoom::By(factor) => {
             // about the middle of what is fitted, so that this stays in sight
-            lab.look_at(|view| view.zoomed(factor, (size.0 / 2.0, room / 2.0)));
+            lab.look_at(|view| view.zoomed(factor, room.middle()));
         }
     }
 }
@@ -394,8 +405,31 @@ fn drawn(lab: Lab) -> Option<Bounds> {
     lab.picture.with_untracked(|p| (!p.drawing.elements.is_empty()).then(|| bounds(&p.drawing)))
 }
 
-/// Brings all that is drawn into sight, and what is to be traced; `room` is the height that nothing lies over.
-fn show_all(lab: Lab, size: (f64, f64), (room, margin): (f64, f64)) {
+/// The part of a canvas that nothing lies over.
+#[derive(Clone, Copy)]
+struct Room {
+    width: f64,
+    /// How far it is from the upper side.
+    above: f64,
+    height: f64,
+}
+
+impl Room {
+    /// What waits or is offered lies over the lower edge, a lesson over the upper one.
+    fn of(lab: Lab, (width, height): (f64, f64)) -> Self {
+        if height <= LOW {
+            return Self { width, above: 0.0, height };
+        }
+        let above = lab.card.get_untracked().min(height - LOW);
+        Self { width, above, height: height - BELOW - above }
+    }
+    fn middle(self) -> (f64, f64) {
+        (self.width / 2.0, self.above + self.height / 2.0)
+    }
+}
+
+/// Brings all that is drawn into sight, and what is to be traced.
+fn show_all(lab: Lab, size: (f64, f64), (room, margin): (Room, f64)) {
     let all = lab.traced.with_untracked(|traced| {
         let boxes = lab.picture.with_untracked(|p| {
             let drawn = [&p.drawing, traced].into_iter().filter(|d| !d.elements.is_empty());
@@ -413,7 +447,8 @@ fn show_all(lab: Lab, size: (f64, f64), (room, margin): (f64, f64)) {
         all.least.x -= across / 2.0;
         all.most.x += across / 2.0;
     }
-    let fitting = fit_box(all, vertical, (size.0, room), margin);
+    let fitting = fit_box(all, vertical, (room.width, room.height), margin);
+    let fitting = fitting.panned(0.0, room.above);
     let view = lab.picture.with_untracked(|p| with_words(&p.drawing, fitting, size));
     lab.view.set(view);
 }

@@ -58,13 +58,23 @@ async fn a_value_is_played_until_it_is_stopped_and_that_is_one_step_back() {
     assert_eq!(state(&visit).await["text"], before["text"]);
 }
 
+/// What is pointed at in the picture stands lower than the card that speaks of it.
+const BELOW_THE_CARD: &str = "document.querySelector('.pulse')?.getBoundingClientRect().top > document.querySelector('.lesson').getBoundingClientRect().bottom - 18";
+
+#[tokio::test]
+async fn what_a_lesson_points_at_does_not_lie_behind_its_card() {
+    let visit = Visit::open_empty().await;
+    show(&visit, "lesson-3-midpoint-theorem.thing").await;
+    visit.until(BELOW_THE_CARD).await;
+}
+
 #[tokio::test]
 async fn a_lesson_goes_on_as_its_tasks_are_done() {
     let visit = Visit::open_empty().await;
-    let before = show(&visit, "lesson-1-first-minute.thing").await;
+    show(&visit, "lesson-1-first-minute.thing").await;
     visit.until("document.querySelector('.lesson .place').textContent.includes('1 of 3')").await;
-    visit.until("document.querySelector('.pulse')").await;
-    let from = grip(&before, "q.outer.side2.p2");
+    visit.until(BELOW_THE_CARD).await;
+    let from = grip(&state(&visit).await, "q.outer.side2.p2");
     drag(&visit, from, (from.0 - 30.0, from.1 + 20.0)).await;
     visit.until("document.querySelector('.lesson .place').textContent.includes('2 of 3')").await;
     visit.script("document.querySelector('.why-button').click()").await;
