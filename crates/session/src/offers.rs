@@ -384,7 +384,8 @@ pub(crate) fn told_apart(
     mut offers: Vec<Offer>,
 ) -> (Vec<Offer>, Vec<String>) {
     let state = &open.state;
-    if state.structure.slots.len() > MOST_TRIED || open.pane.is_some() {
+    let is_left_alone = state.structure.slots.len() > MOST_TRIED || open.pane.is_some();
+    if offers.is_empty() || is_left_alone {
         return (offers, Vec::new());
     }
     let rules: Vec<Vec<&str>> = offers.iter().map(rules).collect();
@@ -397,6 +398,9 @@ pub(crate) fn told_apart(
         !sets && own.into_iter().all(|term| is_true(state, term.as_ref()))
     };
     let tried: Vec<bool> = offers.iter().zip(&rules).map(is_tried).collect();
+    if !tried.contains(&true) {
+        return (offers, Vec::new());
+    }
     let mut trial = Open::of(&open.name, state.text.clone(), host);
     let adds = |trial: &mut Open, offer: &Offer| {
         let added = apply::apply(trial, host, &offer.command(None)).is_ok();

@@ -6,7 +6,8 @@ use session::{Command, DocumentId, Host, Literal, Path, Session, parse_path};
 use std::fs;
 use std::path::PathBuf;
 
-struct Library;
+/// A host with the libraries of the project.
+pub(crate) struct Library;
 
 fn project() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../..")

@@ -1,8 +1,10 @@
 //! What is offered for a selection, and that taking it does what it says.
 
-use crate::desk::{Desk, at};
-use session::Command;
+use crate::desk::{Desk, Library, at};
 use session::view::Offer;
+use session::{Command, Host, Session};
+use std::cell::Cell;
+use std::rc::Rc;
 
 const FIGURE: &str = "\
 use geometry
@@ -307,4 +309,26 @@ fn a_dimension_stays_where_what_its_value_was_said_by_goes() {
     let lone = Desk::of("use geometry\na: Line\nb: Line\n");
     let (command, along) = lone.session.deletion(lone.id, &[at("a")]).expect("it can go");
     assert_eq!((command, along), (Command::Delete(at("a")), Vec::new()));
+}
+
+/// The libraries, and how often one was read.
+struct Counted(Rc<Cell<u32>>);
+
+impl Host for Counted {
+    fn read(&self, name: &str) -> Option<String> {
+        self.0.set(self.0.get() + 1);
+        Library.read(name)
+    }
+}
+
+#[test]
+fn the_document_is_not_opened_once_more_for_a_selection_of_nothing() {
+    let read = Rc::new(Cell::new(0));
+    let mut session = Session::new(Box::new(Counted(Rc::clone(&read))));
+    let id = session.open("desk", FIGURE);
+    read.set(0);
+    assert_eq!(session.offers_and_held(id, &[]), (Vec::new(), Vec::new()));
+    assert_eq!(read.get(), 0);
+    assert_ne!(session.offers_and_held(id, &[at("a")]).0, []);
+    assert_ne!(read.get(), 0, "what holds already is found by reading it");
 }
