@@ -200,6 +200,13 @@ fn a_page_in_a_folder_is_served_and_nothing_beside_it() {
     let small = get("/a.js", "Accept-Encoding: br\r\n");
     assert_eq!(content(&small), "small");
     assert!(small.contains("text/javascript"), "{small}");
+    // what the browser has already is not sent again
+    let tag = small.lines().find_map(|line| line.strip_prefix("etag: ")).unwrap();
+    let asks_again = format!("Accept-Encoding: br\r\nIf-None-Match: {tag}\r\n");
+    let again = get("/a.js", &asks_again);
+    assert_eq!((status(&again), &*content(&again)), (304, ""));
+    fs::write(page.join("a.js.br"), "other").unwrap();
+    assert_eq!(content(&get("/a.js", &asks_again)), "other");
     for target in [
         "/../secret.js",
         "/%2e%2e/secret.js",

@@ -13,13 +13,14 @@
 //! Every error is `{error: sentence}` with its status.
 
 use std::borrow::Cow;
+use std::hash::{DefaultHasher, Hash as _, Hasher as _};
 use std::time::Duration;
 
 use http_body_util::{BodyExt, Full, LengthLimitError, Limited};
 use hyper::body::{Body as _, Bytes, Incoming};
 use hyper::header::{
-    ACCEPT_ENCODING, ALLOW, CONTENT_ENCODING, CONTENT_TYPE, HeaderMap, HeaderName, HeaderValue,
-    VARY,
+    ACCEPT_ENCODING, ALLOW, CONTENT_ENCODING, CONTENT_TYPE, ETAG, HeaderMap, HeaderName,
+    HeaderValue, IF_NONE_MATCH, VARY,
 };
 use hyper::{Method, Request, Response, StatusCode};
 use serde::{Deserialize, Serialize};
@@ -136,19 +137,36 @@ fn page(lab: &Lab, method: &Method, path: &str, headers: &HeaderMap) -> Answer {
     if takes_brotli(headers)
         && let Some(bytes) = lab.page.file(&format!("{path}.br"))
     {
-        let mut answer = bytes_answer(StatusCode::OK, kind, owned(bytes));
+        let mut answer = file_answer(kind, bytes, headers);
         let headers = answer.headers_mut();
         headers.insert(CONTENT_ENCODING, HeaderValue::from_static("br"));
         headers.insert(VARY, HeaderValue::from_static("accept-encoding"));
         return answer;
     }
     match lab.page.file(path) {
-        Some(bytes) => bytes_answer(StatusCode::OK, kind, owned(bytes)),
+        Some(bytes) => file_answer(kind, bytes, headers),
         None if path == "/" => {
             bytes_answer(StatusCode::OK, kind, Bytes::from_static(NO_PAGE.as_bytes()))
         }
         None => refused(StatusCode::NOT_FOUND, "no such page"),
     }
+}
+
+/// A file, named by what it holds; not sent to a browser that has it already.
+fn file_answer(kind: &'static str, bytes: Cow<'static, [u8]>, headers: &HeaderMap) -> Answer {
+    let mut hasher = DefaultHasher::new();
+    bytes.hash(&mut hasher);
+    let tag = format!("\"{:016x}\"", hasher.finish());
+    let known = headers.get(IF_NONE_MATCH).and_then(|value| value.to_str().ok());
+    let is_known = known.is_some_and(|known| known.split(',').any(|one| one.trim() == tag));
+    let mut answer = match is_known {
+        true => bytes_answer(StatusCode::NOT_MODIFIED, kind, Bytes::new()),
+        false => bytes_answer(StatusCode::OK, kind, owned(bytes)),
+    };
+    if let Ok(tag) = HeaderValue::from_str(&tag) {
+        answer.headers_mut().insert(ETAG, tag);
+    }
+    answer
 }
 
 fn owned(bytes: Cow<'static, [u8]>) -> Bytes {
