@@ -95,6 +95,10 @@ pub struct Lab {
     listing: StoredValue<views::Rows, LocalStorage>,
     /// The path of the document that is shown; none in the gallery.
     pub current: RwSignal<Option<String>>,
+    /// Whether the page has begun with a document that is still to come.
+    pub arriving: RwSignal<bool>,
+    /// The path of the document that the address names and that is being opened.
+    pub coming: StoredValue<Option<String>>,
     /// The shown document, as of the last command.
     pub document: RwSignal<Option<Opened>>,
     /// Its structure view.
@@ -298,6 +302,8 @@ impl Lab {
             typing: StoredValue::new(0),
             listing: StoredValue::new_local(views::Rows::default()),
             current: RwSignal::new(None),
+            arriving: RwSignal::new(false),
+            coming: StoredValue::new(None),
             document: RwSignal::new(None),
             structure,
             values: RwSignal::new(Vec::new()),

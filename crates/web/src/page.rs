@@ -36,8 +36,9 @@ pub fn Page() -> impl IntoView {
     route::settle();
     leptos::task::spawn_local(async move {
         lab.fetch_library().await;
-        ready.set(true);
         lab.welcome();
+        lab.arriving.set(route::present().is_some() || route::shared().is_some());
+        ready.set(true);
         follow(lab);
     });
     let listeners = [
@@ -76,6 +77,10 @@ pub fn Page() -> impl IntoView {
             {move || match (ready.get(), shown.get()) {
                 (false, _) => view! { <main><p class="quiet" role="status">{words::LOADING}</p></main> }.into_any(),
                 (true, Some(_)) => view! { <Document lab=lab /> }.into_any(),
+                // a gallery that nobody asked for would be read and drawn first
+                (true, None) if lab.arriving.get() => view! {
+                    <main><p class="quiet" role="status">{words::LOADING}</p></main>
+                }.into_any(),
                 (true, None) => view! {
                     <Refused lab=lab />
                     <Gallery lab=lab />
@@ -114,9 +119,12 @@ fn follow(lab: Lab) {
         lab.leave();
         return;
     };
-    if lab.current.get_untracked().as_deref() == Some(&path) {
+    if lab.current.get_untracked().as_deref() == Some(&path)
+        || lab.coming.with_value(|coming| coming.as_deref() == Some(&path))
+    {
         return;
     }
+    lab.coming.set_value(Some(path.clone()));
     leptos::task::spawn_local(async move {
         match lab.load(&path).await {
             Ok(_) if route::present().as_deref() == Some(&path) => lab.show(&path),
@@ -129,6 +137,8 @@ fn follow(lab: Lab) {
                 lab.say_refused(format!("{path}: {message}"));
             }
         }
+        lab.coming.update_value(|coming| _ = coming.take_if(|coming| *coming == path));
+        lab.arriving.set(false);
     });
 }
 

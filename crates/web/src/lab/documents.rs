@@ -299,6 +299,7 @@ impl Lab {
         self.flush_text();
         self.leave_class();
         self.drop_tool();
+        self.arriving.set(false);
         self.current.set(None);
         self.document.set(None);
     }

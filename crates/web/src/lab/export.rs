@@ -70,6 +70,7 @@ impl Lab {
             let unpacked = js::unpack(&packed).await.as_string();
             let Some((name, text)) = unpacked.as_deref().and_then(|all| all.split_once('\n'))
             else {
+                self.arriving.set(false);
                 self.say_refused(String::from(words::LINK_BROKEN));
                 return;
             };
@@ -77,7 +78,10 @@ impl Lab {
             let (text, version) = (String::from(text), String::from(ABSENT));
             match self.take_up(&path, Stored { text, version, writable: true }).await {
                 Ok(_) => route::go(&route::to(&path)),
-                Err(message) => self.say_refused(message),
+                Err(message) => {
+                    self.arriving.set(false);
+                    self.say_refused(message);
+                }
             }
         });
     }
