@@ -580,7 +580,8 @@ impl Lowerer<'_> {
         class: ClassId,
         args: Vec<Arg>,
     ) -> Option<(Term, Kind)> {
-        if self.document.classes[class].is_abstract {
+        // a program that hands do not place is there to be called
+        if self.document.classes[class].is_abstract && !self.is_program(class) {
             let message = format!("{} is abstract: it has no things of its own", word.text());
             let place = Place { file: scope.file, span: word.span() };
             let d = Diagnostic::error("abstract-part", place, message);

@@ -92,7 +92,10 @@ impl Lowerer<'_> {
                         self.document.classes[id].is_abstract = class.is_abstract();
                         self.declared.push((id, file, class));
                     }
-                    Member::Program(program) => self.programs.add(id, file, program),
+                    Member::Program(program) => {
+                        self.document.classes[id].is_abstract = program.is_abstract();
+                        self.programs.add(id, file, program);
+                    }
                     _ => {}
                 }
             }

@@ -314,6 +314,9 @@ pub(crate) fn instead_of_abstract(document: &Document, class: ClassId) -> String
     let below = document.classes.iter().filter(is_below).map(|(_, c)| c.name.as_str());
     let names: Vec<&str> = below.take(MOST_LISTED + 1).collect();
     match names.as_slice() {
+        [] if document.program(class).is_some() => {
+            "it is for programs and messages, which call it: place one of these".into()
+        }
         [] => "declare a class that `is` it, and a part of that class".into(),
         [only] => format!("there is {only}"),
         all if all.len() > MOST_LISTED => format!("there are {}, …", all[..MOST_LISTED].join(", ")),

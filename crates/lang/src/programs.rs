@@ -207,7 +207,7 @@ impl Lowerer<'_> {
         line.iter().any(|c| self.programs.of_class.contains_key(c))
     }
 
-    fn is_program(&self, class: ClassId) -> bool {
+    pub(crate) fn is_program(&self, class: ClassId) -> bool {
         self.programs.declared.iter().any(|(id, _, _)| *id == class)
     }
 

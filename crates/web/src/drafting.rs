@@ -286,6 +286,10 @@ impl Lab {
     /// Gives the construction up.
     pub fn draft_end(self) {
         self.tell(session::Session::give_up);
+        // what was refused of it is no more
+        if self.notice.with_untracked(|notice| matches!(notice, Some(Notice::Refused(_)))) {
+            self.notice.set(None);
+        }
         self.drafting.calculator.set(false);
         self.drafting.banding.set(false);
         self.show_waiting();

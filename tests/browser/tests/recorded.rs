@@ -249,7 +249,7 @@ async fn a_plate_is_rows_of_rows_of_holes() {
     for (asks, by, times) in [(2, "pitch, 0", "columns"), (4, "0, pitch", "rows")] {
         for n in 1..=asks {
             asked(&visit, &format!("{n} of {asks}")).await;
-            let asks_place = "document.querySelector('.prompt').innerText.includes('was Point(')";
+            let asks_place = "document.querySelector('.prompt').innerText.includes('was (')";
             if visit.script(&format!("return {asks_place}")).await == true {
                 construct(&visit, ":moved(by)").await;
                 pick(&visit, 20.0, 20.0).await;

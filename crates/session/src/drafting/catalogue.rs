@@ -313,7 +313,7 @@ impl Tool {
     fn shelf(&self) -> String {
         match &self.call {
             Call::Message(_) | Call::Pattern(..) if self.class.is_empty() => "Copy".into(),
-            Call::Value => "Value".into(),
+            Call::Value if *self.class == *"Real" => "Value".into(),
             _ => self.class.to_string(),
         }
     }
@@ -370,7 +370,10 @@ pub(crate) fn tools(state: &State, home: &Home) -> Vec<Tool> {
     }
     take_compounds(document, &mut all);
     if all.iter().any(|tool| *tool.class == *"Point") {
-        all.extend(moved(document));
+        let moved = moved(document);
+        // one construction moves whatever can be moved
+        all.retain(|tool| !moved.as_ref().is_some_and(|moved| is_alike(moved, tool)));
+        all.extend(moved);
         all.extend([Pattern::Polar, Pattern::Row].into_iter().filter_map(|p| pattern(document, p)));
     }
     if !matches!(home, Home::Document) {
@@ -440,7 +443,7 @@ fn moved(document: &Document) -> Option<Tool> {
     let slots = [("what", None, point), ("by", Some("by".to_string()), point)];
     let mut slots = slots.map(|(name, label, class)| Slot::of(document, name, label, class));
     slots[0].kind = SlotKind::Set;
-    let is_figure = |id: ClassId| compound::is_drawn(document, id);
+    let is_figure = |id: ClassId| compound::is_drawn(document, id) || is_planar(document, id);
     let figures = document.classes.iter().filter(|(id, _)| is_figure(*id));
     slots[0].also = figures.map(|(_, class)| class.name.clone()).collect();
     let doc = "Moved so far to the right and up as a point lies from the origin: all turns of a loop, or \
@@ -522,6 +525,18 @@ fn constructor(document: &Document, id: ClassId, is_program: bool) -> Option<Too
         let label = (!is_by_place).then(|| name.clone());
         Slot::of(document, &name, label, document.field_class(field))
     };
+    if name == "Point" {
+        // a place is picked, or typed, at once
+        return Some(Tool {
+            id: name.clone(),
+            class: class.name.clone(),
+            label: "Point at a place".into(),
+            base: small(&name),
+            doc: class.doc.clone(),
+            call: Call::Value,
+            slots: vec![Slot::of(document, "at", None, id)],
+        });
+    }
     Some(Tool {
         id: name.clone(),
         class: class.name.clone(),

@@ -5,7 +5,8 @@ use super::operands::{self, Occurrence};
 use super::scene::{self, Curve};
 use super::view::{Prompt, StepOperand, Wants};
 use super::{
-    Around, Home, blocks, catalogue, edges, outcome, patterns, recording, remove, text, visit,
+    Around, Home, blocks, catalogue, edges, outcome, patterns, recording, remove, steps, text, typed,
+    visit,
 };
 use crate::document::Open;
 use crate::host::Host;
@@ -29,21 +30,27 @@ pub(crate) struct Changing {
     says: String,
     /// Whether it is a number or a yes or no.
     is_value: bool,
+    /// Whether it is a place.
+    is_place: bool,
 }
 
 impl Changing {
     /// What is waited for.
     pub(crate) fn prompt(&self) -> Prompt {
-        let Self { step, slot, says, is_value } = self;
-        let how =
-            if *is_value { "type another value, or measure one" } else { "pick another object" };
+        let Self { step, slot, says, is_value, is_place } = self;
+        let says = &steps::as_typed(says, "").unwrap_or_else(|| says.clone());
+        let how = match (is_value, is_place) {
+            (true, _) => "type another value, or measure one",
+            (_, true) => "pick another place, or type `x,y`, from here `@dx,dy`, `length<angle`",
+            _ => "pick another object",
+        };
         Prompt {
             label: format!("{slot} of {step}"),
             words: format!("is {says}: {how}"),
             is_value: *is_value,
             takes_sets: !is_value,
             goes_wider: !is_value,
-            wants: Wants::Change(says.clone()),
+            wants: Wants::Change(self.says.clone()),
             ..Prompt::default()
         }
     }
@@ -146,11 +153,12 @@ pub(crate) fn begin(open: &mut Open, (address, slot): (&str, &str)) -> Result<()
     let home = home_of(&text::Source::now(&state), (&program, &example), address, is_within)
         .ok_or_else(none)?;
     let is_value = in_words(&state, &home, &found.first).is_some();
+    let is_place = outcome::place(&state, &home, &found.first).is_some();
     open.dialogue = None;
     if let Some(recording) = &mut open.recording {
         recording.removing = None;
         let (step, slot) = (address.to_string(), slot.to_string());
-        recording.changing = Some(Changing { step, slot, says: found.first, is_value });
+        recording.changing = Some(Changing { step, slot, says: found.first, is_value, is_place });
     }
     Ok(())
 }
@@ -177,13 +185,20 @@ pub(crate) fn give(
     let program = recording.program.clone();
     let none = || words::refuse("nothing is changed".into());
     let Changing { step, slot, says, .. } = recording.changing.clone().ok_or_else(none)?;
+    let home_now = home(open).ok_or_else(none)?;
+    let is_place = outcome::place(&open.state, &home_now, &says).is_some();
     let typed = match picked {
+        // a place goes on from where it was
+        None if is_place => typed::at(typed, &says)?,
         None => typed.trim().to_string(),
         Some((pointer, level)) => {
-            let all = scene::scene(&open.state, &home(open).ok_or_else(none)?);
+            let all = scene::scene(&open.state, &home_now);
             let nothing = || words::refuse(remove::why_nothing(open, &step, pointer));
-            let found = scene::nearest(all.iter(), pointer).ok_or_else(nothing)?;
-            let picked = found.at_level(level, false);
+            let picked = match scene::nearest(all.iter(), pointer) {
+                Some(found) => found.at_level(level, false),
+                None if is_place && !remove::lies_there(open, pointer) => typed::place(pointer),
+                None => return Err(nothing()),
+            };
             match is_edges(&slot, &says) {
                 true => {
                     let (state, home) = (&open.state, home(open).ok_or_else(none)?);

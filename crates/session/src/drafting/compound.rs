@@ -21,9 +21,14 @@ impl Compound {
     }
 }
 
-const ALL: [Compound; 3] = [
+const ALL: [Compound; 4] = [
     Compound {
         class: "Rectangle",
+        sides: &["side1", "side2", "side3", "side4"],
+        places: &["corner", "corner2", "far", "corner4", "center"],
+    },
+    Compound {
+        class: "TurnedRectangle",
         sides: &["side1", "side2", "side3", "side4"],
         places: &["corner", "corner2", "far", "corner4", "center"],
     },

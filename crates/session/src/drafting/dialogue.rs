@@ -160,7 +160,7 @@ impl Dialogue {
             return Err(words::refuse("no operand is wanted".into()));
         };
         let all = scene::scene(state, home);
-        let found = nearest(state, slot, &all, pointer);
+        let found = self.whole(state, &all, pointer).or_else(|| nearest(state, slot, &all, pointer));
         // Tab goes on from a figure to the edge that comes from it
         if found.is_none() || level % 2 == 1 {
             match edges::by_origin(state, slot, &all, pointer) {
@@ -200,6 +200,25 @@ impl Dialogue {
                 Err(words::refuse(format!("there is no {} here", slot.in_words())))
             }
         }
+    }
+
+    /// The figure that is meant where a copy is made, not its centre that is near, too; nothing where a place is meant:
+    /// what goes on from the copy may want one.
+    fn whole<'f>(
+        &self,
+        state: &State,
+        all: &'f [Found],
+        pointer: &Pointer,
+    ) -> Option<&'f Found> {
+        let slot = self.slot().filter(|slot| slot.kind == SlotKind::Set)?;
+        let of = |is_place: bool| {
+            let some: Vec<&Found> = all.iter().filter(|f| f.is_place == is_place).collect();
+            nearest(state, slot, some, pointer)
+        };
+        let figure = of(false)?;
+        let away = |found: &Found| found.curve.distance(pointer.at);
+        let is_nearer = |place: &Found| away(place) < away(figure);
+        (self.goal.is_none() || !of(true).is_some_and(is_nearer)).then_some(figure)
     }
 
     /// What a pointer, with what is typed so far, would do.
@@ -280,7 +299,7 @@ impl Dialogue {
 pub(crate) fn nearest<'f>(
     state: &State,
     slot: &Slot,
-    all: &'f [Found],
+    all: impl IntoIterator<Item = &'f Found>,
     pointer: &Pointer,
 ) -> Option<&'f Found> {
     let fits = |f: &&Found| match slot.kind {
@@ -293,5 +312,5 @@ pub(crate) fn nearest<'f>(
         }
         SlotKind::Point | SlotKind::Set => slot.takes(state, f.class),
     };
-    scene::nearest(all.iter().filter(fits), pointer)
+    scene::nearest(all.into_iter().filter(fits), pointer)
 }

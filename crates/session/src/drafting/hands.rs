@@ -151,7 +151,9 @@ fn give(open: &mut Open, host: &dyn Host, operand: Operand) -> Result<Turn, Refu
         dialogue.turned = 0;
     }
     let next = prompt(open);
-    Ok(Turn::Made { change: Box::new(change), name: names.join(", "), text: chosen.text, next })
+    let said = typed::expression(&chosen.text).and_then(|e| steps::pattern_in_words(&e));
+    let (name, text) = (names.join(", "), said.unwrap_or(chosen.text));
+    Ok(Turn::Made { change: Box::new(change), name, text, next })
 }
 
 /// Settles whether a pattern makes the first figure: not where what it is of is drawn.
@@ -723,7 +725,10 @@ fn entered(open: &mut Open, host: &dyn Host, typed: &str) -> Result<Turn, Refusa
         Some(Wants::Recurrence(_)) if typed.trim().is_empty() => Err(words::refuse(
             "pick an object of the turn before, type one, or press `The same`".into(),
         )),
-        Some(Wants::Recurrence(_)) => answered(open, host, (Some(typed), None)),
+        Some(Wants::Recurrence(question)) => {
+            let typed = repeat::as_typed(&open.state, &home, &question, typed)?;
+            answered(open, host, (Some(&typed), None))
+        }
         Some(Wants::Ends(ends)) => {
             let again = |open: &mut Open| {
                 let change = repeat::close(open, host, typed)?;

@@ -150,6 +150,15 @@ pub(crate) fn worth(state: &State, home: &Home, text: &str) -> Result<Worth, Ref
     }
 }
 
+/// Returns the place that an expression says in a home; nothing where it says none.
+pub(crate) fn place(state: &State, home: &Home, text: &str) -> Option<Curve> {
+    let mut found = None;
+    try_all(state, home, &[text.to_string()], &mut |_, evaluator, answer| {
+        found = answer.ok().and_then(|answer| Curve::of(evaluator, &answer));
+    });
+    found.filter(Curve::is_point)
+}
+
 /// What an expression comes to.
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) enum Worth {

@@ -2,7 +2,8 @@
 
 use super::view::{Prompt, Wants};
 use super::{
-    Home, blocks, catalogue, hands, outcome, patterns, recording, scene, steps, text, visit,
+    Home, blocks, catalogue, hands, outcome, patterns, recording, scene, steps, text, typed,
+    visit,
 };
 use crate::document::Open;
 use crate::host::Host;
@@ -174,6 +175,12 @@ pub(super) fn why_nothing(open: &Open, step: &str, pointer: &Pointer) -> String 
     }
 }
 
+/// Whether a pointer is at anything that is drawn.
+pub(super) fn lies_there(open: &Open, pointer: &Pointer) -> bool {
+    let all = scene::scene(&open.state, &hands::home(open));
+    scene::nearest(all.iter(), pointer).is_some()
+}
+
 /// Where the step that is asked about reads its names.
 pub(super) fn home(open: &Open) -> Option<Home> {
     let recording = open.recording.as_ref()?;
@@ -217,6 +224,12 @@ pub(crate) fn instead(
                 words::refuse(gone.unwrap_or_else(|| why_nothing(open, &step, pointer)))
             };
             found.map(|found| found.at_level(level, false)).ok_or_else(nothing)?
+        }
+        None if outcome::place(&open.state, &home, &of).is_some() => {
+            if typed::goes_from(typed) {
+                return Err(words::refuse(format!("{of} goes: {typed} cannot go on from it")));
+            }
+            typed::at(typed, "")?
         }
         None => typed.trim().to_string(),
     };

@@ -9,7 +9,7 @@ use super::blocks::{self, Block, Kind};
 use super::operands::{Occurrence, operands};
 use super::outcome::{self, Worth};
 use super::view::{Ends, Prompt, RecurrenceQuestion, Wants};
-use super::{Around, Home, recording, scene, text};
+use super::{Around, Home, recording, scene, steps, text, typed};
 use crate::document::Open;
 use crate::host::Host;
 use crate::state::State;
@@ -77,6 +77,7 @@ impl Loop {
     pub(crate) fn prompt(&self) -> Option<Prompt> {
         if let Some(question) = self.question() {
             let RecurrenceQuestion { number, of, step, operand, first, .. } = &question;
+            let first = &steps::as_typed(first, "").unwrap_or_else(|| first.clone());
             let words = match &question.element {
                 Some(_) => format!(
                     "{operand} of {step} is {first}: each of the set in turn, or always this one?"
@@ -278,6 +279,34 @@ pub(crate) fn answer(
     let is_settled = it.each.is_some() && it.question().is_none();
     keep(open, it);
     is_settled.then(|| close(open, host, "")).transpose()
+}
+
+/// Returns an answer that is typed as the language writes it. A place goes on from where it was in the turn before.
+///
+/// # Errors
+/// It goes on from a place that nothing of that turn has.
+pub(crate) fn as_typed(
+    state: &State,
+    home: &Home,
+    question: &RecurrenceQuestion,
+    typed: &str,
+) -> Result<String, Refusal> {
+    let Some(was) = outcome::place(state, home, &question.first) else {
+        return Ok(typed.trim().into());
+    };
+    if !typed::goes_from(typed) {
+        return typed::at(typed, "");
+    }
+    let step = &question.step;
+    let is_there = |found: &scene::Found| {
+        let owner = found.text.strip_prefix(step.as_str());
+        owner.is_some_and(|rest| rest.is_empty() || rest.starts_with('.')) && found.curve == was
+    };
+    let all = scene::scene(state, home);
+    let none =
+        || words::refuse(format!("{step} has no such place that {typed} could go on from"));
+    let from = all.iter().find(|found| is_there(found)).ok_or_else(none)?;
+    typed::at(typed, &from.text)
 }
 
 /// States in which a loop took two turns, the latest last: what was asked of them is asked again while the pointer moves.

@@ -111,7 +111,11 @@ impl<'a> Rows<'_, 'a> {
                 path: address.clone(),
                 name: step.name.clone().unwrap_or_default(),
                 depth,
-                words: pattern_in_words(step).unwrap_or_else(|| in_words(step, &formula)),
+                words: match &step.value {
+                    Some(Value::Expr(value)) => pattern_in_words(value),
+                    _ => None,
+                }
+                .unwrap_or_else(|| in_words(step, &formula)),
                 formula,
                 value: answer.map(|answer| value_words(self.state, self.evaluator, &answer)),
                 is_guide: step.is_guide,
@@ -156,8 +160,7 @@ impl<'a> Rows<'_, 'a> {
 }
 
 /// Says a pattern as a draughtsman does: `polar pattern: hole, about rim.center, count 6`.
-fn pattern_in_words(step: &StepNode) -> Option<String> {
-    let Some(Value::Expr(formula)) = &step.value else { return None };
+pub(super) fn pattern_in_words(formula: &Expr) -> Option<String> {
     let catalogue::Written { pattern, parts, .. } = catalogue::pattern_of(formula)?;
     let of = |slot: &str| {
         let part = parts.iter().find(|(name, _)| *name == slot);
@@ -214,7 +217,7 @@ fn in_words(step: &StepNode, formula: &str) -> String {
 }
 
 /// Says a place as it is typed: `(3, 4)`, and from another one `corner @(w, h)`; from the operand before it `@(w, h)`.
-fn as_typed(place: &str, before: &str) -> Option<String> {
+pub(super) fn as_typed(place: &str, before: &str) -> Option<String> {
     let (x, y) = super::typed::coordinates(place)?;
     let way = |at: &str, axis: &str| -> Option<(String, String)> {
         let (from, rest) = at.split_once(axis)?;
@@ -259,6 +262,12 @@ fn value_words<'a>(state: &'a State, evaluator: &Evaluator<'a>, answer: &Answer<
             }
         }
         Answer::Context(context) => format!("{} figures", context.result().count()),
+        other if evaluator.outline_of(other).is_ok_and(|edges| !edges.is_empty()) => {
+            let edges = evaluator.outline_of(other).map_or(0, |edges| edges.len());
+            let area = evaluator.of_part(answer, "area").ok();
+            let area = area.and_then(|area| values::in_words(&state.lowered.document, &area));
+            format!("{edges} edges, area {}", area.unwrap_or_default())
+        }
         other => evaluator.text_of(other),
     }
 }

@@ -30,6 +30,7 @@ const ALSO: &[(&str, &str)] = &[
     ("Line.polar", "segment with given length and angle vector ray"),
     ("Line.tangent", "tangent"),
     ("Rectangle", "rectangle box square rect"),
+    ("TurnedRectangle", "rectangle box rotated three points slanted"),
     ("RegularPolygon", "polygon hexagon triangle pentagon"),
     ("Point.dividing", "ratio division section"),
     ("Point.intersection", "intersect crossing meet orthocenter"),

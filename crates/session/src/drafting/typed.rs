@@ -38,10 +38,6 @@ pub(crate) fn operand(slot: &Slot, typed: &str, last: Option<&str>) -> Result<St
         }
         return Err(words::refuse(format!("{} is wanted", slot.name)));
     }
-    let from = || {
-        let none = || words::refuse(format!("{typed} goes from a point, and none was given yet"));
-        last.map(String::from).ok_or_else(none)
-    };
     Ok(match slot.kind {
         SlotKind::Curve | SlotKind::Set => typed.into(),
         SlotKind::Edges if typed.starts_with('[') => typed.into(),
@@ -49,30 +45,45 @@ pub(crate) fn operand(slot: &Slot, typed: &str, last: Option<&str>) -> Result<St
         SlotKind::Value if *slot.class == *"Bool" => truth(typed).into(),
         SlotKind::Value if *slot.class == *"Angle" && is_number(typed) => format!("{typed} deg"),
         SlotKind::Value => typed.into(),
-        SlotKind::Point => match (typed.strip_prefix('@'), pair(typed, '<')) {
-            (Some(by), _) => {
-                let wrong = || words::refuse(format!("{typed}: `@dx,dy` is wanted"));
-                let (dx, dy) = pair(by, ',').ok_or_else(wrong)?;
-                let from = from()?;
-                let (x, y) = match coordinates(&from) {
-                    Some((x, y)) => (x.into(), y.into()),
-                    None => {
-                        let from = grouped(&from);
-                        (format!("{from}.x"), format!("{from}.y"))
-                    }
-                };
-                format!("Point({}, {})", further(&x, dx), further(&y, dy))
-            }
-            (None, Some((length, angle))) => {
-                let angle = if is_number(angle) { format!("{angle} deg") } else { angle.into() };
-                format!("Point.polar(from: {}, distance: {length}, angle: {angle})", from()?)
-            }
-            (None, None) => match pair(typed, ',') {
-                Some((x, y)) => format!("Point({x}, {y})"),
-                None => typed.into(),
-            },
+        // before any point was given, one goes from where the axes cross
+        SlotKind::Point => at(typed, last.unwrap_or("Point(0, 0)"))?,
+    })
+}
+
+/// Writes a place that is typed: `3,4`, from another point `@10,0` and `20<45`, or any expression.
+///
+/// # Errors
+/// Something else follows `@`.
+pub(crate) fn at(typed: &str, from: &str) -> Result<String, Refusal> {
+    let typed = typed.trim();
+    Ok(match (typed.strip_prefix('@'), pair(typed.trim_start_matches('@'), '<')) {
+        (Some(by), None) => {
+            let wrong = || words::refuse(format!("{typed}: `@dx,dy` is wanted"));
+            let (dx, dy) = pair(by, ',').ok_or_else(wrong)?;
+            let (x, y) = match coordinates(from) {
+                Some((x, y)) => (x.into(), y.into()),
+                None => {
+                    let from = grouped(from);
+                    (format!("{from}.x"), format!("{from}.y"))
+                }
+            };
+            format!("Point({}, {})", further(&x, dx), further(&y, dy))
+        }
+        // `@20<45` is what other programs want
+        (_, Some((length, angle))) => {
+            let angle = if is_number(angle) { format!("{angle} deg") } else { angle.into() };
+            format!("Point.polar(from: {from}, distance: {length}, angle: {angle})")
+        }
+        (None, None) => match pair(typed, ',') {
+            Some((x, y)) => format!("Point({x}, {y})"),
+            None => typed.into(),
         },
     })
+}
+
+/// Whether what is typed goes on from a point.
+pub(crate) fn goes_from(typed: &str) -> bool {
+    typed.trim().starts_with('@') || pair(typed, '<').is_some()
 }
 
 /// A yes or no as the language writes it.

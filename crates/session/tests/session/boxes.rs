@@ -74,7 +74,7 @@ fn a_side_of_a_rectangle_is_a_line_and_a_copy_takes_all_of_it() {
     pick(&mut desk, 19.5, 20.0);
     enter(&mut desk, "w, w");
     let row = text(enter(&mut desk, "n"));
-    assert!(row.contains("rectangle.moved(by: Point("), "{row}");
+    assert!(row.starts_with("pattern in a row: rectangle, by Point(w, w), count n"), "{row}");
     // a mirror image has its sides
     begin(&mut desk, "Point:mirrored");
     pick(&mut desk, 7.0, 20.0);
@@ -82,7 +82,35 @@ fn a_side_of_a_rectangle_is_a_line_and_a_copy_takes_all_of_it() {
     assert!(image.starts_with("rectangle.mirrored("), "{image}");
     assert_eq!(desk.wrong(), [], "{}", desk.text());
     assert_eq!(value(&desk, "floor.pattern[1].far.x"), "60 mm");
-    assert_eq!(value(&desk, "floor.mirrored[1].p1.x"), "-40 mm");
+    assert_eq!(value(&desk, "floor.mirrored"), "(-20, 0) to (-40, 20)");
+}
+
+#[test]
+fn a_rectangle_stays_one_where_it_is_turned_mirrored_and_scaled() {
+    let mut desk = Desk::recording("Floor", &[("w", "20")]);
+    draw(&mut desk, "Rectangle", &["0, 0", "w", "w / 2"]);
+    begin(&mut desk, "Point:turned");
+    pick(&mut desk, 7.0, 0.0);
+    enter(&mut desk, "0, 0");
+    text(enter(&mut desk, "90 deg"));
+    // any side of what was turned is all of it, and its sides are lines
+    begin(&mut desk, "Point:mirrored");
+    pick(&mut desk, -10.0, 7.0);
+    let image = text(enter(&mut desk, "Axis.horizontal(y: 30)"));
+    assert!(image.starts_with("turned.mirrored("), "{image}");
+    begin(&mut desk, "Point:scaled");
+    pick(&mut desk, -5.0, 60.0);
+    enter(&mut desk, "0, 60");
+    text(enter(&mut desk, "2"));
+    begin(&mut desk, "Line.perpendicular(from,to)");
+    enter(&mut desk, "30, 10");
+    let across = text(pick(&mut desk, -10.0, 13.0));
+    assert_eq!(across, "Line.perpendicular(from: Point(30, 10), to: turned.side3)");
+    assert_eq!(desk.wrong(), [], "{}", desk.text());
+    assert_eq!(value(&desk, "floor.turned"), "(0, 0) to (-10, 20)");
+    assert_eq!(value(&desk, "floor.mirrored"), "(0, 60) to (-10, 40)");
+    assert_eq!(value(&desk, "floor.scaled"), "(0, 60) to (-20, 20)");
+    assert_eq!(value(&desk, "floor.scaled.area"), "800 mm^2");
 }
 
 #[test]
@@ -157,7 +185,7 @@ fn a_stair_begins_its_next_step_where_the_last_one_ends() {
     desk.session.end_turn(desk.id, Ends::Times).expect("a turn is drawn");
     // the place where it began is asked for, too
     let asked = desk.session.prompt(desk.id).expect("it asks").words;
-    assert!(asked.contains("was Point(0, 0)"), "{asked}");
+    assert!(asked.contains("was (0, 0)"), "{asked}");
     pick(&mut desk, 29.0, 17.0);
     for _ in 0..2 {
         desk.session.same(desk.id).expect("it may be the same");

@@ -50,8 +50,8 @@ fn value(desk: &Desk, path: &str) -> String {
 #[test]
 fn a_nut_is_a_flat_in_a_polar_pattern() {
     let mut desk = Desk::recording("Nut", &[("s", "16"), ("d", "10")]);
-    guide(&mut desk, "Point", &[Typed("0"), Typed("0")]);
-    guide(&mut desk, "Point", &[Typed("0"), Typed("s / (2 * cos(30 deg))")]);
+    guide(&mut desk, "Point", &[Typed("0, 0")]);
+    guide(&mut desk, "Point", &[Typed("0, s / (2 * cos(30 deg))")]);
     guide(&mut desk, "Point:turned", &[At(0.0, 9.24), At(0.0, 0.0), Typed("60")]);
     draw(&mut desk, "Line", &[At(0.0, 9.24), At(-8.0, 4.62)]);
     let five =
@@ -91,9 +91,9 @@ fn a_nut_is_a_flat_in_a_polar_pattern() {
 #[test]
 fn a_pattern_draws_all_flats_where_the_first_one_is_deleted() {
     let mut desk = Desk::recording("Nut", &[]);
-    guide(&mut desk, "Point", &[Typed("0"), Typed("0")]);
-    guide(&mut desk, "Point", &[Typed("0"), Typed("9")]);
-    guide(&mut desk, "Point", &[Typed("-8"), Typed("4.5")]);
+    guide(&mut desk, "Point", &[Typed("0, 0")]);
+    guide(&mut desk, "Point", &[Typed("0, 9")]);
+    guide(&mut desk, "Point", &[Typed("-8, 4.5")]);
     draw(&mut desk, "Line", &[Typed("point2"), Typed("point3")]);
     draw(&mut desk, ":pattern(about,count)", &[Typed("line"), Typed("point"), Typed("6")]);
     assert_eq!(value(&desk, "nut.pattern"), "5 figures");
@@ -184,7 +184,7 @@ program P() {
 fn a_retaining_ring_has_the_lug_that_its_size_asks_for() {
     let parameters = [("d1", "20"), ("d3", "18.5"), ("a", "4"), ("b", "2.6"), ("d5", "2")];
     let mut desk = Desk::recording("Ring", &parameters);
-    guide(&mut desk, "Point", &[Typed("0"), Typed("0")]);
+    guide(&mut desk, "Point", &[Typed("0, 0")]);
     guide(&mut desk, "Circle", &[At(0.0, 0.0), Typed("d3 / 2")]);
     guide(&mut desk, "Circle", &[Typed("Point(0, -b / 5)"), Typed("d3 / 2 + 4 * b / 5")]);
     guide(&mut desk, "Axis.vertical(x)", &[Typed("a / 5")]);

@@ -57,6 +57,85 @@ fn every_construction_of_the_library_is_a_tool() {
 }
 
 #[test]
+fn what_a_library_keeps_for_itself_is_no_tool() {
+    let desk = Desk::of("use contours\nprogram Own(d: Length = 1) {\n}\nabstract program Part(d: Length = 1) {\n}\n");
+    let tools = desk.session.constructions(desk.id);
+    let has = |id: &str| tools.iter().any(|tool| tool.id == id);
+    assert!(has("Own") && has("Contour.slot(from,to,radius)"));
+    assert!(!has("Rounding") && !has("Part"));
+    // one construction moves contours, too
+    assert!(has(":moved(by)") && !has("Contour:moved"));
+}
+
+#[test]
+fn a_copy_of_a_small_circle_is_one_of_the_circle_not_of_its_centre() {
+    let mut desk = Desk::recording("Flange", &[("n", "6")]);
+    begin(&mut desk, "Circle");
+    enter(&mut desk, "45,0");
+    made(enter(&mut desk, "2"));
+    begin(&mut desk, ":pattern(about,count)");
+    // both are within reach
+    point(&mut desk, 46.5, 0.0);
+    enter(&mut desk, "0,0");
+    let pattern = made(enter(&mut desk, "n"));
+    assert_eq!(pattern, "polar pattern: circle, about Point(0, 0), count n; n is a count now");
+    assert!(desk.text().contains("=> circle.turned("), "{}", desk.text());
+}
+
+#[test]
+fn the_next_hole_is_so_far_from_the_one_before() {
+    let mut desk = Desk::recording("Row", &[("pitch", "20"), ("n", "4")]);
+    desk.session.begin_loop(desk.id, "").expect("a program is recorded");
+    begin(&mut desk, "Circle");
+    enter(&mut desk, "100,5");
+    made(enter(&mut desk, "3"));
+    desk.session.end_turn(desk.id, Ends::Times).expect("a turn is drawn");
+    let asked = desk.session.prompt(desk.id).expect("it asks").words;
+    assert!(asked.contains("was (100, 5)"), "{asked}");
+    enter(&mut desk, "@pitch,0");
+    enter(&mut desk, "n");
+    assert_eq!(value(&desk, "row.turns.last.circle"), "centre (160, 5), radius 3");
+    assert_eq!(desk.wrong(), [], "{}", desk.text());
+}
+
+#[test]
+fn a_step_is_moved_to_another_place_that_is_picked_or_typed() {
+    let mut desk = Desk::recording("Row", &[]);
+    begin(&mut desk, "Circle");
+    enter(&mut desk, "100,5");
+    made(enter(&mut desk, "3"));
+    let change = |desk: &mut Desk| {
+        desk.session.begin_change(desk.id, ("circle", "center")).expect("it has a centre");
+    };
+    change(&mut desk);
+    point(&mut desk, 40.0, 50.0);
+    assert_eq!(value(&desk, "row.circle.center"), "(40, 50)");
+    change(&mut desk);
+    enter(&mut desk, "@5,-10");
+    assert_eq!(value(&desk, "row.circle.center"), "(45, 40)");
+    change(&mut desk);
+    enter(&mut desk, "7,8");
+    assert!(desk.text().contains("Circle(center: Point(7, 8), radius: 3)"), "{}", desk.text());
+}
+
+#[test]
+fn a_slot_is_taken_round_by_its_edge() {
+    let mut desk = Desk::recording("Flange", &[("n", "4")]);
+    begin(&mut desk, "Contour.slot(from,to,radius)");
+    // before any point was given, an angle is one of the sheet
+    enter(&mut desk, "30<90");
+    enter(&mut desk, "@20<0");
+    made(enter(&mut desk, "4"));
+    assert_eq!(value(&desk, "flange.contour"), "4 edges, area 210.265 mm^2");
+    begin(&mut desk, ":pattern(about,count)");
+    point(&mut desk, 10.0, 34.5);
+    enter(&mut desk, "0,0");
+    made(enter(&mut desk, "n"));
+    assert_eq!(value(&desk, "flange.pattern"), "3 figures");
+    assert_eq!(desk.wrong(), [], "{}", desk.text());
+}
+
+#[test]
 fn a_construction_of_ones_own_is_a_tool_at_once() {
     let text = "use geometry\nclass Slope is Line {\n    /// A steep one.\n    static steep(over p: Point, run: Length) => Slope(p, Point(p.x + run, p.y + 2 * run))\n}\n";
     let desk = Desk::of(text);

@@ -184,6 +184,10 @@ impl Erase {
     }
 }
 impl Program {
+    /// Returns true for `abstract program`: other programs and messages call it, and hands do not.
+    pub fn is_abstract(&self) -> bool {
+        has_keyword(&self.syntax, "abstract")
+    }
     /// Returns the name.
     pub fn name(&self) -> Option<Word> {
         word(&self.syntax, SyntaxKind::Ident)

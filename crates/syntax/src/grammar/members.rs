@@ -339,7 +339,7 @@ fn unit(p: &mut Parser<'_>) {
 fn class(p: &mut Parser<'_>) {
     p.start_documented(Class);
     if p.eat_word("abstract") && !p.at_word(0, "class") {
-        p.expected("expected-class", "`class`");
+        p.expected("expected-class", "`class` or `program`");
         p.finish();
         return;
     }

@@ -27,13 +27,10 @@ pub(super) fn member(p: &mut Parser<'_>, scope: Scope) -> bool {
         "table" if scope == Scope::Family => one(p, Table, |p| {
             p.expect(Text, "expected-text", "the name of a table's file in quotes");
         }),
-        "program" => one(p, Program, |p| {
-            p.expect(Ident, "expected-name", "the program's name");
-            if p.at(LParen) {
-                parameters(p);
-            }
-            superclasses(p);
-            body(p, Scope::Thing);
+        "program" => one(p, Program, program),
+        "abstract" if p.word(1) == "program" => one(p, Program, |p| {
+            p.bump_keyword();
+            program(p);
         }),
         "family" => one(p, Family, |p| {
             p.expect(Ident, "expected-name", "the family's name");
@@ -61,6 +58,16 @@ pub(super) fn member(p: &mut Parser<'_>, scope: Scope) -> bool {
         _ => return false,
     }
     true
+}
+
+/// `P(d: Length = 1 mm) { … }`, behind the keyword.
+fn program(p: &mut Parser<'_>) {
+    p.expect(Ident, "expected-name", "the program's name");
+    if p.at(LParen) {
+        parameters(p);
+    }
+    superclasses(p);
+    body(p, Scope::Thing);
 }
 
 /// A block as a step's value, if one begins here: `column = repeat with … { … }`.
