@@ -297,6 +297,7 @@ fn file_of(
         Some(if folder.is_empty() { table } else { format!("{folder}/{table}") })
     });
     Effect::new(move |_| {
+        lab.tables.track();
         if let Some(path) = wanted.get() {
             leptos::task::spawn_local(async move {
                 let found = lab.table(&path).await;

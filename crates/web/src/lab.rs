@@ -133,6 +133,8 @@ pub struct Lab {
     pub dock: RwSignal<Option<Tab>>,
     /// What a narrow page has pulled up.
     pub sheet: RwSignal<Sheet>,
+    /// How often tables were found to be others.
+    pub tables: RwSignal<u32>,
     /// Its text view.
     pub text: RwSignal<TextView>,
     /// Its status line.
@@ -321,6 +323,7 @@ impl Lab {
             band: RwSignal::new(None),
             dock: RwSignal::new(dock::kept()),
             sheet: RwSignal::new(Sheet::Shut),
+            tables: RwSignal::new(0),
             text: RwSignal::new(no_text()),
             status: RwSignal::new(Status::default()),
             picture: RwSignal::new(PictureView::default()),

@@ -9,6 +9,7 @@ use crate::host::Host;
 use crate::view::{Change, Refusal};
 use crate::words;
 use base::Name;
+use syntax::ast::Value;
 
 /// A block that is open.
 #[derive(Clone, PartialEq, Debug)]
@@ -103,6 +104,31 @@ pub(crate) fn begin(
     }
     open.dialogue = None;
     Ok(change)
+}
+
+/// Enters the loops that are open in the text of what is recorded: a recording that was broken off goes on in them.
+pub(crate) fn resume(open: &mut Open) {
+    let (state, since) = (open.state.clone(), open.done.len());
+    let Some(recording) = &mut open.recording else { return };
+    let source = text::Source::now(&state);
+    let is_open = |step: &text::StepNode| match &step.value {
+        Some(Value::Repeat(it)) => {
+            step.name.is_some() && it.times().is_none() && it.until().is_none()
+        }
+        _ => false,
+    };
+    let mut address = String::new();
+    while let Some(body) = text::block(&source, &recording.program, &address) {
+        let steps = text::steps_of(&body);
+        let Some(at) = steps.iter().position(is_open) else { return };
+        let segment = steps[at].segment.clone();
+        address = text::joined(&address, &segment);
+        let name = Some(Name::new(&segment));
+        let around = Around { address: segment, name, turn: Some(0) };
+        let before = steps.get(at + 1).map(|step| step.segment.clone());
+        let kind = Kind::Loop(Loop::default());
+        recording.blocks.push(Block { around, kind, since, before });
+    }
 }
 
 /// The segment of a step without a name behind which another one came.

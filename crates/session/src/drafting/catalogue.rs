@@ -272,7 +272,15 @@ impl Slot {
     }
 }
 
+/// Messages whose answer takes the place of what they are sent to.
+const IN_PLACE: [&str; 3] = ["trimmed", "begun", "extended"];
+
 impl Tool {
+    /// Whether what it makes takes the place of its first operand, which is erased.
+    pub(crate) fn is_in_place(&self) -> bool {
+        matches!(&self.call, Call::Message(word) if IN_PLACE.contains(&word.as_str()))
+    }
+
     /// Writes the construction with operands for its first slots.
     pub(crate) fn written(&self, operands: &[String]) -> String {
         let (to, rest) = match &self.call {
@@ -361,7 +369,8 @@ pub(crate) fn tools(state: &State, home: &Home) -> Vec<Tool> {
             }
             all.extend(tool);
         }
-        for tool in class.messages.iter().filter_map(|m| of_message(document, id, m)) {
+        let own = class.messages.iter().chain(from_above(document, id));
+        for tool in own.filter_map(|m| of_message(document, id, m)) {
             match all.iter_mut().find(|known| is_alike(known, &tool)) {
                 Some(known) => join(known, tool),
                 None => all.push(tool),
@@ -387,6 +396,21 @@ pub(crate) fn tools(state: &State, home: &Home) -> Vec<Tool> {
     };
     all.sort_by_cached_key(|tool| !own(tool));
     all
+}
+
+/// The messages that a class has of abstract ones, which have no things that they could be sent to.
+fn from_above(document: &Document, id: ClassId) -> Vec<&Message> {
+    let line = document.primary_line(id);
+    let above = line.iter().enumerate().skip(1).take_while(|(_, c)| document.classes[**c].is_abstract);
+    let is_own = |at: usize, m: &Message| {
+        let below = line[..at].iter().flat_map(|c| &document.classes[*c].messages);
+        { below }.any(|other| other.name == m.name)
+    };
+    let all = above.flat_map(|(at, c)| {
+        let own = document.classes[*c].messages.iter();
+        own.filter(move |m| !m.is_of_class() && !is_own(at, m)).collect::<Vec<_>>()
+    });
+    all.collect()
 }
 
 /// Finds a construction.

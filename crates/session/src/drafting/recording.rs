@@ -3,7 +3,7 @@
 use super::blocks::Kind;
 use super::catalogue::Call;
 use super::dialogue::Operand;
-use super::{Dialogue, Home, Recording, text};
+use super::{Dialogue, Home, Recording, blocks, text};
 use crate::apply;
 use crate::document::Open;
 use crate::host::Host;
@@ -59,10 +59,22 @@ pub(crate) fn line(
             let name = name_of_other_branch(open, home, base)
                 .unwrap_or_else(|| free_name((state, of), base, &taken));
             let guide = if dialogue.is_guide { "guide " } else { "" };
-            let text = format!("{guide}{name} = {made}");
+            let mut text = format!("{guide}{name} = {made}");
+            let of = operands.first().map_or("", |operand| operand.text.as_str());
+            if dialogue.tool.is_in_place() && is_drawn_here(state, home, of) {
+                text += &format!("\nerase {of}");
+            }
             Line { name, text }
         }
     }
+}
+
+/// Whether a name is that of a step of the block that is drawn in.
+fn is_drawn_here(state: &State, home: &Home, name: &str) -> bool {
+    let Home::Program { program, .. } = home else { return false };
+    let body = text::block(&text::Source::now(state), program, &text::address_of(home));
+    let made = body.map(|body| text::names_made(&text::steps_of(&body)));
+    made.is_some_and(|made| made.iter().any(|known| known == name))
 }
 
 /// Returns the name that the first branch of an `if` gave to a thing of the same kind, which the second has not made
@@ -223,6 +235,7 @@ pub(crate) fn begin(open: &mut Open, host: &dyn Host, name: &str) -> Result<Chan
         own_values: None,
     });
     open.dialogue = None;
+    blocks::resume(open);
     Ok(change)
 }
 

@@ -300,7 +300,7 @@ pub(crate) fn as_typed(
     let step = &question.step;
     let is_there = |found: &scene::Found| {
         let owner = found.text.strip_prefix(step.as_str());
-        owner.is_some_and(|rest| rest.is_empty() || rest.starts_with('.')) && found.curve == was
+        owner.is_some_and(|rest| rest.is_empty() || rest.starts_with(['.', '['])) && found.curve == was
     };
     let all = scene::scene(state, home);
     let none =

@@ -50,7 +50,7 @@ fn every_construction_of_the_library_is_a_tool() {
         "Axis.directed(from,angle)",
         "Arc.fillet(first,second,radius)",
         "Point:mirrored",
-        "Circle:at",
+        "Line:at",
     ] {
         assert!(has(id), "{id}: {:?}", tools.iter().map(|t| &t.id).collect::<Vec<_>>());
     }
@@ -80,6 +80,54 @@ fn a_copy_of_a_small_circle_is_one_of_the_circle_not_of_its_centre() {
     let pattern = made(enter(&mut desk, "n"));
     assert_eq!(pattern, "polar pattern: circle, about Point(0, 0), count n; n is a count now");
     assert!(desk.text().contains("=> circle.turned("), "{}", desk.text());
+}
+
+#[test]
+fn a_line_is_trimmed_and_lengthened_in_its_place() {
+    let mut desk = Desk::recording("Trim", &[]);
+    for ends in [["0,0", "100,0"], ["60,-20", "60,20"]] {
+        begin(&mut desk, "Line");
+        enter(&mut desk, ends[0]);
+        made(enter(&mut desk, ends[1]));
+    }
+    begin(&mut desk, "Line:trimmed");
+    point(&mut desk, 30.0, 0.5);
+    made(point(&mut desk, 60.0, 10.0));
+    assert!(desk.text().contains("trimmed = "), "{}", desk.text());
+    assert_eq!(value(&desk, "trim.trimmed"), "(0, 0) to (60, 0)");
+    // the line that it was is seen no more; all of it is one step
+    assert!(desk.text().contains("trimmed = line.trimmed(at: line2)\n    erase line\n"), "{}", desk.text());
+    assert_eq!(desk.wrong(), []);
+    begin(&mut desk, "Line:extended");
+    point(&mut desk, 60.0, -10.0);
+    made(enter(&mut desk, "5"));
+    assert_eq!(value(&desk, "trim.line3"), "(60, -20) to (60, 25)");
+    desk.undo();
+    desk.undo();
+    assert!(!desk.text().contains("erase"), "{}", desk.text());
+    assert!(desk.text().contains("line2 = "), "{}", desk.text());
+}
+
+#[test]
+fn a_loop_that_was_broken_off_goes_on_when_its_program_is_recorded_again() {
+    let text = "use geometry\nprogram Row(n: Integer = 3) {\n    turns = repeat {\n        turns2 = repeat {\n            circle = Circle(center: Point(1, 0), radius: 3)\n        }\n    }\n    late = Point(0, 0)\n}\nrow: Row\n";
+    let mut desk = Desk::of(text);
+    desk.session.record(desk.id, "Row").expect("it is there");
+    let steps = desk.session.steps(desk.id, None).expect("it is recorded");
+    assert_eq!(steps.open.len(), 2);
+    for by in ["@10,0", "@0,10"] {
+        desk.session.end_turn(desk.id, Ends::Times).expect("its turn is drawn");
+        while let Some(Wants::Recurrence(question)) = desk.session.prompt(desk.id).map(|p| p.wants) {
+            match question.is_value {
+                true => drop(desk.session.same(desk.id)),
+                false => drop(enter(&mut desk, by)),
+            }
+        }
+        enter(&mut desk, "n");
+    }
+    assert_eq!(desk.wrong(), [], "{}", desk.text());
+    assert_eq!(value(&desk, "row.turns[1].turns2[2].circle.center"), "(21, 10)");
+    desk.session.stop_recording(desk.id).expect("nothing is open");
 }
 
 #[test]

@@ -196,6 +196,32 @@ impl Lab {
         Ok(table)
     }
 
+    /// Asks for the tables again that were asked for, and reads the shown document with what has changed: a spreadsheet
+    /// may have saved one meanwhile. While the server is away, what was read stays.
+    pub fn renew_tables(self) {
+        let Some(shown) = self.current.get_untracked() else { return };
+        let known = self.files.with_value(FileSet::tables);
+        if known.is_empty() {
+            return;
+        }
+        leptos::task::spawn_local(async move {
+            let mut is_other = false;
+            for (path, before) in known {
+                is_other |= self.table(&path).await.is_ok_and(|table| table != before);
+            }
+            while self.dragging.with_untracked(Option::is_some) {
+                js::painted().await;
+            }
+            if is_other && self.current.get_untracked() == Some(shown) {
+                self.flush_text();
+                self.tell(Session::catch_up);
+                self.refresh();
+                self.fetch_missing();
+                self.tables.update(|times| *times += 1);
+            }
+        });
+    }
+
     /// Forgets which tables were not there: by now they may be.
     pub fn forget_missing_tables(self) {
         self.files.update_value(FileSet::forget_missing_tables);
