@@ -1,7 +1,7 @@
 //! Drawing by constructions, and a program recorded by drawing one example: with the mouse, and without a line of text.
 
 use browser::Visit;
-use browser::drafting::{asked, calculate, define, enter, fill, pick, press, submit};
+use browser::drafting::{asked, calculate, define, enter, fill, has, pick, press, submit};
 use browser::hands::{state, text_of};
 
 #[tokio::test]
@@ -206,4 +206,36 @@ async fn a_family_is_a_grid_in_which_rows_are_changed_and_used() {
             "document.querySelector('.map circle.now') && document.querySelector('.map .look-2')",
         )
         .await;
+}
+
+#[tokio::test]
+async fn a_table_that_changed_is_read_again_and_a_block_of_cells_is_pasted() {
+    let visit = Visit::open(Some("bearing.thing")).await;
+    press(&visit, "#tab-family").await;
+    visit.until("document.querySelector(\"[data-row='6210']\")").await;
+    let table = include_str!("../../../gallery/bearing.csv");
+    visit.put("bearing.csv", &format!("{}\n6211,55,100,21,10\n", table.trim_end()));
+    // one comes back from the spreadsheet
+    visit.script("window.dispatchEvent(new Event('focus'))").await;
+    let outcome = |row: &str| {
+        format!("document.querySelector(\"[data-row='{row}'] .outcome\")?.innerText ?? ''")
+    };
+    visit.until(&format!("{} === 'drawn'", outcome("6211"))).await;
+    press(&visit, "[data-family='take']").await;
+    // two rows, the second without its last cell, from the row that is not there yet
+    visit.until("document.querySelector(\"[data-cell='11,0']\")").await;
+    visit
+        .script(
+            "const data = new DataTransfer();
+             data.setData('text/plain', '6212\\t60\\t110\\t22\\t10\\n6213\\t65\\t120\\t23\\t\\n');
+             document.querySelector(\"[data-cell='11,0']\").dispatchEvent(
+                 new ClipboardEvent('paste', { clipboardData: data, bubbles: true, cancelable: true }))",
+        )
+        .await;
+    visit.until(&format!("{} === 'drawn'", outcome("6213"))).await;
+    has(&visit, "(\"6212\", 60, 110, 22, 10)").await;
+    // what is refused is marked where it stands
+    submit(&visit, "[data-cell='12,1']", "5 kg").await;
+    visit.until("document.querySelector(\"[data-cell='12,1'][aria-invalid='true']\")").await;
+    visit.picture("family-pasted").await;
 }

@@ -518,3 +518,40 @@ async fn a_box_is_drawn_by_one_drag_while_a_program_is_recorded() {
     hands::drag(&visit, (500.0, 500.0), (700.0, 380.0)).await;
     visit.until("/rectangle = Rectangle.between\\(/.test(window.__thinglab.state().text)").await;
 }
+
+#[tokio::test]
+async fn a_recording_that_was_broken_off_goes_on_in_its_loop() {
+    let visit = Visit::open_empty().await;
+    visit.until("document.getElementById('picture')?.width > 10").await;
+    hands::use_library(&visit, "contours").await;
+    record(&visit, "Flange", &[("pitch", "20", "")]).await;
+    // a slot at the top, and three more around the middle
+    construct(&visit, "Contour.slot(from,to,radius)").await;
+    for typed in ["30<90", "@20<0", "4"] {
+        enter(&visit, typed).await;
+    }
+    construct(&visit, ":pattern(about,count)").await;
+    pick(&visit, 10.0, 34.0).await;
+    enter(&visit, "0,0").await;
+    enter(&visit, "4").await;
+    has(&visit, "=> contour.turned(about: Point(0, 0), by: nth * 360 deg / 4)").await;
+    press(&visit, "[data-draft='repeat']").await;
+    construct(&visit, "Circle").await;
+    enter(&visit, "50,5").await;
+    enter(&visit, "3").await;
+    has(&visit, "circle = Circle(center: Point(50, 5), radius: 3)").await;
+    visit.leave_and_return().await;
+    visit.until("document.querySelector('.notice .primary')").await;
+    press(&visit, ".notice .primary").await;
+    record(&visit, "Flange", &[]).await;
+    press(&visit, "[data-draft='times']").await;
+    asked(&visit, "was (50, 5)").await;
+    // so far on from the hole of the turn before
+    enter(&visit, "@pitch,0").await;
+    asked(&visit, "how many turns").await;
+    enter(&visit, "3").await;
+    has(&visit, "repeat 3 times with center = Point(50, 5)").await;
+    visit.until("document.querySelector(\"[data-step='turns']\").innerText.includes('3 turns')").await;
+    visit.picture("flange").await;
+    press(&visit, "[data-draft='stop']").await;
+}

@@ -33,7 +33,8 @@ impl Session {
         let programs = document
             .classes
             .iter()
-            .filter(|(id, c)| c.program.is_some() && document.class_named(&c.name) == Some(*id));
+            .filter(|(id, c)| document.class_named(&c.name) == Some(*id))
+            .filter(|(_, c)| c.program.is_some() && !c.is_abstract);
         programs.map(|(_, class)| class.name.to_string()).collect()
     }
 
@@ -197,6 +198,56 @@ impl Session {
         })
     }
 
+    /// Says anew what stands in a block of cells, as spreadsheets copy one: cells with tabs between, a row a line. `from`
+    /// are its first row and its first cell, of which the name is the first. Rows that are not there yet are added.
+    /// All of it is one step.
+    ///
+    /// # Errors
+    /// The rows do not stand in the document; the block is wider than the grid, or leaves rows out; a cell is no value.
+    pub fn set_family_cells(
+        &mut self,
+        id: DocumentId,
+        family: &str,
+        from: (usize, usize),
+        block: &str,
+    ) -> Result<Change, Refusal> {
+        let rows: Vec<Vec<&str>> = {
+            let lines = block.trim_end_matches(['\n', '\r']).lines();
+            lines.map(|line| line.split('\t').map(cell_alone).collect()).collect()
+        };
+        let label = match rows.as_slice() {
+            [row] if row.len() == 1 => format!("set a cell of {family}"),
+            _ => format!("paste into {family}"),
+        };
+        self.with_family(id, (family, label), |_, grid, lines| {
+            let all = 1 + grid.columns.len();
+            let wide = from.1 + rows.iter().map(Vec::len).max().unwrap_or_default();
+            if wide > all {
+                let message = format!("what is pasted ends {} columns beyond the grid", wide - all);
+                return Err(words::refuse(message));
+            }
+            if from.0 > lines.len() {
+                return Err(words::refuse(format!("{family} has no row {}", from.0)));
+            }
+            for (at, row) in (from.0..).zip(&rows) {
+                if at == lines.len() {
+                    let name = free_number(lines);
+                    lines.push(Line { name, cells: vec![None; grid.columns.len()] });
+                }
+                for (column, cell) in (from.1..).zip(row) {
+                    match column.checked_sub(1) {
+                        None if cell.is_empty() => {}
+                        None => lines[at].name = (*cell).into(),
+                        Some(column) => {
+                            lines[at].cells[column] = (!cell.is_empty()).then(|| (*cell).into());
+                        }
+                    }
+                }
+            }
+            Ok(())
+        })
+    }
+
     /// Adds a row with the values of a thing that the program draws; without one with those of the program's own
     /// example.
     ///
@@ -214,11 +265,7 @@ impl Session {
                 lines.iter().enumerate().all(|(i, line)| line.name == (i + 1).to_string());
             let name = match (is_numbered, of) {
                 (false, Some(of)) if lines.iter().all(|line| line.name != of) => of.to_string(),
-                _ => {
-                    let mut numbers = (lines.len() + 1..).map(|n| n.to_string());
-                    let is_free = |n: &String| lines.iter().all(|line| line.name != *n);
-                    numbers.find(is_free).unwrap_or_default()
-                }
+                _ => free_number(lines),
             };
             let cells = match of {
                 Some(of) => {
@@ -400,6 +447,19 @@ impl Session {
         }
         Ok(change)
     }
+}
+
+/// What stands in a cell that was copied, without the quotes around it.
+fn cell_alone(cell: &str) -> &str {
+    let cell = cell.trim();
+    cell.strip_prefix('"').and_then(|cell| cell.strip_suffix('"')).unwrap_or(cell).trim()
+}
+
+/// A number that no row is called by.
+fn free_number(lines: &[Line]) -> String {
+    let mut numbers = (lines.len() + 1..).map(|n| n.to_string());
+    let is_free = |n: &String| lines.iter().all(|line| line.name != *n);
+    numbers.find(is_free).unwrap_or_default()
 }
 
 /// The path of a thing that a program draws, and the names of its parameters.

@@ -98,6 +98,33 @@ fn rows_are_added_from_what_is_drawn_and_deleted() {
 }
 
 #[test]
+fn a_block_of_cells_is_pasted_from_a_spreadsheet() {
+    let mut desk = Desk::of(DISCS);
+    let before = desk.text();
+    let block = "12\t3 mm\n\"14 mm\"\t\n16\t4 mm\n";
+    desk.session.set_family_cells(desk.id, "Sold", (1, 1), block).expect("all are lengths");
+    let rows = cells(&desk, "Sold");
+    assert_eq!(rows[1], named("D30", ["12", "3 mm", ""]));
+    assert_eq!(rows[2], named("3", ["14 mm", "", ""]));
+    assert_eq!(rows[3], named("4", ["16", "4 mm", ""]));
+    desk.undo();
+    assert_eq!(desk.text(), before);
+    // a row is made by what is typed in the one that is not there yet
+    desk.session.set_family_cells(desk.id, "Sold", (2, 0), "D50").expect("it is a name");
+    assert_eq!(cells(&desk, "Sold")[2], named("D50", ["", "", ""]));
+    for (from, block, why) in [
+        ((0, 3), "3\t4", "what is pasted ends 1 columns beyond the grid"),
+        ((9, 1), "3", "Sold has no row 9"),
+        ((0, 1), "10\tx", "hole: "),
+    ] {
+        let wrong = desk.session.set_family_cells(desk.id, "Sold", from, block);
+        let wrong = wrong.expect_err("it does not fit").message;
+        assert!(wrong.starts_with(why), "{wrong}");
+    }
+    assert!(!desk.session.programs(desk.id).contains(&"Rounding".to_string()));
+}
+
+#[test]
 fn a_family_is_begun_and_leaves_and_comes_as_a_table() {
     let mut desk = Desk::of(DISCS);
     let (_, name) = desk.session.begin_family(desk.id, "Disc").expect("it has parameters");

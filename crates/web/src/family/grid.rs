@@ -1,7 +1,7 @@
 //! The rows of a family as a grid: each cell a field, each row with what comes of it.
 
 use super::{Family, MOST_ROWS};
-use crate::{icons, words};
+use crate::{icons, js, words};
 use leptos::ev::KeyboardEvent;
 use leptos::prelude::*;
 use session::view::{FamilyRow, RowUse};
@@ -25,6 +25,10 @@ pub fn Grid(
         let row = |(at, row)| view! { <Row family=family at=at row=row /> };
         shown.into_iter().enumerate().map(row).collect_view()
     };
+    let new_row = move || {
+        let (at, is_own) = grid.with(|grid| (grid.rows.len(), grid.is_own));
+        (is_own && at < MOST_ROWS).then(|| view! { <NewRow family=family at=at /> })
+    };
     let head = move || {
         let columns = grid.with(|grid| grid.columns.clone());
         let one = |column: session::view::GridColumn| {
@@ -32,7 +36,8 @@ pub fn Grid(
         };
         columns.into_iter().map(one).collect_view()
     };
-    let is_empty = move || grid.with(|grid| grid.rows.is_empty());
+    // an own family has the row that is not there yet
+    let is_empty = move || grid.with(|grid| grid.rows.is_empty() && !grid.is_own);
     let nothing = move || match grid.with(|grid| (grid.name == grid.program, grid.table.is_some()))
     {
         (true, _) => words::NO_FAMILY,
@@ -48,13 +53,56 @@ pub fn Grid(
                         <th scope="col">{words::ROW_OUTCOME}</th>
                         <th scope="col"><span class="unseen">{words::ROW_SET}</span></th>
                     </tr></thead>
-                    <tbody>{rows}</tbody>
+                    <tbody>{rows}{new_row}</tbody>
                 </table>
             </Show>
             <p class="quiet" role="status">{counted}</p>
             {move || grid.with(|grid| grid.notes.clone()).into_iter().map(|note| view! { <p class="quiet">{note}</p> }).collect_view()}
             {move || (more() > 0).then(|| view! { <p class="quiet">{words::more_rows(more())}</p> })}
         </div>
+    }
+}
+
+/// The row that is not there yet: what is typed in a cell of it makes it.
+#[component]
+fn NewRow(family: Family, at: usize) -> impl IntoView {
+    let columns = family.grid.with_untracked(|grid| grid.columns.clone());
+    let change = move |column: usize, typed: &str| {
+        if !typed.trim().is_empty() {
+            family.edit(|session, id, name| {
+                session.set_family_cells(id, name, (at, column), typed)
+            });
+        }
+    };
+    let cell = move |(index, column): (usize, session::view::GridColumn)| {
+        view! {
+            <td><input class="field" autocomplete="off" spellcheck="false" aria-label=words::cell_of(&column.name, words::NEW_ROW)
+                placeholder=column.example data-cell=format!("{at},{}", index + 1)
+                on:paste=move |e| paste(family, (at, index + 1), &e) on:keydown=move |e| walk(&e)
+                on:change=move |e| change(index + 1, &event_target_value(&e)) /></td>
+        }
+    };
+    view! {
+        <tr class="new">
+            <th scope="row"><input class="field" autocomplete="off" spellcheck="false" aria-label=words::cell_of(words::ROW_NAME, words::NEW_ROW)
+                placeholder=words::NEW_ROW data-cell=format!("{at},0")
+                on:paste=move |e| paste(family, (at, 0), &e) on:keydown=move |e| walk(&e)
+                on:change=move |e| change(0, &event_target_value(&e)) /></th>
+            {columns.into_iter().enumerate().map(cell).collect_view()}
+            <td></td><td></td>
+        </tr>
+    }
+}
+
+/// Takes a block of cells that was copied in a spreadsheet, from a cell on; what is one cell is typed as always.
+fn paste(family: Family, from: (usize, usize), e: &web_sys::ClipboardEvent) {
+    let data = js::field(e.as_ref(), "clipboardData");
+    let Ok(read) = js::field(&data, "getData").dyn_into::<js_sys::Function>() else { return };
+    let block = read.call1(&data, &"text/plain".into()).ok().and_then(|text| text.as_string());
+    let block = block.unwrap_or_default();
+    if block.trim_end().contains(['\t', '\n']) {
+        e.prevent_default();
+        family.edit(|session, id, name| session.set_family_cells(id, name, from, &block));
     }
 }
 
@@ -73,12 +121,16 @@ fn Row(family: Family, at: usize, row: FamilyRow) -> impl IntoView {
         let cell = (at, column.as_deref());
         family.edit(|session, id, name| session.set_family_cell(id, name, cell, typed))
     };
+    let is_name_wrong = RwSignal::new(false);
     let cell = move |(index, column): (usize, session::view::GridColumn)| {
         let value = grid.with_untracked(|grid| grid.cell(at, index).to_string());
         let label = words::cell_of(&column.name, &row.with_value(|row| row.name.clone()));
         let named = column.name.clone();
+        // what was refused stays, marked, until it is said otherwise
+        let is_wrong = RwSignal::new(false);
         let change = move |e: leptos::ev::Event| {
-            set(Some(named.clone()), &event_target_value(&e));
+            let is_set = set(Some(named.clone()), &event_target_value(&e));
+            let _ = is_wrong.try_set(!is_set);
         };
         let options: Vec<_> = column
             .choices
@@ -92,7 +144,9 @@ fn Row(family: Family, at: usize, row: FamilyRow) -> impl IntoView {
         view! {
             <td>{choices}<input class="field" autocomplete="off" spellcheck="false" aria-label=label list=list
                 placeholder=column.example readonly=!is_own data-cell=format!("{at},{}", index + 1)
-                prop:value=value on:change=change on:keydown=move |e| walk(&e) /></td>
+                aria-invalid=move || is_wrong.get().to_string()
+                prop:value=value on:change=change on:paste=move |e| paste(family, (at, index + 1), &e)
+                on:keydown=move |e| walk(&e) /></td>
         }
     };
     let delete = move |_| {
@@ -111,8 +165,9 @@ fn Row(family: Family, at: usize, row: FamilyRow) -> impl IntoView {
         <tr class:bad=is_bad data-row=mark>
             <th scope="row"><input class="field" autocomplete="off" spellcheck="false" readonly=!is_own
                 aria-label=name_label data-cell=format!("{at},0")
-                prop:value=row_name on:keydown=move |e| walk(&e)
-                on:change=move |e| { set(None, &event_target_value(&e)); } /></th>
+                prop:value=row_name on:paste=move |e| paste(family, (at, 0), &e) on:keydown=move |e| walk(&e)
+                aria-invalid=move || is_name_wrong.get().to_string()
+                on:change=move |e| { let _ = is_name_wrong.try_set(!set(None, &event_target_value(&e))); } /></th>
             {columns.into_iter().enumerate().map(cell).collect_view()}
             <td class="outcome">{said}</td>
             <td class="uses">

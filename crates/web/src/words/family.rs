@@ -24,6 +24,8 @@ pub const GIVE_CSV: &str = "Save CSV";
 pub const TAKE_TABLE: &str = "Take the rows into the document";
 /// The names of the rows.
 pub const ROW_NAME: &str = "name";
+/// The row that is not there yet.
+pub const NEW_ROW: &str = "new row";
 /// What comes of the rows.
 pub const ROW_OUTCOME: &str = "outcome";
 /// The values of a row go to the example.
