@@ -116,8 +116,10 @@ fn Number(lab: Lab, of: Of, nth: usize, number: StepOperand) -> impl IntoView {
         }
         _ => {}
     };
+    // what lies below is picked while a construction waits for it
+    let waits = move || lab.drafting.prompt.with(Option::is_some);
     view! {
-        <div class="step-number" style:left=move || format!("{}px", place().0)
+        <div class="step-number" class:passed=waits style:left=move || format!("{}px", place().0)
             style:top=move || format!("{}px", place().1 + 24.0 * nth as f64)>
             <Show when=move || is_typed.get() fallback=move || {
                 let (label, slot) = (label.clone(), slot.clone());
