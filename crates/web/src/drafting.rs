@@ -283,6 +283,16 @@ impl Lab {
         self.show_waiting();
     }
 
+    /// Gives up a measure that is being taken, and nothing of what was typed; returns whether one was.
+    pub fn leave_measure(self) -> bool {
+        let is_left = self.tell(session::Session::leave_measure) == Some(true);
+        if is_left {
+            let prompt = self.ask_of_shown(session::Session::prompt).flatten();
+            self.show_prompt_with(prompt, self.drafting.typed.get_untracked());
+        }
+        is_left
+    }
+
     /// Gives the construction up.
     pub fn draft_end(self) {
         self.tell(session::Session::give_up);

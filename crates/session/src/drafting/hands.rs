@@ -471,6 +471,11 @@ impl Session {
         prompt(open)
     }
 
+    /// Gives up a measure that is being taken; returns whether one was.
+    pub fn leave_measure(&mut self, id: DocumentId) -> bool {
+        self.document_mut(id).picking.measure.take().is_some()
+    }
+
     /// Says what something is for the program that was picked outside of it, and gives it as the operand.
     ///
     /// # Errors

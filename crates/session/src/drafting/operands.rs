@@ -137,6 +137,10 @@ fn operands_of(value: &Expr) -> Vec<(String, Expr)> {
     if let Some(pattern) = catalogue::pattern_of(value) {
         return pattern.parts.into_iter().map(|(slot, value)| (slot.to_string(), value)).collect();
     }
+    // a point is a place as a whole: the next one may lie elsewhere
+    if is_point(value) {
+        return vec![("at".into(), value.clone())];
+    }
     let is_capital = |text: &str| text.trim().starts_with(char::is_uppercase);
     let (receiver, list) = match value {
         Expr::Call(call) if call.name().is_some_and(|w| is_capital(w.text())) => {
@@ -161,14 +165,19 @@ fn ordinal(i: usize) -> String {
     ["first", "second", "third"].get(i).map_or_else(|| format!("operand{}", i + 1), |n| (*n).into())
 }
 
+/// Whether an expression is a point by its coordinates: `Point(3, d / 2)`.
+fn is_point(value: &Expr) -> bool {
+    let Expr::Call(call) = value else { return false };
+    call.name().is_some_and(|word| word.text() == "Point")
+}
+
 /// Whether an operand is a place that is written by numbers: `Point(3, 4)`.
 fn is_place(value: &Expr) -> bool {
     let Expr::Call(call) = value else { return false };
     let is_number = |argument: syntax::ast::Arg| {
         argument.value().is_some_and(|x| super::typed::is_number(&x.syntax().text().to_string()))
     };
-    let is_point = call.name().is_some_and(|word| word.text() == "Point");
-    is_point && call.args().is_some_and(|list| list.args().all(is_number))
+    is_point(value) && call.args().is_some_and(|list| list.args().all(is_number))
 }
 
 /// Whether an operand speaks of something that its turn has not made: not a literal, not a class or function.

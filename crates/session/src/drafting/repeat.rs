@@ -77,6 +77,11 @@ impl Loop {
     pub(crate) fn prompt(&self) -> Option<Prompt> {
         if let Some(question) = self.question() {
             let RecurrenceQuestion { number, of, step, operand, first, .. } = &question;
+            // an `if` has no name
+            let step = match step.rsplit('.').next().is_some_and(text::is_name) {
+                true => step.as_str(),
+                false => "the block",
+            };
             let first = &steps::as_typed(first, "").unwrap_or_else(|| first.clone());
             let words = match &question.element {
                 Some(_) => format!(

@@ -1,7 +1,7 @@
 //! Constructions chosen and given their operands; programs recorded so.
 
 use crate::desk::{Desk, at};
-use session::drafting::view::{Ends, Go, NewParameter, RecurrenceQuestion, Turn, Wants};
+use session::drafting::view::{Ends, Go, MeasureKind, NewParameter, RecurrenceQuestion, Turn, Wants};
 use session::view::Pointer;
 
 fn pointer(x: f64, y: f64) -> Pointer {
@@ -164,6 +164,34 @@ fn a_step_is_moved_to_another_place_that_is_picked_or_typed() {
     change(&mut desk);
     enter(&mut desk, "7,8");
     assert!(desk.text().contains("Circle(center: Point(7, 8), radius: 3)"), "{}", desk.text());
+}
+
+#[test]
+fn the_place_of_a_point_in_a_loop_is_asked_for() {
+    let mut desk = Desk::recording("Row", &[("pitch", "20")]);
+    desk.session.begin_loop(desk.id, "").expect("a program is recorded");
+    begin(&mut desk, "Point");
+    made(enter(&mut desk, "0,0"));
+    begin(&mut desk, "Circle");
+    point(&mut desk, 0.0, 0.0);
+    made(enter(&mut desk, "3"));
+    desk.session.end_turn(desk.id, Ends::Times).expect("a turn is drawn");
+    let asked = desk.session.prompt(desk.id).expect("it asks").words;
+    assert!(asked.starts_with("at of point was (0, 0)"), "{asked}");
+    enter(&mut desk, "@pitch,0");
+    enter(&mut desk, "3");
+    assert_eq!(value(&desk, "row.turns.last.circle"), "centre (40, 0), radius 3");
+}
+
+#[test]
+fn a_measure_is_given_up_alone() {
+    let mut desk = Desk::recording("Row", &[]);
+    begin(&mut desk, "Circle");
+    enter(&mut desk, "1,2");
+    desk.session.begin_measure(desk.id, MeasureKind::Distance);
+    assert!(desk.session.leave_measure(desk.id) && !desk.session.leave_measure(desk.id));
+    // the construction waits still
+    made(enter(&mut desk, "3"));
 }
 
 #[test]

@@ -514,6 +514,8 @@ pub const ACTIONS: &[Action] = &[
                 lab.cancel();
             } else if lab.stop_job() || lab.stop_sweeping() {
                 // what else there is, another Esc ends
+            } else if lab.leave_measure() {
+                // what it is for is still asked
             } else if lab.drafts() {
                 lab.draft_end();
             } else if lab.tool.with_untracked(Option::is_some) {
