@@ -188,8 +188,10 @@ fn in_the_browser(length: Length, page: Page, programs: &Receiver<Programs>) -> 
         Length::Long => Effort::Full,
     };
     let built = bundle::build(&tools::wasm_compiler().expect("required above"), effort);
-    heading("the page is built");
     let mut count = Count::one(built.is_ok());
+    if built.is_ok() {
+        heading("the page is built");
+    }
     match &built {
         Ok(Some(made)) if page == Page::AsItIsBuilt => {
             count.add(Count::one(made.is_clean));
@@ -287,8 +289,8 @@ fn tested(command: &mut Command, name: &str, show: Show) -> Count {
     }
     let ended_well = child.wait().is_ok_and(|status| status.success());
     if show == Show::AtTheEnd {
-        heading(name);
-        say!("{}", kept.join("\n"));
+        // at once, since another thread prints beside it
+        heading(&format!("{name}\n{}", kept.join("\n")));
     }
     if !ended_well && count.failed == 0 {
         say!("{name}: they broke off");

@@ -215,9 +215,12 @@ impl Lowerer<'_> {
             let message = "a column of a table is allowed of a parameter of a program alone";
             let d = Diagnostic::error("not-a-domain", place, message);
             let (file, name) = (column.file(), column.name());
-            self.report(d.hint(format!(
-                "a program asks for it: `program Bolt({name}: … in \"{file}\".{name} = …) {{ … }}`"
-            )));
+            self.report(match crate::tables::is_name(&file) {
+                true => d.hint(format!(
+                    "a program asks for it: `program Part(… in \"{file}\".{name} = …) {{ … }}`"
+                )),
+                false => d,
+            });
             return None;
         }
         match range {

@@ -118,13 +118,12 @@ pub fn read_literal(
     let broken = || Diagnostic::error("not-a-value", place, format!("`{typed}` is no value"));
     if let Some(d) = parse.diagnostics().first() {
         return Err(match crate::files::word_for_unit(&parse, d) {
-            Some(word) => {
-                let before = (typed.len() - typed.trim_start().len()) as u32;
-                let Span { start, end } = syntax::span_of_token(&word);
-                let place = Place { file: OWN, span: Span::new(before + start, before + end) };
-                crate::hints::unknown_unit(place, word.text())
+            Some(word) if matches!(primitive, None | Some(Primitive::Real(_))) => {
+                let unit = crate::hints::unknown_unit(place, word.text());
+                let hint = unit.hint.map(|hint| format!("{}; {hint}", unit.message));
+                broken().hint(hint.unwrap_or(unit.message))
             }
-            None => broken().hint(d.message.clone()),
+            Some(_) | None => broken().hint(d.message.clone()),
         });
     }
     let expr = parse.file().expression().ok_or_else(broken)?;

@@ -153,8 +153,7 @@ impl Planner {
     }
     /// Returns true if something cannot be planned on the course that is taken that could be on another.
     pub(crate) fn is_faulty_beside(&self, other: &LoweringReport) -> bool {
-        let known: BTreeSet<OriginId> = other.course_faults.iter().map(|f| f.origin).collect();
-        self.lowering.course_faults.iter().any(|fault| !known.contains(&fault.origin))
+        !self.lowering.left_out.is_subset(&other.left_out)
     }
     /// Returns what cannot be planned on the course that is taken, besides what cannot be planned on any.
     pub fn course_faults(&self) -> &[Fault] {

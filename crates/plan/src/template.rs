@@ -19,6 +19,7 @@ use kernel::{
     ClassId, ConstraintInstance, Document, OriginId, SlotId, Strength, Structure, Values,
 };
 use solve::{Level, Patterns, Span};
+use std::collections::BTreeSet;
 use std::rc::Rc;
 
 /// How many ways of being built one constraint is remembered for.
@@ -198,6 +199,8 @@ pub(crate) struct LoweringReport {
     pub(crate) faults: Vec<Fault>,
     /// What besides cannot be planned on the course that is taken.
     pub(crate) course_faults: Vec<Fault>,
+    /// The constraints of the structure that all of these left out.
+    pub(crate) left_out: BTreeSet<u32>,
     /// The rules that are left out until there is a state that says how many they speak of.
     pub(crate) awaiting: Vec<OriginId>,
     /// The courses that are taken in what the rules say, and in what cannot be planned on them.
@@ -234,7 +237,7 @@ pub(crate) fn lower_all(
     let structure = model.structure;
     let shapes = std::mem::take(&mut known.shapes);
     let mut rules = Rules::over(shapes, structure.constraints.len());
-    let (mut faults, mut awaiting) = (Vec::new(), Vec::new());
+    let (mut faults, mut awaiting, mut left_out) = (Vec::new(), Vec::new(), BTreeSet::new());
     let mut guarded = Vec::new();
     let mut opening = Opening::new(model.document, structure);
     opening.at = on;
@@ -273,6 +276,7 @@ pub(crate) fn lower_all(
             }
             Err(fault) => {
                 faults.push(fault);
+                left_out.insert(index);
                 // decided otherwise, it may be planned
                 guards.extend(opening.guards(patterns));
                 continue;
@@ -299,6 +303,7 @@ pub(crate) fn lower_all(
     let report = LoweringReport {
         faults,
         course_faults: Vec::new(),
+        left_out,
         awaiting,
         guards,
         has_courses: opening.has_courses,

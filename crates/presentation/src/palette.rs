@@ -35,7 +35,11 @@ pub fn called<'m>(all: &'m [Makeable], typed: &str) -> Option<&'m Makeable> {
         let first = ones.next()?;
         Some(std::iter::once(first).chain(ones).find(|one| one.unused.is_none()).unwrap_or(first))
     };
-    let only = || all.first().filter(|_| all.len() == 1);
+    let alone = |ones: &[&'m Makeable]| ones.first().copied().filter(|_| ones.len() == 1);
+    let only = || {
+        let used: Vec<&Makeable> = all.iter().filter(|one| one.unused.is_none()).collect();
+        alone(&used).or_else(|| alone(&all.iter().collect::<Vec<_>>()))
+    };
     by(&|class| class == typed).or_else(|| by(&|class| class.starts_with(&typed))).or_else(only)
 }
 
@@ -147,10 +151,11 @@ mod tests {
         ];
         let meant = |typed| called(&all, typed).map(|one| one.class.as_str());
         assert_eq!(meant("constant"), Some("Constant"));
-        assert_eq!(meant("constant l"), None);
         assert_eq!(meant("const"), Some("ConstantLengthLine"));
-        assert_eq!(meant("product"), None);
-        assert_eq!(called(&all[2..], "product").map(|one| one.class.as_str()), Some("Times"));
+        // of what the words were found in, the only one in use, else the only one
+        assert_eq!(meant("product"), Some("ConstantLengthLine"));
+        let found = |from: usize| called(&all[from..], "product").map(|one| one.class.as_str());
+        assert_eq!((found(1), found(2)), (None, Some("Times")));
     }
 
     #[test]

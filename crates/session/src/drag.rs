@@ -82,16 +82,15 @@ pub(crate) fn begin(open: &mut Open, paths: &[Path]) -> Result<(f64, f64), Refus
         Aim::Thing(thing) => press(&state, &mut open.planner, &[thing], path.clone()),
         Aim::Term(term) => {
             let answer = state.evaluator(&state.values).at(path).ok();
+            let held = answer.as_ref().map(|answer| held_by(&state, answer)).unwrap_or_default();
             match (answer.as_ref().and_then(numbers_of), path.0.split_last()) {
                 // what a program drew that is no place is held by what it is a part of
                 (None, Some((_, whole))) if !whole.is_empty() => {
                     return begin(open, &[Path(whole.to_vec())]);
                 }
                 // a figure is held by the things that it is made about
-                (None, Some(_)) if answer.as_ref().is_some_and(is_about_things) => {
-                    let things: BTreeSet<ThingId> = answer.iter().flat_map(things_of).collect();
-                    let things: Vec<ThingId> = things.into_iter().collect();
-                    press(&state, &mut open.planner, &things, path.clone())
+                (None, Some(_)) if !held.is_empty() => {
+                    press(&state, &mut open.planner, &held, path.clone())
                 }
                 _ => press_computed(&state, &mut open.planner, term, path.clone()),
             }
@@ -153,12 +152,10 @@ fn begin_several(open: &mut Open, paths: &[Path]) -> Result<(f64, f64), Refusal>
     };
     let mut moving: Vec<(Path, ThingId)> = Vec::new();
     let mut computed: Vec<(&Path, Term)> = Vec::new();
-    // beside what moves, a figure follows as its construction says; where figures alone are dragged, all have to
-    let (figures, others): (Vec<&Path>, Vec<&Path>) =
-        paths.iter().partition(|path| is_figure(path));
-    let alone = if others.is_empty() { figures } else { Vec::new() };
-    let is_made = |path: &&Path| state.evaluator(&state.values).at(path).is_ok();
-    for path in others.into_iter().chain(alone.into_iter().filter(is_made)) {
+    // what is not there has no place; by itself it is told why
+    let is_made =
+        |path: &&Path| !is_figure(path) || state.evaluator(&state.values).at(path).is_ok();
+    for path in paths.iter().filter(is_made) {
         match apply::aim(&state, path)? {
             Aim::Thing(thing) if !places(&state.structure, &[thing]).is_empty() => {
                 moving.push((path.clone(), thing));
@@ -170,7 +167,7 @@ fn begin_several(open: &mut Open, paths: &[Path]) -> Result<(f64, f64), Refusal>
             }
             Aim::Term(term) => {
                 let answer = state.evaluator(&state.values).at(path).ok();
-                let about = answer.as_ref().filter(|_| is_figure(path)).map(things_of);
+                let about = answer.filter(|_| is_figure(path)).map(|a| held_by(&state, &a));
                 match about.unwrap_or_default() {
                     about if about.is_empty() => computed.push((path, term)),
                     about => moving.extend(about.into_iter().map(|thing| (path.clone(), thing))),
@@ -180,7 +177,7 @@ fn begin_several(open: &mut Open, paths: &[Path]) -> Result<(f64, f64), Refusal>
     }
     all_go_along(&state, &open.planner, &moving, &computed)?;
     let alone = match moving.as_slice() {
-        [] => computed.first().map(|(path, _)| *path),
+        [] => computed.first().map(|(path, _)| *path).or(paths.first()),
         [(path, _)] => Some(path),
         _ => None,
     };
@@ -233,31 +230,31 @@ fn read_by(state: &State, term: &Term) -> BTreeSet<SlotId> {
     read.into_iter().collect()
 }
 
-/// Returns true for what is made about things of the document, and is none itself.
-fn is_about_things(answer: &Answer<'_>) -> bool {
-    !matches!(answer, Answer::Thing(_)) && !things_of(answer).is_empty()
+/// Lists the things of the document that a figure is made about and moves with, each once; none where one of its places
+/// is computed otherwise, which would stay behind.
+fn held_by(state: &State, figure: &Answer<'_>) -> Vec<ThingId> {
+    let mut things = BTreeSet::new();
+    let is_held = match figure {
+        Answer::Thing(_) => false,
+        _ => moves_with(state, figure, &mut things),
+    };
+    if is_held { things.into_iter().collect() } else { Vec::new() }
 }
 
-/// Lists the things of the document in an answer.
-fn things_of(answer: &Answer<'_>) -> Vec<ThingId> {
-    let mut things = Vec::new();
-    things_in(answer, &mut things);
-    things
-}
-
-/// Adds the things of the document in an answer: the centre of a circle that is made about it.
-fn things_in(answer: &Answer<'_>, things: &mut Vec<ThingId>) {
+/// Adds the things that what was made moves with; returns false where that is not all of it.
+fn moves_with(state: &State, answer: &Answer<'_>, things: &mut BTreeSet<ThingId>) -> bool {
     match answer {
-        Answer::Thing(thing) => things.push(*thing),
-        Answer::Made(made) => made.fields.iter().for_each(|field| things_in(field, things)),
-        Answer::List(list) => list.iter().for_each(|element| things_in(element, things)),
-        Answer::Number(..)
-        | Answer::Bool(_)
-        | Answer::Option(..)
-        | Answer::Text(_)
-        | Answer::Context(_)
-        | Answer::Picture(_)
-        | Answer::Function(_) => {}
+        Answer::Thing(thing) => {
+            things.insert(*thing);
+            !places(&state.structure, &[*thing]).is_empty()
+        }
+        Answer::Made(made) => {
+            let is_place = state.lowered.document.is_place(made.class);
+            !is_place && made.fields.iter().all(|field| moves_with(state, field, things))
+        }
+        Answer::List(list) => list.iter().all(|element| moves_with(state, element, things)),
+        Answer::Number(..) | Answer::Bool(_) | Answer::Option(..) | Answer::Text(_) => true,
+        Answer::Context(_) | Answer::Picture(_) | Answer::Function(_) => false,
     }
 }
 

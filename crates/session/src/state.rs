@@ -108,22 +108,9 @@ impl State {
     }
     /// Returns true for a constraint of the structure that has a place in a plan.
     pub(crate) fn is_planned(&self, index: u32) -> bool {
-        !self.unplanned.contains(&self.constraint_origin(index))
-    }
-    /// Returns the member that a constraint of the structure comes from.
-    pub(crate) fn constraint_origin(&self, index: u32) -> OriginId {
         let instance = self.structure.constraints[index as usize];
         let class = &self.lowered.document.classes[instance.class];
-        class.constraints[instance.index as usize].origin
-    }
-    /// Returns what cannot be planned on the course that the planner is on, and could be where the state was made.
-    pub(crate) fn unplanned_now<'p>(
-        &self,
-        planner: &'p Planner,
-    ) -> impl Iterator<Item = &'p plan::Fault> {
-        let is_new =
-            |f: &&plan::Fault| !self.unplanned.contains(&f.origin) && !follows(&self.lowered, f);
-        planner.course_faults().iter().filter(is_new)
+        !self.unplanned.contains(&class.constraints[instance.index as usize].origin)
     }
     /// Returns what holds and what is free. A rule that no plan keeps is tested all the same.
     pub(crate) fn status(&self, planner: &mut Planner) -> Status {

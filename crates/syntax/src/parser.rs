@@ -204,6 +204,14 @@ impl<'t> Parser<'t> {
             word => word,
         }
     }
+    /// Returns true if the member before this one replaces a part: `replace z: Real`.
+    pub(crate) fn declared_before(&self) -> bool {
+        let kind = self.tokens.get(self.previous + 2).map_or(Eof, |token| token.kind);
+        kind == SyntaxKind::Colon
+            && self
+                .text_between(self.previous + 3, self.previous + 3)
+                .starts_with(char::is_uppercase)
+    }
     /// The first word of the present member.
     pub(crate) fn member_word(&self) -> &'t str {
         self.text_between(self.member, self.member)
@@ -222,17 +230,31 @@ impl<'t> Parser<'t> {
             false => line.to_string(),
         }
     }
-    /// What a hint quotes of the rest of the line, from a token that stands on it.
+    /// What a hint quotes of the rest of a member on this line, from a token that stands on it.
     pub(crate) fn quoted_line(&self, first: usize) -> String {
-        let ends = |at: &usize| {
-            let (next, body) = (self.tokens[at + 1], SyntaxKind::RBrace);
-            next.newline
-                || next.kind == Eof
-                || next.kind == body
-                || next.kind == SyntaxKind::Semicolon
+        let kind = |at: usize| self.tokens.get(at).map_or(Eof, |token| token.kind);
+        self.quoted_until(first, |next| {
+            let declares = kind(next) == Ident && kind(next + 1) == SyntaxKind::Colon;
+            declares
+                || matches!(kind(next), SyntaxKind::RBrace | SyntaxKind::Semicolon)
+                || self.text_between(next, next) == "constraint"
+        })
+    }
+    /// What a hint quotes of a class whose bracket is not closed.
+    pub(crate) fn quoted_class(&self, first: usize) -> String {
+        self.quoted_until(first, |next| {
+            let kind = self.tokens.get(next).map_or(Eof, |token| token.kind);
+            matches!(kind, SyntaxKind::Eq | SyntaxKind::LBrace | SyntaxKind::RBrace)
+        })
+    }
+    /// What a hint quotes of a line up to a token at which it ends, the first that is quoted left alone.
+    fn quoted_until(&self, first: usize, ends: impl Fn(usize) -> bool) -> String {
+        let is_last = |at: &usize| {
+            let next = self.tokens[at + 1];
+            next.newline || next.kind == Eof || ends(at + 1)
         };
         let mut within = first..(first + LONGEST_QUOTE).min(self.tokens.len() - 1);
-        let last = within.find(ends).unwrap_or(within.end);
+        let last = within.find(is_last).unwrap_or(within.end);
         self.quoted(first, last)
     }
     /// How far the line of the token here is indented.
@@ -663,16 +685,17 @@ fn line_before(text: &str, span: Span) -> &str {
 }
 
 /// Returns true for `#ff8000`, `#f80`: a sign before three or six hexadecimal digits. Where a line begins with it that
-/// is a comment of other languages, `#add more`, unless it is an element between others.
+/// is a comment of other languages, `#add more`, unless a value is wanted there.
 fn is_colour(text: &str, span: Span) -> bool {
     let rest = text.get(span.range().start + 1..).unwrap_or_default();
     let length = rest.bytes().take_while(u8::is_ascii_alphanumeric).count();
-    let (digits, after) = rest.split_at(length);
+    let digits = &rest[..length];
     let is_first = line_before(text, span).trim().is_empty();
-    let is_element = after.trim_start().starts_with([',', ']', ')']);
+    let before = text.get(..span.range().start).unwrap_or_default();
+    let is_wanted = before.trim_end().ends_with(['=', '[', '(', ',']);
     digits.bytes().all(|digit| digit.is_ascii_hexdigit())
         && matches!(length, 3 | 6)
-        && (!is_first || is_element)
+        && (!is_first || is_wanted)
 }
 
 /// Returns true for a dollar sign before a number.

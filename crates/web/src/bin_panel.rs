@@ -74,7 +74,9 @@ pub fn Bin(
                 lab.use_library(&library);
             }
             (_, Some(document), _) => lab.use_document(document),
-            (.., Some(one)) => lab.with_library(one, Lab::insert),
+            (.., Some(one)) => {
+                lab.with_library(one, Lab::insert);
+            }
             _ => lab.say_refused(words::nothing_called(&typed)),
         }
     };
@@ -198,7 +200,9 @@ fn Tile(lab: Lab, entry: BinEntry, is_used: bool) -> impl IntoView {
         class: entry.class.clone(),
         unused: (!is_used).then(|| entry.library.clone()),
     });
-    let take = move |take: fn(Lab, &str)| lab.with_library(&made.get_value(), take);
+    let take = move |take: fn(Lab, &str)| {
+        lab.with_library(&made.get_value(), take);
+    };
     let held = Memo::new(move |_| lab.tool.get() == Some(class.get_value()));
     let is_own = entry.library.is_empty();
     let by_finger = StoredValue::new(false);

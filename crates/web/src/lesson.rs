@@ -145,11 +145,13 @@ fn Step(lab: Lab, lesson: LessonView) -> impl IntoView {
     };
     let card = NodeRef::<Div>::new();
     Effect::new(move |_| {
+        hinted.track();
         let Some(card) = card.get() else { return };
         // it has its size once it is laid out
         request_animation_frame(move || {
             let reaches = f64::from(card.offset_top() + card.offset_height());
-            if lab.card.get_untracked() < reaches {
+            let goes_on = lab.lesson.with_untracked(Option::is_some);
+            if goes_on && lab.card.get_untracked() < reaches {
                 lab.card.set(reaches);
             }
         });

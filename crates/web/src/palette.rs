@@ -58,8 +58,9 @@ fn Open(lab: Lab) -> impl IntoView {
             Choice::Do(action) => actions::run(action, lab),
             Choice::Draw(row) => lab.begin_construction(&row.id),
             Choice::Insert(one) => {
-                lab.with_library(&one, Lab::take_tool);
-                crate::keyboard::focus("#picture");
+                if lab.with_library(&one, Lab::take_tool) {
+                    crate::keyboard::focus("#picture");
+                }
             }
             Choice::Open(listed) => route::go(&route::to(&listed.path)),
         }

@@ -380,8 +380,7 @@ fn zoom_as_asked(lab: Lab, size: (f64, f64)) {
             if drawn(lab).is_some_and(|drawn| !view.shows_well(drawn, (size.0, room.height))) {
                 show_all(lab, size, (room, margin));
                 // what is drawn next has room beside it
-                lab.view.update(|view| *view = view.zoomed(GOOD_PART, room.middle()));
-                lab.keep_cursor(view);
+                look(lab, lab.view.get_untracked().zoomed(GOOD_PART, room.middle()));
             }
         }
         Zoom::Seen | Zoom::Sized => {
@@ -449,8 +448,7 @@ fn show_all(lab: Lab, size: (f64, f64), (room, margin): (Room, f64)) {
     }
     let fitting = fit_box(all, vertical, (room.width, room.height), margin);
     let fitting = fitting.panned(0.0, room.above);
-    let view = lab.picture.with_untracked(|p| with_words(&p.drawing, fitting, size));
-    lab.view.set(view);
+    look(lab, lab.picture.with_untracked(|p| with_words(&p.drawing, fitting, size)));
 }
 
 fn wheel(lab: Lab, canvas: NodeRef<Canvas>, e: &WheelEvent) {

@@ -295,11 +295,13 @@ impl Lab {
         }
     }
 
-    /// Does something with a class; the document uses its library from then on.
-    pub fn with_library(self, one: &Makeable, act: fn(Self, &str)) {
-        if one.unused.as_ref().is_none_or(|library| self.use_library(library)) {
+    /// Does something with a class; the document uses its library from then on. Returns whether it does.
+    pub fn with_library(self, one: &Makeable, act: fn(Self, &str)) -> bool {
+        let is_used = one.unused.as_ref().is_none_or(|library| self.use_library(library));
+        if is_used {
             act(self, &one.class);
         }
+        is_used
     }
 
     /// Has the document use a library; returns whether it does.

@@ -97,7 +97,7 @@ impl Press {
 }
 
 impl Planner {
-    /// Returns what a drag needs to leave its course; nothing where no program has a part in it.
+    /// Returns what a drag needs to leave its course; nothing where nothing is decided.
     pub(super) fn courses(
         &self,
         structure: &Structure,
@@ -273,8 +273,10 @@ impl Planner {
         (holds && !self.is_faulty_beside(&courses.lowered)).then_some(report)
     }
 
-    /// Follows a drag of what counts up to the last count that holds, on the straight way from the press to what is
-    /// wanted, which leads `there`. Nothing where none holds but that of the press.
+    /// Follows a drag of what counts up to a count that holds, on the straight way from the press to what is wanted,
+    /// which leads `there`: the last before one that does not. Nothing where none is found but that of the press.
+    ///
+    /// The way is doubled until a count fails, then halved: what is far beyond the last that holds is dear to open.
     fn up_to_its_count(
         &mut self,
         model: Model<'_>,
@@ -288,8 +290,10 @@ impl Planner {
         let (mut low, mut holds) = (0.0, pressed.clone());
         let (mut high, mut fails) = (1.0, self.decided_at(&courses.pressed, there));
         self.press_on(model, (&mut *press, &mut *courses), &start)?;
-        for _ in 0..HALVINGS {
-            let mid = 0.5 * (low + high);
+        let least = 1.0 / (1_u64 << HALVINGS) as f64;
+        for _ in 0..2 * HALVINGS {
+            let doubled = f64::max(2.0 * low, least);
+            let mid = if doubled < high { doubled } else { 0.5 * (low + high) };
             let wish = courses.between(wanted, mid);
             self.pull_from(model, press, (&start, &wish), values, host);
             let decided = self.decided_at(&courses.pressed, values);

@@ -160,9 +160,9 @@ impl Allowed {
         }
     }
 
-    /// As a program declares it; of angles, numbers without a unit are degrees.
-    pub(crate) fn written(&self, is_angle: bool) -> String {
-        let own = |text: &String| if is_angle { in_degrees(text) } else { text.clone() };
+    /// As a program declares it, numbers without a unit in the one that is given.
+    pub(crate) fn written(&self, unit: Option<&str>) -> String {
+        let own = |text: &String| unit.map_or_else(|| text.clone(), |unit| in_unit(text, unit));
         match self {
             Self::Range { least, most, is_open } => {
                 let dots = if *is_open { "..<" } else { ".." };
@@ -226,9 +226,12 @@ pub(crate) fn table_of(state: &State, (user, of): (&str, &Declared)) -> Vec<Stri
     known.map_or_else(Vec::new, Allowed::table)
 }
 
-/// An angle as it is typed: a number without a unit is one of degrees.
-fn in_degrees(typed: &str) -> String {
-    if typed::is_number(typed) { format!("{typed} deg") } else { typed.into() }
+/// The unit of angles that are typed without one.
+pub(super) const DEGREES: &str = "deg";
+
+/// What is typed, in a unit where it is a number without one.
+fn in_unit(typed: &str, unit: &str) -> String {
+    if typed::is_number(typed) { format!("{typed} {unit}") } else { typed.into() }
 }
 
 /// Lists the parameters that a program of a text declares, in order.
@@ -438,15 +441,15 @@ impl Said {
             return Err(words::refuse(format!("`{range}` is {NO_RANGE}")));
         }
         if let (Some(read), false) = (&read, keeps_range) {
-            range = read.written(false);
+            range = read.written(None);
         }
         if class == "Angle" {
             let becomes = old.is_some_and(|old| old.class != "Angle");
             if becomes || !keeps_example {
-                example = in_degrees(&example);
+                example = in_unit(&example, DEGREES);
             }
             if becomes || !keeps_range {
-                range = read.map_or(range, |range| range.written(true));
+                range = read.map_or(range, |range| range.written(Some(DEGREES)));
             }
         }
         Ok(Self { class, range, example, prompt: new.prompt.trim().into() })
@@ -645,7 +648,8 @@ fn others(state: &State, home: &Home, typed: &str, wanted: &str) -> Vec<Other> {
             "Angle" if !spoken_of(state, d.named).is_empty() => Some("a length elsewhere, too"),
             _ => None,
         };
-        let example = if class == "Angle" { in_degrees(&d.example) } else { d.example.clone() };
+        let example =
+            if class == "Angle" { in_unit(&d.example, DEGREES) } else { d.example.clone() };
         let said =
             Said { class: class.into(), range: d.range.clone(), example, prompt: d.prompt.clone() };
         let text = said.instead_of(&source, &d);

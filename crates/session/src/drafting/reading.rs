@@ -120,11 +120,15 @@ fn outside(
     allowed: &Allowed,
     (class, example, value): (&str, &str, &str),
 ) -> Option<String> {
-    let allowed_here = match class {
-        "Angle" if !matches!(allowed, Allowed::Column { .. }) => {
-            Allowed::of(&allowed.written(true))?
-        }
-        _ => allowed.clone(),
+    let unit = match class {
+        "Angle" => Some(parameters::DEGREES.to_string()),
+        // what has no unit is one of the sheet's, which becomes that of the example
+        _ => sheet::unit_from(&open.state, example),
+    };
+    let is_typed = !matches!(allowed, Allowed::Column { .. });
+    let allowed_here = match unit.filter(|_| is_typed) {
+        Some(unit) => Allowed::of(&allowed.written(Some(&unit)))?,
+        None => allowed.clone(),
     };
     let condition = allowed_here.condition(example);
     match outcome::worth(&open.state, &Home::Document, &condition) {

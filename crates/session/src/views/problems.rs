@@ -28,11 +28,7 @@ pub(crate) fn view(open: &mut Open) -> Vec<DiagnosticView> {
     let against = open.planner.contradictions(state.model(), &state.values, unmet, &mut texts);
     let mechanism = mechanism(open, &state);
     let falls = mechanism.as_ref().map_or(&[][..], |(_, unbalanced)| unbalanced);
-    let unplanned: Vec<plan::Fault> = state.unplanned_now(&open.planner).cloned().collect();
-    let fault = |f: &plan::Fault| {
-        Diagnostic::error(f.kind.code(), state.lowered.place(f.origin), f.message.clone())
-    };
-    let mut problems: Vec<Diagnostic> = unplanned.iter().map(fault).collect();
+    let mut problems: Vec<Diagnostic> = Vec::new();
     for c in &against {
         if c.certainty == Certainty::Holds && c.constraints.iter().all(|s| falls.contains(s)) {
             continue;
@@ -51,10 +47,7 @@ pub(crate) fn view(open: &mut Open) -> Vec<DiagnosticView> {
     let around: BTreeSet<SlotId> = around.into_iter().collect();
     // what could not be planned is said where it stands already
     let is_planned = |s: &Source| match s {
-        Source::Constraint(index) => {
-            let origin = state.constraint_origin(*index);
-            state.is_planned(*index) && unplanned.iter().all(|f| f.origin != origin)
-        }
+        Source::Constraint(index) => state.is_planned(*index),
         Source::Stay(_) | Source::Wish(_) => true,
     };
     let is_told = |s: &Source| {

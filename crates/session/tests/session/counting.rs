@@ -106,6 +106,27 @@ fn a_count_that_is_wished_too_far_stops_at_the_last_that_holds() {
 }
 
 #[test]
+fn a_count_that_is_wished_far_too_far_stops_as_near() {
+    for wish in [1e3, 1e6, 1e13] {
+        let mut desk = Desk::of(BOUNDED);
+        desk.apply(&session::Command::Move(vec![(at("n"), session::Literal::Number(wish))]))
+            .expect("it goes as far as it can");
+        assert_eq!((desk.number("n"), desk.number("m")), (4.0, 10.0), "{wish}");
+    }
+}
+
+#[test]
+fn a_count_of_one_thing_stops_though_that_of_another_is_wrong() {
+    let mut desk = Desk::of(
+        "class C {\n    n: Integer = 2\n    xs: List of 4 Real = [1, 2, 3, 4]\n    total: Real\n    \
+         constraint total = (0..n).map(i => xs[i]).sum\n}\na: C { n = 9 }\nb: C\n",
+    );
+    desk.apply(&session::Command::Move(vec![(at("b.n"), session::Literal::Number(9.0))]))
+        .expect("it goes as far as it can");
+    assert_eq!((desk.number("b.n"), desk.number("b.total")), (3.0, 10.0));
+}
+
+#[test]
 fn what_cannot_be_planned_for_a_count_is_told_where_an_edit_comes_to_it() {
     let mut desk = Desk::of(&LISTED.replace("constraint", "weak constraint"));
     assert_eq!(desk.wrong(), vec![]);

@@ -537,6 +537,22 @@ fn figures_that_are_constructed_move_with_what_they_are_made_about() {
     desk.session.cancel(desk.id);
     desk.drag("a", &[(1.0, 2.0)]);
     assert_eq!((desk.place("p"), desk.place("q")), ((1.0, 2.0), (90.0, 90.0)));
+    desk.session.press_all(desk.id, &["q", "a"].map(at)).expect("each is about a place");
+    assert!(desk.session.drag(desk.id, (91.0, 90.0)).reached);
+    desk.session.release(desk.id).expect("it is kept");
+    assert_eq!((desk.place("p"), desk.place("q")), ((2.0, 2.0), (91.0, 90.0)));
+}
+
+#[test]
+fn a_figure_with_a_place_that_would_stay_behind_is_not_bent_in_silence() {
+    let mut desk = Desk::of(
+        "use geometry\np: Point = (0, 0)\nq: Point = (90, 90)\na => Line(p1: p, p2: Point(50, 0))\n\
+         b => Circle(center: Point(7, 7), radius: 5)\n",
+    );
+    desk.session.press(desk.id, &at("a")).expect_err("one end would stay");
+    let refused = desk.session.press_all(desk.id, &["q", "b"].map(at));
+    let message = refused.expect_err("the circle would stay").message;
+    assert!(message.starts_with("b is computed from none of these"), "{message}");
 }
 
 #[test]

@@ -434,6 +434,17 @@ fn a_parameter_allows_the_values_of_a_table() {
     assert!(refused.message.contains("no range and no table"), "{}", refused.message);
 }
 
+#[test]
+fn what_is_allowed_of_a_length_has_the_unit_that_the_sheet_takes_over() {
+    let mut desk = Desk::of("use geometry\n");
+    desk.session.record(desk.id, "Bolt").expect("it is begun");
+    for (range, is_within) in [("5..10", true), ("6, 8, 10", true), ("10..20", false)] {
+        let (class, value, _, wrong) = read(&mut desk, ["d", "8 mm", "", range]);
+        assert_eq!((class.as_str(), value.as_str()), ("Length", "8 mm"));
+        assert_eq!(wrong.is_empty(), is_within, "{range}: {wrong:?}");
+    }
+}
+
 /// What is understood of a parameter that is typed: class, value, what is allowed; and what is wrong.
 fn read(desk: &mut Desk, fields: [&str; 4]) -> (String, String, String, Vec<String>) {
     let [name, example, class, range] = fields.map(String::from);

@@ -81,10 +81,13 @@ fn a_word_that_is_no_unit_is_told_as_one() {
     };
     assert!(
         refused(&mut desk, "5 banana")
-            .starts_with("banana is no unit that is known here; known are")
+            .starts_with("`5 banana` is no value; banana is no unit that is known here; known are")
     );
     let message = refused(&mut desk, "5 kohn");
-    assert_eq!(message, "kohn is no unit that is known here; did you mean `kohm`?");
+    assert_eq!(
+        message,
+        "`5 kohn` is no value; kohn is no unit that is known here; did you mean `kohm`?"
+    );
     assert!(refused(&mut desk, "5 mm +").starts_with("`5 mm +` is no value; found"));
 }
 

@@ -20,8 +20,9 @@ pub(super) fn constraint(p: &mut Parser<'_>) {
         p.bump();
         p.bump();
     } else if mistakes::elsewhere::name_without_colon(p) {
-        p.skip_line();
-        return p.finish();
+        p.start(Error);
+        p.bump();
+        p.finish();
     }
     rule(p);
     tolerance(p);

@@ -63,15 +63,19 @@ pub fn Define(
     let is_first = of_program(|steps| steps.parameters.is_empty());
     let new = lab.drafting.parameter;
     let folded = RwSignal::new(false);
-    let is_other = Memo::new(move |_| new.with(|n| !n.instead_of.is_empty()));
+    let other = Memo::new(move |_| new.with(|n| n.instead_of.clone()));
+    let is_other = Memo::new(move |_| other.with(|name| !name.is_empty()));
     Effect::new(move |_| folded.set(is_drawn.get()));
     Effect::new(move |_| {
-        if is_other.get() {
+        if other.with(|name| !name.is_empty()) {
             folded.set(false);
         }
     });
+    // the reading changes with the document, and with the tables that come
+    let come = RwSignal::new(0_u32);
     let reading = Memo::new(move |_| {
         lab.drafting.turned.track();
+        come.track();
         let typed = new.get();
         lab.tell(|session, id| session.read_parameter(id, &typed)).unwrap_or_default()
     });
@@ -79,7 +83,7 @@ pub fn Define(
     let range = Memo::new(move |_| new.with(|n| n.range.clone()));
     let look_again = move || {
         lab.forget_missing_tables();
-        lab.drafting.turned.update(|n| *n += 1);
+        come.update(|n| *n += 1);
     };
     Effect::new(move |_| {
         range.track();
@@ -87,8 +91,9 @@ pub fn Define(
     });
     Effect::new(move |_| {
         lab.drafting.turned.track();
+        come.track();
         reading.track();
-        lab.fetch_table(move || lab.drafting.turned.update(|n| *n += 1));
+        lab.fetch_table(move || come.update(|n| *n += 1));
     });
     let form = Form { new, reading, left: RwSignal::new(Vec::new()) };
     // the next one is not wrong before it is typed
@@ -112,17 +117,21 @@ pub fn Define(
             }
             None => {
                 lab.define_parameter();
-                unfold(new.with_untracked(|n| *n != NewParameter::default()));
+                // of one that was refused what is said further is in sight
+                unfold(new.with_untracked(is_said_further));
             }
         }
     };
     // what is said of one that is changed is in sight
     Effect::new(move |_| {
-        let is_said = |n: &NewParameter| !n.range.is_empty() || !n.class.is_empty();
-        if is_other.get() && new.with_untracked(is_said) {
+        if other.with(|name| !name.is_empty()) && new.with_untracked(is_said_further) {
             unfold(true);
         }
     });
+    let cancel = move |_| {
+        new.set(NewParameter::default());
+        unfold(false);
+    };
     view! {
         <button type="button" class="unfold" data-draft="unfold" aria-expanded=move || (!folded.get()).to_string()
             on:click=move |_| {
@@ -150,13 +159,18 @@ pub fn Define(
                 </button>
                 <Show when=move || is_other.get()>
                     <button type="button" data-draft="keep-parameter"
-                        on:click=move |_| new.set(NewParameter::default())>{words::CANCEL}</button>
+                        on:click=cancel>{words::CANCEL}</button>
                     <button type="button" data-draft="remove-parameter"
                         on:click=move |_| lab.remove_parameter()>{words::REMOVE_PARAMETER}</button>
                 </Show>
             </div>
         </form>
     }
+}
+
+/// Whether of a parameter a class or what is allowed is said.
+fn is_said_further(new: &NewParameter) -> bool {
+    !new.range.is_empty() || !new.class.is_empty()
 }
 
 /// Opens what else is said of a parameter, or shuts it.

@@ -6,7 +6,7 @@ use crate::kind::SyntaxKind::{
     Number, Plus, RBrace, RParen, Semicolon, Slash, Star, Text, Unit,
 };
 use crate::parser::Parser;
-use crate::units::{follows_operand, unit_length};
+use crate::units::follows_operand;
 
 /// Reports what begins no member as the word or sign of another language; returns false where it is none that is known.
 pub(super) fn of_member(p: &mut Parser<'_>) -> bool {
@@ -110,12 +110,11 @@ pub(in crate::grammar) fn name_without_colon(p: &mut Parser<'_>) -> bool {
     if is_one {
         let at = p.pos();
         let (name, next, rest) = (p.word(0), p.word(1), p.quoted_line(at + 1));
-        let times = if unit_length(next) == next.len() { "* 1" } else { "*" };
         let said = (
             "expected-colon",
             format!("found `{next}` after the name `{name}`, wanted `:`"),
             format!(
-                "a name has its colon, `constraint {name}: {rest}`; a product its sign, `constraint {name} {times} {rest}`"
+                "a name has its colon, `constraint {name}: {rest}`; a product its sign, `constraint {name} * {rest}`"
             ),
         );
         p.report_mistake((at + 1, at + 1), said, None);
@@ -185,7 +184,10 @@ fn ends_line(p: &Parser<'_>, n: usize) -> bool {
 pub(in crate::grammar) fn rule_follows(p: &Parser<'_>) -> bool {
     let declares =
         p.nth(1) == Ident && p.nth(2) == Colon && p.word(3).starts_with(char::is_uppercase);
-    let is_rule = matches!(p.word_before(), "constraint" | "replace" | "expect" | "task");
+    let is_rule = match p.word_before() {
+        "replace" => !p.declared_before(),
+        word => matches!(word, "constraint" | "expect" | "task"),
+    };
     p.at(Comma) && is_rule && !ends_line(p, 1) && !declares
 }
 
@@ -213,9 +215,9 @@ pub(in crate::grammar) fn list_in_brackets(p: &mut Parser<'_>) {
     while first > 0 && is_of_list(p, first - 1) {
         first -= 1;
     }
-    let before = if first < at { p.text_between(first, at - 1) } else { "" };
+    let before = if first < at { p.quoted(first, at - 1) } else { String::new() };
     let inner = match p.bracket_length() {
-        0 => p.quoted_line(at + 1),
+        0 => p.quoted_class(at + 1),
         length => p.quoted(at + 1, (at + length - 1).max(at + 1)),
     };
     let computes = inner.contains(['+', '-', '*', '/']);
@@ -248,7 +250,7 @@ pub(in crate::grammar) fn strange_unit(p: &mut Parser<'_>) -> bool {
 pub(in crate::grammar) fn in_brackets(p: &mut Parser<'_>, wanted: &str) -> bool {
     let at = p.pos();
     let said = match p.current() {
-        Ident if p.word(0) == "for" && p.nth(1) == Ident => (
+        Ident if p.word(0) == "for" && p.nth(1) == Ident && !p.begins_line(0) => (
             "expected-bracket",
             format!("found `for`, wanted {wanted}"),
             "a list of what is computed is `(1..3).map(i => 2 * i)`".to_string(),
