@@ -187,6 +187,10 @@ fn Step(lab: Lab, lesson: LessonView) -> impl IntoView {
 #[component]
 fn Over(lab: Lab, title: String) -> impl IntoView {
     let next = Memo::new(move |_| lab.next_lesson());
+    leptos::task::spawn_local(async move {
+        // without a server there is no next one
+        let _ = lab.fetch_list().await;
+    });
     let go = move |path: String| {
         lab.leave_lesson();
         route::go(&route::to(&path));

@@ -13,7 +13,10 @@ use std::time::Duration;
 pub async fn press(visit: &Visit, selector: &str) {
     let found = visit.client.wait().for_element(Locator::Css(selector)).await;
     let found = found.unwrap_or_else(|e| panic!("{selector}: {e}"));
-    found.click().await.unwrap_or_else(|e| panic!("{selector}: {e}"));
+    if let Err(e) = found.click().await {
+        let stopped = "return document.querySelector('.crash')?.innerText";
+        panic!("{selector}: {e}; {}", visit.script(stopped).await);
+    }
 }
 
 /// Types into a field in place of what is there.

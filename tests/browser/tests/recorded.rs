@@ -551,7 +551,9 @@ async fn a_recording_that_was_broken_off_goes_on_in_its_loop() {
     asked(&visit, "how many turns").await;
     enter(&visit, "3").await;
     has(&visit, "repeat 3 times with center = Point(50, 5)").await;
-    visit.until("document.querySelector(\"[data-step='turns']\").innerText.includes('3 turns')").await;
+    visit
+        .until("document.querySelector(\"[data-step='turns']\").innerText.includes('3 turns')")
+        .await;
     visit.picture("flange").await;
     press(&visit, "[data-draft='stop']").await;
 }

@@ -22,7 +22,8 @@ async fn the_page_starts_and_keeps_its_token_to_itself() {
 async fn a_page_that_names_a_document_asks_once_for_what_it_needs_and_draws_no_gallery_first() {
     let visit = Visit::open(Some("quadrilateral.thing")).await;
     visit.until("document.querySelector('main.document')").await;
-    let script = "return performance.getEntriesByType('resource').map(r => r.name.split('/api/')[1])
+    let script =
+        "return performance.getEntriesByType('resource').map(r => r.name.split('/api/')[1])
          .filter(name => name && !name.startsWith('draft')).sort()";
     let asked = visit.script(script).await;
     let wanted = serde_json::json!(["document?path=gallery%2Fquadrilateral.thing", "library"]);

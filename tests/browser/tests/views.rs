@@ -81,6 +81,7 @@ async fn a_lesson_goes_on_as_its_tasks_are_done() {
     visit.until("document.querySelector('.lesson .place').textContent.includes('3 of 3')").await;
     visit.script("document.querySelector('.lesson .primary').click()").await;
     visit.until("document.querySelector('.lesson').textContent.includes('done')").await;
+    visit.until("document.querySelector('.lesson .primary')").await;
     visit.script("document.querySelector('.lesson .primary').click()").await;
     visit.until("window.__thinglab.state().path === 'gallery/lesson-2-figure.thing'").await;
 }

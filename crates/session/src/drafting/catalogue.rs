@@ -401,7 +401,8 @@ pub(crate) fn tools(state: &State, home: &Home) -> Vec<Tool> {
 /// The messages that a class has of abstract ones, which have no things that they could be sent to.
 fn from_above(document: &Document, id: ClassId) -> Vec<&Message> {
     let line = document.primary_line(id);
-    let above = line.iter().enumerate().skip(1).take_while(|(_, c)| document.classes[**c].is_abstract);
+    let above =
+        line.iter().enumerate().skip(1).take_while(|(_, c)| document.classes[**c].is_abstract);
     let is_own = |at: usize, m: &Message| {
         let below = line[..at].iter().flat_map(|c| &document.classes[*c].messages);
         { below }.any(|other| other.name == m.name)

@@ -5,8 +5,8 @@ use super::operands::{self, Occurrence};
 use super::scene::{self, Curve};
 use super::view::{Prompt, StepOperand, Wants};
 use super::{
-    Around, Home, blocks, catalogue, edges, outcome, patterns, recording, remove, steps, text, typed,
-    visit,
+    Around, Home, blocks, catalogue, edges, outcome, patterns, recording, remove, steps, text,
+    typed, visit,
 };
 use crate::document::Open;
 use crate::host::Host;

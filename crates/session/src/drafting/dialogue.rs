@@ -160,7 +160,8 @@ impl Dialogue {
             return Err(words::refuse("no operand is wanted".into()));
         };
         let all = scene::scene(state, home);
-        let found = self.whole(state, &all, pointer).or_else(|| nearest(state, slot, &all, pointer));
+        let found =
+            self.whole(state, &all, pointer).or_else(|| nearest(state, slot, &all, pointer));
         // Tab goes on from a figure to the edge that comes from it
         if found.is_none() || level % 2 == 1 {
             match edges::by_origin(state, slot, &all, pointer) {
@@ -204,12 +205,7 @@ impl Dialogue {
 
     /// The figure that is meant where a copy is made, not its centre that is near, too; nothing where a place is meant:
     /// what goes on from the copy may want one.
-    fn whole<'f>(
-        &self,
-        state: &State,
-        all: &'f [Found],
-        pointer: &Pointer,
-    ) -> Option<&'f Found> {
+    fn whole<'f>(&self, state: &State, all: &'f [Found], pointer: &Pointer) -> Option<&'f Found> {
         let slot = self.slot().filter(|slot| slot.kind == SlotKind::Set)?;
         let of = |is_place: bool| {
             let some: Vec<&Found> = all.iter().filter(|f| f.is_place == is_place).collect();

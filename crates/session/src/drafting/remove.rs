@@ -2,8 +2,7 @@
 
 use super::view::{Prompt, Wants};
 use super::{
-    Home, blocks, catalogue, hands, outcome, patterns, recording, scene, steps, text, typed,
-    visit,
+    Home, blocks, catalogue, hands, outcome, patterns, recording, scene, steps, text, typed, visit,
 };
 use crate::document::Open;
 use crate::host::Host;

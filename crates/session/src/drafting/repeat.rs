@@ -305,11 +305,11 @@ pub(crate) fn as_typed(
     let step = &question.step;
     let is_there = |found: &scene::Found| {
         let owner = found.text.strip_prefix(step.as_str());
-        owner.is_some_and(|rest| rest.is_empty() || rest.starts_with(['.', '['])) && found.curve == was
+        owner.is_some_and(|rest| rest.is_empty() || rest.starts_with(['.', '[']))
+            && found.curve == was
     };
     let all = scene::scene(state, home);
-    let none =
-        || words::refuse(format!("{step} has no such place that {typed} could go on from"));
+    let none = || words::refuse(format!("{step} has no such place that {typed} could go on from"));
     let from = all.iter().find(|found| is_there(found)).ok_or_else(none)?;
     typed::at(typed, &from.text)
 }

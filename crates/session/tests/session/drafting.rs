@@ -1,7 +1,9 @@
 //! Constructions chosen and given their operands; programs recorded so.
 
 use crate::desk::{Desk, at};
-use session::drafting::view::{Ends, Go, MeasureKind, NewParameter, RecurrenceQuestion, Turn, Wants};
+use session::drafting::view::{
+    Ends, Go, MeasureKind, NewParameter, RecurrenceQuestion, Turn, Wants,
+};
 use session::view::Pointer;
 
 fn pointer(x: f64, y: f64) -> Pointer {
@@ -58,7 +60,9 @@ fn every_construction_of_the_library_is_a_tool() {
 
 #[test]
 fn what_a_library_keeps_for_itself_is_no_tool() {
-    let desk = Desk::of("use contours\nprogram Own(d: Length = 1) {\n}\nabstract program Part(d: Length = 1) {\n}\n");
+    let desk = Desk::of(
+        "use contours\nprogram Own(d: Length = 1) {\n}\nabstract program Part(d: Length = 1) {\n}\n",
+    );
     let tools = desk.session.constructions(desk.id);
     let has = |id: &str| tools.iter().any(|tool| tool.id == id);
     assert!(has("Own") && has("Contour.slot(from,to,radius)"));
@@ -96,7 +100,11 @@ fn a_line_is_trimmed_and_lengthened_in_its_place() {
     assert!(desk.text().contains("trimmed = "), "{}", desk.text());
     assert_eq!(value(&desk, "trim.trimmed"), "(0, 0) to (60, 0)");
     // the line that it was is seen no more; all of it is one step
-    assert!(desk.text().contains("trimmed = line.trimmed(at: line2)\n    erase line\n"), "{}", desk.text());
+    assert!(
+        desk.text().contains("trimmed = line.trimmed(at: line2)\n    erase line\n"),
+        "{}",
+        desk.text()
+    );
     assert_eq!(desk.wrong(), []);
     begin(&mut desk, "Line:extended");
     point(&mut desk, 60.0, -10.0);
@@ -117,7 +125,8 @@ fn a_loop_that_was_broken_off_goes_on_when_its_program_is_recorded_again() {
     assert_eq!(steps.open.len(), 2);
     for by in ["@10,0", "@0,10"] {
         desk.session.end_turn(desk.id, Ends::Times).expect("its turn is drawn");
-        while let Some(Wants::Recurrence(question)) = desk.session.prompt(desk.id).map(|p| p.wants) {
+        while let Some(Wants::Recurrence(question)) = desk.session.prompt(desk.id).map(|p| p.wants)
+        {
             match question.is_value {
                 true => drop(desk.session.same(desk.id)),
                 false => drop(enter(&mut desk, by)),

@@ -69,9 +69,8 @@ fn NewRow(family: Family, at: usize) -> impl IntoView {
     let columns = family.grid.with_untracked(|grid| grid.columns.clone());
     let change = move |column: usize, typed: &str| {
         if !typed.trim().is_empty() {
-            family.edit(|session, id, name| {
-                session.set_family_cells(id, name, (at, column), typed)
-            });
+            family
+                .edit(|session, id, name| session.set_family_cells(id, name, (at, column), typed));
         }
     };
     let cell = move |(index, column): (usize, session::view::GridColumn)| {
