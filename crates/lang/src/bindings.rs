@@ -65,6 +65,9 @@ impl Lowerer<'_> {
         if class.is_some_and(|class| self.is_thing_itself(scope, class, value)) {
             return;
         }
+        if let Some(class) = class.filter(|&class| is_mixed(&self.document, class)) {
+            return self.bind_fields(scope, (path, class), (value, term), given);
+        }
         let elements = class.and_then(|class| self.texts_of(scope, path, class));
         let Some((count, element)) = elements else {
             return self.bind_part(scope, (path, class), (value, term), given);
@@ -143,6 +146,40 @@ impl Lowerer<'_> {
         }
     }
 
+    /// Binds the parts of a thing of numbers and others each by itself: a text that is given stays while a number follows.
+    fn bind_fields(
+        &mut self,
+        scope: &Scope,
+        (path, class): (&Path, ClassId),
+        (value, term): (&Expr, &Term),
+        given: OriginId,
+    ) {
+        let fields: Vec<(Name, ClassId)> = { self.document.layout(class).into_iter() }
+            .map(|f| (self.document.field_name(f).clone(), self.document.field_class(f)))
+            .collect();
+        let unlabelled = |value: &Term| Argument { label: None, value: value.clone() };
+        let made: Option<Vec<Argument>> = match term {
+            Term::Make { class: made, arguments } if *made == class => Some(arguments.clone()),
+            Term::Tuple(values) => Some(values.iter().map(unlabelled).collect()),
+            _ => None,
+        };
+        for (at, (name, class)) in fields.iter().enumerate() {
+            let of = match &made {
+                Some(arguments) => {
+                    let labelled = arguments.iter().find(|a| a.label.as_ref() == Some(name));
+                    let by_place = arguments.get(at).filter(|a| a.label.is_none());
+                    match labelled.or(by_place) {
+                        Some(argument) => argument.value.clone(),
+                        None => continue,
+                    }
+                }
+                None => Term::send(term.clone(), name),
+            };
+            let path = path.then(Step::Part(name.clone()));
+            self.bind_value(scope, (&path, Some(*class)), (value, &of), given);
+        }
+    }
+
     /// Reports a part that is given an expression of itself, `radius = 2 * radius`.
     pub(crate) fn is_given_by_itself(
         &mut self,
@@ -212,6 +249,27 @@ fn is_of_numbers(document: &Document, class: ClassId) -> bool {
     let is_number =
         |p: Primitive| p.is_number() && !matches!(p, Primitive::Bool | Primitive::Choice(_));
     is_made_of(document, class, is_number, |_| true)
+}
+
+/// Returns true for the classes of things that have numbers and others beside them, all by name.
+fn is_mixed(document: &Document, class: ClassId) -> bool {
+    let fields = document.layout(class);
+    let is_primitive = |class: ClassId, wanted: fn(Primitive) -> bool| match document.classes[class]
+        .kind
+    {
+        ClassKind::Primitive(p) => wanted(p),
+        ClassKind::Composite | ClassKind::List(_) | ClassKind::Set(_) | ClassKind::Reference(_) => {
+            false
+        }
+    };
+    let has =
+        |wanted| fields.iter().any(|&field| is_primitive(document.field_class(field), wanted));
+    document.classes[class].kind == ClassKind::Composite
+        && can_be_bound(document, class)
+        && has(|p| p.is_number() && !matches!(p, Primitive::Bool | Primitive::Choice(_)))
+        && has(|p| {
+            matches!(p, Primitive::Text | Primitive::Bool | Primitive::Choice(_) | Primitive::Color)
+        })
 }
 
 /// Returns true for a class that is made of such primitives and such classes of things alone, a class with parts of its
