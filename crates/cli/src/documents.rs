@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 /// Why a file could not be opened.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum OpenError {
-    #[error("{path}: {source}")]
+    #[error("{path}: {}", reason(.source))]
     Unreadable { path: PathBuf, source: std::io::Error },
     #[error("{0}: no document (NAME.thing) here")]
     NoDocuments(PathBuf),
@@ -30,7 +30,8 @@ impl Host for FilesBeside {
             !part.is_empty() && part.chars().all(|c| c.is_alphanumeric() || c == '_' || c == '-')
         };
         if session::is_table_name(name) {
-            return read_file(&self.folder.join(name));
+            return read_bytes(&self.folder.join(name))
+                .map(|bytes| String::from_utf8_lossy(&bytes).into_owned());
         }
         if !name.split('.').all(plain) {
             return None;
@@ -48,8 +49,21 @@ impl Host for FilesBeside {
 
 /// Reads a file beside a document; nothing where there is none, or something else by its name.
 fn read_file(path: &Path) -> Option<String> {
+    read_bytes(path).and_then(|bytes| String::from_utf8(bytes).ok())
+}
+
+/// Reads a table beside a document; of one that is no text in UTF-8 the table says so.
+fn read_bytes(path: &Path) -> Option<Vec<u8>> {
     let is_file = fs::metadata(path).is_ok_and(|known| known.is_file());
-    is_file.then(|| fs::read_to_string(path).ok()).flatten()
+    is_file.then(|| fs::read(path).ok()).flatten()
+}
+
+/// Says why a file cannot be read or written.
+pub(crate) fn reason(source: &std::io::Error) -> String {
+    match source.kind() {
+        std::io::ErrorKind::InvalidData => "it is no text in UTF-8: save it as such".into(),
+        _ => source.to_string(),
+    }
 }
 
 /// An opened document.

@@ -205,6 +205,10 @@ impl Lowerer<'_> {
                 self.document.unit = Some(Name::new(&spelling));
             }
             Some(_) | None => {
+                // that there is none is told already
+                if spelling.is_empty() {
+                    return;
+                }
                 let message = format!("{spelling} is no unit of length");
                 let place = Place { file: OWN, span: line.span() };
                 let hint = "write `unit mm`, `unit m`, or leave the line out";

@@ -74,6 +74,19 @@ impl Table {
     /// # Errors
     /// Why the text is no table.
     pub fn read(text: &str) -> Result<Self, String> {
+        if text.contains(char::REPLACEMENT_CHARACTER) {
+            return Err("it is no text in UTF-8: save it as such".into());
+        }
+        let header = text.lines().find(|line| !line.starts_with(char::from(COMMENT)));
+        if let Some(sign) = header
+            .filter(|h| !h.contains(','))
+            .and_then(|h| h.find([';', '\t']).map(|at| &h[at..=at]))
+        {
+            let sign = if sign == "\t" { "tabs" } else { "`;`" };
+            return Err(format!(
+                "{sign} stand between its cells: save it with commas between them, and with decimal points"
+            ));
+        }
         let mut reader = csv::ReaderBuilder::new()
             .comment(Some(COMMENT))
             .trim(csv::Trim::All)

@@ -3,6 +3,7 @@
 use crate::evaluate::{Answer, Opening, kind};
 use crate::fault::Trouble;
 use crate::meaning::{Made, Meaning};
+use base::number::joined;
 use expr::{Binary, Unary};
 use kernel::BinaryOperator;
 use std::rc::Rc;
@@ -100,18 +101,19 @@ impl<'a> Opening<'a> {
         if let Meaning::Opaque(_) = b {
             return Ok(self.opaque([a, b]));
         }
-        let mut truth = self.number(0.0);
+        let mut each = vec![Ok(self.number(0.0))];
         for item in self.items(b)?.iter() {
-            let one = match (a, item) {
+            each.push(Ok(match (a, item) {
                 (Meaning::Thing(a), Meaning::Thing(b)) => {
                     let same = self.reach.is_same(*a, *b);
                     self.number(f64::from(u8::from(same)))
                 }
                 _ => self.equal(a, item)?,
-            };
-            truth = self.binary(BinaryOperator::Or, &truth, &one)?;
+            }));
         }
-        Ok(truth)
+        // in groups: of many it is not as high as they are many
+        let either = |a: Answer<'a>, b: Answer<'a>| self.binary(BinaryOperator::Or, &a?, &b?);
+        joined(each, either).unwrap_or_else(|| Ok(self.number(0.0)))
     }
 
     /// Takes one of two meanings by a condition that depends on values, part by part.

@@ -617,12 +617,16 @@ fn token_fault(file: FileId, text: &str, span: Span, fault: Fault) -> Diagnostic
             let all = &text[span.range()];
             let first: String = all.chars().take(8).collect();
             let more = if first.len() < all.len() { "…" } else { "" };
-            let message = format!("found `{first}{more}`, which begins nothing");
+            let message = match all.chars().next().filter(|&c| is_unseen(c)) {
+                Some(c) => format!("found U+{:04X}, which cannot be seen", u32::from(c)),
+                None => format!("found `{first}{more}`, which begins nothing"),
+            };
             let d = Diagnostic::error("unknown-character", place, message);
             let hint = match all.chars().next() {
                 Some('\'' | '“' | '”' | '„' | '«' | '»' | '‘' | '’') => {
                     "a text stands between straight double quotes: `\"hello\"`"
                 }
+                Some(c) if is_unseen(c) => "delete it, and type the line anew",
                 Some('&') => "write `and`",
                 Some('|') if line_before(text, span).trim_start().starts_with("choice ") => {
                     "options are names with commas between them: `choice Fit { loose, close }`"
@@ -682,6 +686,12 @@ const MONEY: &str = "money is a plain number without its sign: `price: Real = 3.
 fn line_before(text: &str, span: Span) -> &str {
     let before = text.get(..span.range().start).unwrap_or_default();
     before.rsplit('\n').next().unwrap_or_default()
+}
+
+/// Returns true for a character that no letter shows: a control, or a space of no width.
+fn is_unseen(c: char) -> bool {
+    c.is_control()
+        || matches!(c, '\u{ad}' | '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2060}'..='\u{206f}' | '\u{feff}')
 }
 
 /// Returns true for `#ff8000`, `#f80`: a sign before three or six hexadecimal digits. Where a line begins with it that

@@ -136,7 +136,8 @@ fn without_value(state: &State, values: &Values) -> Vec<Diagnostic> {
             let alike = failing.iter().filter(|other| other.fault.origin == fault.origin);
             answered.contains(&origin) || sends(message, &alike)
         });
-        if fault.kind == FaultKind::NoAnswer && !is_inner {
+        let is_none = matches!(fault.kind, FaultKind::NoAnswer | FaultKind::Endless);
+        if is_none && !is_inner {
             let place = state.lowered.place(message.origin);
             let path = structure.path(document, *thing).then(Step::Part(message.name.clone()));
             let said = format!("{path} has no value: {}", fault.message);
