@@ -54,8 +54,14 @@ impl Lowerer<'_> {
         let plain = Diagnostic::error(d.code, d.place, d.message.clone());
         let written = value.syntax().text().to_string();
         let written = written.lines().next().unwrap_or_default();
+        // what makes the value elsewhere says how it is made here
+        let maker = match value {
+            Expr::Call(call) => call.name().and_then(|maker| called_otherwise(maker.text())),
+            _ => None,
+        };
         self.diagnostics[before + at] = match near {
             Some(near) => plain.meant(&near),
+            None if let Some(hint) = maker => plain.hint(hint),
             None if !(is_constant(value) || self.document.classes[class].is_of_one)
                 || class == self.document.root
                 || of_one && names.is_empty() =>
@@ -343,6 +349,27 @@ pub(crate) fn called_otherwise(word: &str) -> Option<&'static str> {
         "null" | "nil" | "none" | "None" => "what nothing is said of is zero, false or empty",
         "True" | "TRUE" | "yes" => "write `true`",
         "False" | "FALSE" | "no" => "write `false`",
+        "len" | "length" | "COUNT" | "size" => {
+            "how many a list has is `list.count`, a text `text.length`"
+        }
+        "math" | "Math" | "np" | "numpy" => "functions stand by themselves: `sqrt(2)`",
+        "lambda" => "a function of one argument is `x => 2 * x`",
+        "SUM" | "Sum" => "a sum is `a + b`, of a list `[a, b].sum`",
+        "AVERAGE" | "average" | "avg" | "mean" | "Mean" => "the mean of a list is `[a, b].mean`",
+        "IF" | "iff" | "iif" => "a value is chosen by `if c then a else b`",
+        "e" | "E" | "euler" => "Euler's number is `exp(1)`, a power of it `exp(x)`",
+        "range" | "Sequence" => "a range is `0..<n`, or `1..n` with its last",
+        "Midpoint" | "midpoint" => {
+            "the point halfway is `a.halfway(to: b)`, that of a line `l.midpoint`"
+        }
+        "Intersect" | "Intersection" | "intersect" => {
+            "two curves meet in `Point.intersection(a, b)`"
+        }
+        "Slider" => {
+            "any given number can be dragged: `n: Real = 5`; its bounds are `constraint 1 <= n <= 10`"
+        }
+        "Segment" => "a segment is a `Line`: `s: Line = Line(a, b)`",
+        "Polygon" => "a polygon is of lines, or a class: `Triangle`, `Rectangle`, `RegularPolygon`",
         _ => return None,
     })
 }
@@ -453,6 +480,16 @@ pub(crate) fn further_out(name: &Name, depth: usize) -> String {
 pub(crate) fn unknown_unit(place: Place, spelling: &str) -> Diagnostic {
     let message = format!("{spelling} is no unit that is known here");
     let d = Diagnostic::error("unknown-unit", place, message);
+    match spelling {
+        "weak" | "medium" | "strong" | "required" => {
+            return d.hint(format!("a strength stands before its rule: `{spelling} constraint …`"));
+        }
+        "unless" | "when" => {
+            return d.hint("a rule under a condition is `constraint if x > 3 { y = 1 }`");
+        }
+        "elif" | "elseif" => return d.hint("write `else if`"),
+        _ => {}
+    }
     // a unit after it or an operator's words: each of its factors by itself
     let meant = expr::units::meant(spelling);
     match meant.as_slice() {

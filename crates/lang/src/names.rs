@@ -198,7 +198,7 @@ impl Lowerer<'_> {
             d = d.hint(format!("a label is followed by a colon: `{}: …`", word.text()));
         } else if let Some(unit) = self.unit_below(place, word.text()) {
             d = d.meant(&unit);
-        } else if let Some(power) = raised(word.text()) {
+        } else if let Some(power) = raised(word.text()).or_else(|| raised_below(word)) {
             let hint = match unit_above(word) {
                 Some(above) => format!("the unit is `{above}/{power}`"),
                 None => format!("a power is `{power}`"),
@@ -570,9 +570,17 @@ pub(crate) fn raised(word: &str) -> Option<String> {
     (!of.is_empty() && !exponent.is_empty()).then(|| format!("{of}^{exponent}"))
 }
 
-/// Returns the unit of the number that a name divides, as in `9.81 m/s²`, where the name is that of a unit raised.
+/// Returns `m^3` for the name in `1000 kg/m3`, which stands below a unit.
+fn raised_below(word: &ast::Word) -> Option<String> {
+    let of = word.text().trim_end_matches(['2', '3', '4']);
+    let digits = &word.text()[of.len()..];
+    let power = format!("{of}^{digits}");
+    let is_one = digits.len() == 1 && expr::units::unit(&power).is_some();
+    (is_one && unit_above(word).is_some()).then_some(power)
+}
+
+/// Returns the unit of the number that a name divides, as in `9.81 m/s²`.
 fn unit_above(word: &ast::Word) -> Option<String> {
-    expr::units::unit(&raised(word.text())?)?;
     let quotient = ast::BinaryExpr::cast(word.token.parent()?.parent()?)?;
     match (quotient.op(), quotient.left()?) {
         (Some(BinaryOp::Divide), Expr::Number(number)) => Some(number.unit()?.text().to_string()),

@@ -15,7 +15,9 @@ use kernel::{
 };
 use std::collections::BTreeSet;
 use std::rc::Rc;
-use syntax::ast::{self, AstNode, BinaryOp, Expr, Member, MethodItem, Rule, span_without_doc};
+use syntax::ast::{
+    self, AstNode, BinaryOp, Expr, Member, MethodItem, Rule, UnaryOp, span_without_doc,
+};
 
 /// Where a rule stands.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -560,6 +562,16 @@ impl Lowerer<'_> {
 
     /// Lowers what follows `within`: a number that measures what the sides of the rule do, or a percentage of them.
     pub(crate) fn tolerance(&mut self, scope: &Scope, rule: &Expr, e: &Expr) -> Option<Term> {
+        if let Expr::Unary(negated) = e
+            && negated.op() == Some(UnaryOp::Negate)
+            && matches!(negated.operand(), Some(Expr::Number(_)))
+        {
+            let place = Place { file: scope.file, span: e.span() };
+            let message = format!("{} is no tolerance, wanted 0 or more", e.syntax().text());
+            let d = Diagnostic::error("negative-tolerance", place, message);
+            self.report(d.hint("say how far the sides may differ, either way: `within 0.1`"));
+            return None;
+        }
         if matches!(e, Expr::Number(n) if n.unit().is_some_and(|unit| unit.text() == "%")) {
             return self.expr_of(scope, e, &Kind::Number(Some(expr::Dimension::NONE)));
         }

@@ -149,7 +149,11 @@ fn infix(p: &mut Parser<'_>, start: Checkpoint, power: Power) -> u32 {
         Power::Compare => comparisons(p, start),
         Power::Or | Power::And | Power::Not | Power::Add | Power::Multiply | Power::Sign => {
             let twice = p.at(Star) && p.nth(1) == Star && p.is_adjacent(1);
+            let is_plus = p.at(Plus);
             bump_operator(p);
+            if is_plus {
+                mistakes::elsewhere::tolerance_sign(p);
+            }
             if twice {
                 let at = p.pos();
                 let said =

@@ -354,6 +354,9 @@ fn class(p: &mut Parser<'_>) {
 
 /// `is B as b, C`
 pub(super) fn superclasses(p: &mut Parser<'_>) {
+    if mistakes::elsewhere::body_by_colon(p) {
+        return;
+    }
     let elsewhere = p.at(Colon) && p.nth(1) == Ident
         || p.at(Ident) && matches!(p.word(0), "extends" | "inherits" | "implements");
     if elsewhere {

@@ -1,9 +1,10 @@
 //! Words and signs that other languages have where a member begins: what stands for them here.
 
 use super::MEMBER;
+use crate::kind::SyntaxKind;
 use crate::kind::SyntaxKind::{
-    Caret, Colon, Comma, Eof, Eq, Greater, GreaterEq, Ident, LParen, Less, LessEq, Minus, NotEq,
-    Number, Plus, RBrace, RParen, Semicolon, Slash, Star, Text, Unit,
+    Caret, Colon, Comma, Eof, Eq, Greater, GreaterEq, Ident, LBrace, LParen, Less, LessEq, Minus,
+    NotEq, Number, Plus, RBrace, RParen, Semicolon, Slash, Star, Text, Unit,
 };
 use crate::parser::Parser;
 use crate::units::follows_operand;
@@ -21,6 +22,12 @@ pub(super) fn of_member(p: &mut Parser<'_>) -> bool {
 
 /// A word that begins a member in other languages: what is written for it.
 fn word(p: &Parser<'_>) -> Option<String> {
+    if matches!(p.word(0), "equation" | "equations" | "algorithm" | "constraints" | "rules")
+        && p.at(Ident)
+        && p.begins_line(1)
+    {
+        return Some("each rule has its own word: `constraint x + y = 3`".into());
+    }
     if !p.at(Ident) || p.begins_line(1) || p.nth(1) == Eof {
         return None;
     }
@@ -50,8 +57,31 @@ fn word(p: &Parser<'_>) -> Option<String> {
             "what is to be true in a check is expected: `expect x = 3`".into()
         }
         "test" | "it" | "describe" if p.nth(1) == Text => format!("write `check {next} {{ … }}`"),
-        "struct" | "type" | "record" | "object" | "interface" | "entity" if is_named => {
+        "struct" | "type" | "record" | "object" | "interface" | "entity" | "model" | "block"
+        | "module" | "trait"
+            if is_named =>
+        {
             format!("a class is declared by `class {next} {{ … }}`")
+        }
+        "end" | "endif" | "endfor" if is_named => {
+            "a body ends with the `}` that closes its `{`: leave the line out".into()
+        }
+        "parameter" | "input" | "output" | "attribute" | "property" if is_named => {
+            let declared = match (p.nth(2), p.nth(3)) {
+                (Ident, Eq) => format!("{}: {next} = {}", p.word(2), p.quoted_line(p.pos() + 4)),
+                (Ident, _) => format!("{}: {next}", p.word(2)),
+                _ => format!("{next}: Real"),
+            };
+            format!("a part has its class behind it: `{declared}`")
+        }
+        "override" | "virtual" | "new" if is_named => {
+            format!("what a class says again counts: leave `{}` out", p.word(0))
+        }
+        "soft" | "hard" | "optional" if next == "constraint" => {
+            "a strength is weak, medium or strong: `weak constraint x = 0`".into()
+        }
+        "include" | "import" if p.nth(1) == Less => {
+            "a library is brought by its name: `use geometry`".into()
         }
         _ => return None,
     })
@@ -85,6 +115,18 @@ fn sign(p: &Parser<'_>) -> Option<String> {
         LParen if before(1) == "super" => {
             "the answer of the superclasses has a name: `super.picture`".into()
         }
+        Text if matches!(p.behind(1), Number | Unit | Text) => {
+            format!(
+                "what the lab says of it stands before it: `/// {}`",
+                p.word(0).trim_matches('"')
+            )
+        }
+        LBrace if matches!(p.nth(1), Number | Ident | Minus) && compares(p.nth(2)) => {
+            format!("a bound is a rule of its own: `constraint {}`", within_braces(p))
+        }
+        Ident if matches!(p.word(0), "weak" | "medium" | "strong" | "required") => {
+            format!("a strength stands before its rule: `{} constraint …`", p.word(0))
+        }
         Ident if p.word(0) == "between" => "write `1 <= x <= 3`".into(),
         Ident if p.word(0) == "per" && p.behind(1) == Unit => {
             format!("a unit is divided without spaces: `{}/{}`", before(1), p.word(1))
@@ -92,6 +134,17 @@ fn sign(p: &Parser<'_>) -> Option<String> {
         _ => return None,
     };
     Some(hint)
+}
+
+fn compares(kind: SyntaxKind) -> bool {
+    matches!(kind, Eq | Less | LessEq | Greater | GreaterEq | NotEq)
+}
+
+/// Returns what stands in the braces that begin here.
+fn within_braces(p: &Parser<'_>) -> String {
+    let length =
+        (1..).take_while(|&n| !matches!(p.nth(n), RBrace | Eof) && !p.begins_line(n)).count();
+    p.quoted(p.pos() + 1, p.pos() + length)
 }
 
 /// `sum x = 3` after `constraint`: a name without its colon, or a product without its sign. Returns true where it was
@@ -288,4 +341,34 @@ pub(in crate::grammar) fn copy_without_of(p: &mut Parser<'_>) -> bool {
         p.report_mistake((at, at), said, Some((p.span_at(at), "copy of".into())));
     }
     is_one
+}
+
+/// `class Box:` at the end of a line: returns true where it was reported.
+pub(in crate::grammar) fn body_by_colon(p: &mut Parser<'_>) -> bool {
+    let is_one = p.at(Colon) && p.begins_line(1);
+    if is_one {
+        let at = p.pos();
+        let said = (
+            "expected-body",
+            "found `:`, wanted `{`".to_string(),
+            format!("a body stands in braces: `class {} {{ … }}`", p.text_between(at - 1, at - 1)),
+        );
+        p.report_mistake((at, at), said, None);
+        p.bump();
+    }
+    is_one
+}
+
+/// `3 mm +- 0.1 mm`: reports the sign of a tolerance, behind its `+`.
+pub(in crate::grammar) fn tolerance_sign(p: &mut Parser<'_>) {
+    let is_one = p.at(Minus) && p.is_adjacent(0) && !p.is_adjacent(1) && p.nth(1) == Number;
+    if is_one {
+        let at = p.pos();
+        let said = (
+            "tolerance-sign",
+            "found `+-`, wanted one operator".to_string(),
+            "what is nearly equal is a rule, `constraint a = b within 0.1`".to_string(),
+        );
+        p.report_mistake((at - 1, at), said, None);
+    }
 }
