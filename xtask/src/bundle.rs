@@ -40,39 +40,12 @@ impl Effort {
 /// # Errors
 /// A sentence that says which step failed; the step's own messages are on the terminal.
 pub(crate) fn build(compiler: &WasmCompiler, effort: Effort) -> Result<Option<Made>, String> {
-    let (module, made) = module(PAGE, compiler, effort)?;
-    let unwritten = |error| format!("dist/ could not be written: {error}");
-    let files = page_files(&module).map_err(unwritten)?;
-    let size = synchronise(&top().join("dist"), &files).map_err(unwritten)?;
+    let (module, made) = module("web", compiler, effort)?;
+    let files = page_files(&module).and_then(|files| synchronise(&top().join("dist"), &files));
+    let size = files.map_err(|error| format!("dist/ could not be written: {error}"))?;
     say!("page: {} kB in dist/", size / 1000);
-    if effort == Effort::Full {
-        let at_first = sent_at_first(&files);
-        say!("page: {} kB come before the first drag; the goal is 1000", at_first / 1000);
-        // another compiler gives functions other names
-        if at_first > MOST_AT_FIRST && *compiler == WasmCompiler::Toolchain {
-            let most = MOST_AT_FIRST / 1000;
-            return Err(format!("the page was under {most} kB; see xtask/bindgen/later.txt"));
-        }
-    }
     Ok(made)
 }
-
-/// What was reached of what comes before the first drag, in bytes as they are sent. The goal is a million.
-const MOST_AT_FIRST: usize = 1_350_000;
-
-/// The files that come while the page is in use, or where something is opened that needs them.
-const COME_LATER: [&str; 4] =
-    ["codemirror.js", "codemirror.license.txt", "web_rest.wasm", "worker.js"];
-
-/// How many bytes of these files are sent before the first drag.
-fn sent_at_first(files: &BTreeMap<String, Vec<u8>>) -> usize {
-    let is_sent = |name: &&String| !name.ends_with(".br") && !COME_LATER.contains(&name.as_str());
-    let size = |name: &String| files.get(&format!("{name}.br")).unwrap_or(&files[name]).len();
-    files.keys().filter(is_sent).map(size).sum()
-}
-
-/// The package of the page. Its module is split: xtask/bindgen/later.txt says what does not come at first.
-const PAGE: &str = "web";
 
 /// The files of the assets that are worth compressing.
 const COMPRESSED: [&str; 2] = ["codemirror.js", "style.css"];
@@ -97,11 +70,7 @@ pub(crate) fn module(
     let compressed = COMPRESSED.map(|name| top().join("crates/web/assets").join(name));
     let is_stale =
         |(name, file): (&str, &PathBuf)| is_older(&module.join(format!("{name}.br")), file);
-    let is_page = package == PAGE;
-    let later = top().join("xtask/bindgen/later.txt");
-    let own = module.join(format!("{package}_bg.wasm"));
-    if is_older(&own, &made)
-        || is_page && effort == Effort::Full && is_older(&own, &later)
+    if is_older(&module.join(format!("{package}_bg.wasm")), &made)
         || COMPRESSED.into_iter().zip(&compressed).any(is_stale)
     {
         say!("page: making its module");
@@ -112,7 +81,6 @@ pub(crate) fn module(
         }
         bindgen.arg(target()).arg("--");
         match effort {
-            Effort::Full if is_page => _ = bindgen.arg("--split").arg(&later),
             Effort::Full => {}
             // a smaller module is read sooner, for each page anew
             Effort::Tests => _ = bindgen.arg("--quick"),
@@ -162,13 +130,6 @@ pub(crate) fn build_command(effort: Effort, selection: &[&str]) -> Result<PathBu
     let target =
         env::var_os("CARGO_TARGET_DIR").map_or_else(|| top().join("target"), PathBuf::from);
     Ok(top().join(target).join(folder).join(format!("thinglab{}", env::consts::EXE_SUFFIX)))
-}
-
-/// The tests of what makes modules, for which it is compiled once more.
-pub(crate) fn module_tests() -> Command {
-    let mut tests = tools::cargo(&["test", "--quiet", "--package", "bindgen", "--target-dir"]);
-    tests.arg(target());
-    tests
 }
 
 /// The page has a target folder of its own: two compilers in one would undo each other's work.
@@ -262,16 +223,4 @@ fn synchronise(folder: &Path, files: &BTreeMap<String, Vec<u8>>) -> io::Result<u
         }
     }
     Ok(files.values().map(Vec::len).sum())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn what_comes_later_or_is_not_sent_as_it_lies_is_not_counted() {
-        let sizes = [("a.js", 5), ("web_bg.wasm", 90), ("web_bg.wasm.br", 30), ("worker.js", 7)];
-        let files = sizes.map(|(name, size)| (String::from(name), vec![0; size]));
-        assert_eq!(sent_at_first(&BTreeMap::from(files)), 35);
-    }
 }

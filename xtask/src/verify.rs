@@ -192,9 +192,6 @@ fn in_the_browser(length: Length, page: Page, programs: &Receiver<Programs>) -> 
     if built.is_ok() {
         heading("the page is built");
     }
-    if length == Length::Long {
-        count.add(tested(&mut bundle::module_tests(), "tests of its splitting", Show::AtTheEnd));
-    }
     match &built {
         Ok(Some(made)) if page == Page::AsItIsBuilt => {
             count.add(Count::one(made.is_clean));

@@ -222,8 +222,8 @@ export function startWorker(said) {
     said("failed", event.message ?? "")
   }
   const begin = async () => {
-    const { compiled, rest } = await import("./bundle.js")
-    worker.postMessage([await compiled, await rest])
+    const { compiled } = await import("./bundle.js")
+    worker.postMessage(await compiled)
   }
   begin().catch((error) => said("failed", String(error)))
   return { ask: (job) => worker.postMessage(job), end: () => worker.terminate() }

@@ -1,7 +1,6 @@
 //! What the browser's scripts do for the page: `assets/host.js` (the server), `assets/painter.js`
-//! (the canvas), `assets/page.js` (small things), `assets/rest.js` (the rest of the code), `assets/worker.js` (long
-//! jobs) and `assets/codemirror.js` (the text editor, built from `assets/editor/editor.src.js`, fetched by
-//! `assets/editor.js`).
+//! (the canvas), `assets/page.js` (small things), `assets/worker.js` (long jobs) and `assets/codemirror.js` (the text
+//! editor, built from `assets/editor/editor.src.js`, fetched by `assets/editor.js`).
 //!
 //! All offsets are UTF-8 byte offsets into the editor's text.
 
@@ -13,18 +12,6 @@ use wasm_bindgen::prelude::wasm_bindgen;
 extern "C" {
     /// Sends a request with the server's token; gives `[status, text]`, status 0 without a server.
     pub async fn request(method: &str, path: &str, body: Option<&str>) -> Array;
-}
-
-#[wasm_bindgen(raw_module = "./rest.js")]
-extern "C" {
-    /// Has the rest of the bundle's code come, where the bundle was split; it needs the exports of what is here.
-    #[wasm_bindgen(js_name = beginRest)]
-    pub fn begin_rest(exports: &JsValue);
-
-    /// Returns once the rest of the code is there. What is called of the rest before calls this first, by itself
-    /// (`xtask/bindgen/src/split.rs`).
-    #[wasm_bindgen(js_name = needRest)]
-    pub fn need_rest();
 }
 
 #[wasm_bindgen(raw_module = "./editor.js")]

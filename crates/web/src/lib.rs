@@ -58,10 +58,8 @@ use presentation::{orbit, paint, sheet};
 
 /// Puts the page into the document's body; called once, when the bundle has loaded. In the worker there is none.
 pub fn start() {
-    js::begin_rest(&wasm_bindgen::exports());
     if js::is_worker() {
         console_error_panic_hook::set_once();
-        js::need_rest();
         worker::start();
         return;
     }

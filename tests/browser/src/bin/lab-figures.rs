@@ -36,19 +36,10 @@ async fn main() -> io::Result<()> {
     writeln!(out, "until the first drag, nothing kept: {opened:.0} ms; the goal is 1000")?;
     let visit = Visit::open(None).await;
     visit.until("document.querySelector('main')").await;
-    // what no first drag needs comes in a module of its own
-    let [first, rest] = ["!", ""].map(|not| {
-        format!(
-            "return performance.getEntriesByType('resource').filter(r => {not}r.name.endsWith('_rest.wasm'))
-                 .reduce((sum, r) => sum + r.encodedBodySize, 0) / 1e6"
-        )
-    });
-    let (first, rest) = (visit.script(&first).await, visit.script(&rest).await);
-    let (first, rest) = (number(&first), number(&rest));
-    writeln!(
-        out,
-        "over the wire before the first drag: {first:.2} MB; the goal is 1. After it: {rest:.2} MB"
-    )
+    let sizes = "return performance.getEntriesByType('resource')
+                     .reduce((sum, r) => sum + r.encodedBodySize, 0) / 1e6";
+    let sizes = number(&visit.script(sizes).await);
+    writeln!(out, "over the wire: {sizes:.2} MB; the goal is 1")
 }
 
 fn number(told: &Value) -> f64 {
