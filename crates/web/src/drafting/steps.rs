@@ -27,10 +27,15 @@ pub fn Steps(
         let one = |row| view! { <Parameter lab=lab example=example.clone() row=row used=used /> };
         view().parameters.into_iter().map(one).collect_view()
     };
+    // each row with what it is of: of many only those that are others are made anew
     let rows = move || {
-        let all = view();
-        let one = |row: StepRow| view! { <Row lab=lab steps=all.clone() row=row /> };
-        all.rows.clone().into_iter().map(one).collect_view()
+        let StepsView { rows, example, program, is_recorded, at, .. } = view();
+        let one = |row: StepRow| {
+            let (example, program) = (example.clone(), program.clone());
+            let at = at.clone().filter(|at| *at == row.path);
+            (StepsView { example, program, is_recorded, at, ..StepsView::default() }, row)
+        };
+        rows.into_iter().map(one).collect::<Vec<_>>()
     };
     // the step that was drawn last, or comes next, is in sight
     Effect::new(move |seen: Option<usize>| {
@@ -91,7 +96,9 @@ pub fn Steps(
                 <button data-visit="own" on:click=move |_| lab.own_values()>{words::OWN_VALUES}</button>
             </p>
         </Show>
-        <ol class="steps" on:keydown=|e| keyboard::go_in(LIST, &e)>{rows}</ol>
+        <ol class="steps" on:keydown=|e| keyboard::go_in(LIST, &e)>
+            <For each=rows key=|one| format!("{one:?}") children=move |(steps, row)| view! { <Row lab=lab steps=steps row=row /> } />
+        </ol>
     }
 }
 
