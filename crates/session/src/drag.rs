@@ -103,6 +103,22 @@ pub(crate) fn begin(open: &mut Open, paths: &[Path]) -> Result<(f64, f64), Refus
     Ok(handle)
 }
 
+/// So many numbers are named that follow a drag.
+const MOST_FOLLOWING: usize = 3;
+
+impl Drag {
+    /// Which numbers follow where what is dragged is computed of them, with what they are now.
+    pub(crate) fn following(&self, state: &State) -> Vec<String> {
+        let told = |&slot: &SlotId| {
+            let now = words::slot_in_words(state, slot, &self.values);
+            let is_other = now != words::slot_in_words(state, slot, &state.values);
+            is_other.then(|| format!("{} {now}", state.slot_path(slot)))
+        };
+        let is_computed = self.computed.is_some();
+        self.slots.iter().filter(|_| is_computed).filter_map(told).take(MOST_FOLLOWING).collect()
+    }
+}
+
 /// Begins a drag of a handle, while what it keeps stays. Nothing where it is none, or cannot be dragged so.
 fn begin_handle(state: &State, planner: &mut Planner, path: &Path, aim: &Aim) -> Option<Drag> {
     let keeping = handles::keeping(state, path, aim)?;

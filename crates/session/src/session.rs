@@ -236,6 +236,11 @@ impl Session {
             None => DragState::default(),
         }
     }
+    /// Returns which numbers follow a drag of something computed, each with what it is now: `rings.radius 48 mm`.
+    pub fn dragged_along(&self, id: DocumentId) -> Vec<String> {
+        let open = self.document(id);
+        open.drag.as_ref().map_or_else(Vec::new, |drag| drag.following(&open.state))
+    }
     /// Ends a drag: soft constraints act again, and the change is written, as one undo step.
     ///
     /// # Errors

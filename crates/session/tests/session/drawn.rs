@@ -21,6 +21,8 @@ fn the_third_ring_dragged_changes_the_first_radius_and_the_number_of_turns() {
     // its centre lies on a ray through the corner: so much further out it is twice as large
     let there = desk.session.drag(desk.id, (1.2 * x, 1.2 * y));
     assert!(there.reached && there.modes.is_empty(), "{there:?}");
+    // what follows is told while it does
+    assert_eq!(desk.session.dragged_along(desk.id), ["rings.radius 48 mm"]);
     let there = desk.session.drag(desk.id, (2.0 * x, 2.0 * y));
     assert!(there.reached, "{there:?}");
     assert_eq!(there.modes.len(), 1);

@@ -39,8 +39,11 @@ pub fn StepNumbers(
         };
         all.into_iter().filter_map(line).collect_view()
     };
-    let is_any =
-        Memo::new(move |_| numbers.with(|all| all.as_ref().is_some_and(|all| !all.is_empty())));
+    // while something is dragged they would stand where they were
+    let is_any = Memo::new(move |_| {
+        let rests = lab.dragging.with(Option::is_none);
+        rests && numbers.with(|all| all.as_ref().is_some_and(|all| !all.is_empty()))
+    });
     view! {
         <Show when=move || is_any.get()>
             <svg class="step-lines" aria-hidden="true">

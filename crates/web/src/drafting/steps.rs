@@ -38,14 +38,16 @@ pub fn Steps(
         rows.into_iter().map(one).collect::<Vec<_>>()
     };
     // the step that was drawn last, or comes next, is in sight
-    Effect::new(move |seen: Option<usize>| {
-        let drawn =
-            steps.with(|s| s.as_ref().filter(|s| s.is_recorded).map_or(0, |s| s.rows.len()));
+    Effect::new(move |seen: Option<(usize, Option<String>)>| {
+        let drawn = steps.with(|s| {
+            let recorded = s.as_ref().filter(|s| s.is_recorded);
+            recorded.map_or((0, None), |s| (s.rows.len(), s.at.clone()))
+        });
         if seen.is_some_and(|seen| seen != drawn) {
             request_animation_frame(show_newest);
         }
         let is_asked = lab.drafting.prompt.with_untracked(Option::is_some);
-        if drawn > 0 && !is_asked && !js::coarse() {
+        if drawn.0 > 0 && !is_asked && !js::coarse() {
             // the rows are others now: who had the keyboard in one of them has it beside them
             keyboard::rest_at(".drawing [data-visit='step']");
         }
