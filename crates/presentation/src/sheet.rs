@@ -149,6 +149,19 @@ impl View {
     }
 }
 
+/// How many millimetres a CSS pixel is: an inch has 96.
+const MILLIMETRES_PER_PIXEL: f64 = 25.4 / 96.0;
+
+/// Returns a scale as people say it: that of a drawing, `5 : 1` or `1 : 200`, where it is known how many millimetres a
+/// unit of the sheet is; else how many pixels it has, in percent.
+pub fn scale_in_words(scale: f64, millimetres: Option<f64>) -> String {
+    let Some(millimetres) = millimetres else { return format!("{:.0} %", 100.0 * scale) };
+    let times = scale * MILLIMETRES_PER_PIXEL / millimetres;
+    let digits = |x: f64| base::number::significant(x, if x < 100.0 { 2 } else { 3 });
+    let (large, small) = (digits(times), digits(1.0 / times));
+    if times >= 1.0 { format!("{large} : 1") } else { format!("1 : {small}") }
+}
+
 /// What is a smaller part of a canvas is not looked at comfortably.
 const GOOD: f64 = 0.2;
 
@@ -409,6 +422,20 @@ mod tests {
         let before = view.sheet_from_screen((100.0, 80.0));
         let after = view.zoomed(1.5, (100.0, 80.0)).sheet_from_screen((100.0, 80.0));
         assert!((before.x - after.x).abs() < 1e-12 && (before.y - after.y).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_sheet_of_known_size_tells_its_scale_as_a_drawing_does() {
+        let pixels_per_millimetre = 96.0 / 25.4;
+        for (scale, millimetres, says) in [
+            (169.92, Some(1.0), "45 : 1"),
+            (pixels_per_millimetre, Some(1.0), "1 : 1"),
+            (0.02 * pixels_per_millimetre, Some(1.0), "1 : 50"),
+            (30.0, Some(1000.0), "1 : 126"),
+            (1.5, None, "150 %"),
+        ] {
+            assert_eq!(super::scale_in_words(scale, millimetres), says);
+        }
     }
 
     #[test]

@@ -4,7 +4,7 @@
 //! the sheet would be nothing to see. Who types it means that the sheet is in millimetres. A text that is typed as such
 //! is left as it is, and warned of (`mixed-lengths`).
 
-use crate::document::Open;
+use crate::document::{Direction, Open};
 use crate::fixes;
 use crate::host::Host;
 use crate::session::Session;
@@ -46,16 +46,20 @@ pub(crate) fn with_unit(
     let (since, before) = (open.done.len(), open.state.clone());
     let change = open.tried(|open| {
         let text = text_with(&open.state.text, &unit);
-        let plans = open.planner.take_plans();
-        // every bare length is another one now: nothing is kept from what it was
-        let (state, planner) = State::of(text, None, host, plans);
-        apply::step_to(open, format!("unit {unit}"), state, planner);
+        take_anew(open, host, text, format!("unit {unit}"));
         act(open)
     })?;
     open.one_step(since);
     let whole = apply::change(change.label.clone(), &before, &open.state);
     let Change { edits, moved, structure, .. } = whole;
     Ok(Change { edits, moved, structure, unit: Some(unit), ..change })
+}
+
+/// Takes a text in which every bare length is another one: nothing is kept from what it was.
+fn take_anew(open: &mut Open, host: &dyn Host, text: String, label: String) {
+    let plans = open.planner.take_plans();
+    let (state, planner) = State::of(text, None, host, plans);
+    apply::step_to(open, label, state, planner);
 }
 
 /// Returns a text that says what a length without a unit is.
@@ -98,12 +102,15 @@ impl Session {
         path: &Path,
         typed: &str,
     ) -> Option<Result<Change, Refusal>> {
-        let (open, beside) = self.beside_others(id);
-        let unit = unit_from(&open.state, typed).filter(|_| open.pane.is_none())?;
+        let unit = unit_from(&self.document(self.home(id)).state, typed)?;
         // words in a text have no unit
-        if let Ok(Literal::Text(_)) = words::read_typed(&open.state, path, typed) {
+        if let Ok(Literal::Text(_)) = words::read_typed(&self.document(id).state, path, typed) {
             return None;
         }
+        if self.home(id) != id {
+            return Some(self.set_in_pane_with_unit(id, unit, (path, typed)));
+        }
+        let (open, beside) = self.beside_others(id);
         open.drag = None;
         let change = with_unit(open, &beside, unit, |open| {
             let literal = words::read_typed(&open.state, path, typed)?;
@@ -112,6 +119,40 @@ impl Session {
             apply::apply(open, &beside, &Command::Set(vec![target]))
         });
         Some(change.map(|change| *self.with_reach(id, change)))
+    }
+
+    /// The same in the pane of a class: the document that declares it takes over the unit.
+    fn set_in_pane_with_unit(
+        &mut self,
+        pane: DocumentId,
+        unit: String,
+        (path, typed): (&Path, &str),
+    ) -> Result<Change, Refusal> {
+        let home = self.home(pane);
+        let (open, beside) = self.beside_others(home);
+        let (since, before) = (open.done.len(), open.state.clone());
+        let undone = std::mem::take(&mut open.undone);
+        let text = text_with(&open.state.text, &unit);
+        take_anew(open, &beside, text, format!("unit {unit}"));
+        self.renew_pane(pane);
+        let outcome = self.set_typed(pane, &path.to_string(), typed);
+        let open = self.document_mut(home);
+        match outcome {
+            Ok(change) => {
+                open.one_step(since);
+                let whole = apply::change(change.label.clone(), &before, &open.state);
+                let Change { edits, moved, structure, .. } = whole;
+                Ok(Change { edits, moved, structure, unit: Some(unit), ..change })
+            }
+            Err(refusal) => {
+                while open.done.len() > since {
+                    open.travel(Direction::Back);
+                }
+                open.undone = undone;
+                self.renew_pane(pane);
+                Err(refusal)
+            }
+        }
     }
 }
 

@@ -9,6 +9,7 @@ pub(crate) mod bin;
 mod catch;
 pub(crate) mod copies;
 mod digits;
+mod lengths;
 pub(crate) mod room;
 mod stages;
 mod stops;
@@ -25,6 +26,7 @@ use crate::{views, words};
 use base::Name;
 use base::number::{cos, hypot, shortest, sin};
 use catch::{Catch, Sight};
+use digits::{COMPUTED, SOLVED};
 use drawing::{Color, Element, Layer, Line, Point, Shape, Style, Tag};
 use kernel::{Command, Literal, Path, Step};
 use stages::{Stage, stages};
@@ -215,6 +217,10 @@ impl Tool {
             ];
             catch.rules.extend(said.into_iter().flatten());
         }
+        if let Some(Stage::Reach { number }) = self.stages.get(self.set.len()) {
+            let said = |length| format!("{}.{number} = {}", self.name, written(length));
+            catch.rules.extend(pointer.length.as_ref().map(said));
+        }
         catch
     }
 
@@ -336,7 +342,10 @@ impl Tool {
 
     /// The command that makes the thing as it is in the trial, joined to what its places were caught by.
     fn command(&self, host: &dyn Host) -> Command {
-        let mut members = digits::without_noise(&self.trial, &self.name, host);
+        // what a rule says of a place, the place says to the last digit
+        let is_free = self.set.iter().all(|catch| catch.rules.is_empty());
+        let sorts = if is_free { &[SOLVED, COMPUTED][..] } else { &[COMPUTED] };
+        let mut members = digits::without_noise(&self.trial, &self.name, sorts, host);
         for (stage, catch) in self.stages.iter().zip(&self.set) {
             if let Some(other) = &catch.joins {
                 members.push_str(&format!("\nmerge {other} = {}", self.own(stage)));
@@ -352,14 +361,15 @@ impl Tool {
     pub(crate) fn view(&self) -> ToolView {
         let trial = &self.trial;
         let shown = views::picture::picture(&trial.state, trial.values(), &trial.status);
-        let hint = match self.stages.get(self.set.len()) {
-            Some(stage) => stage.hint(&self.class, self.set.is_empty()),
-            None => String::new(),
-        };
-        let hint = if self.goes_on && !self.set.is_empty() {
-            format!("{hint}; digits: its length, as 30 or 3 cm, < its angle")
-        } else {
-            hint
+        let stage = self.stages.get(self.set.len());
+        let hint = stage.map(|stage| stage.hint(&self.class, self.set.is_empty()));
+        let hint = hint.unwrap_or_default();
+        let hint = match stage {
+            Some(Stage::Reach { number }) => format!("{hint}; digits: its {number}, as 30 or 3 cm"),
+            _ if self.goes_on && !self.set.is_empty() => {
+                format!("{hint}; digits: its length, as 30 or 3 cm, < its angle")
+            }
+            _ => hint,
         };
         ToolView {
             hint,

@@ -220,6 +220,8 @@ pub struct PictureView {
     pub grips: Vec<Grip>,
     /// What the sheet counts in; nothing where its lengths have no unit.
     pub unit: Option<SheetUnit>,
+    /// How many millimetres a unit of the drawing is; nothing where its lengths are units of the sheet alone.
+    pub millimetres: Option<f64>,
     /// How often it was made since the document was opened.
     pub made: u32,
     /// How often it was brought up to date since then.

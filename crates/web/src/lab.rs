@@ -187,6 +187,8 @@ pub struct Lab {
     pub typed: RwSignal<String>,
     /// Where the arrow keys have brought the pointer, on the canvas.
     pub cursor: RwSignal<Option<(f64, f64)>>,
+    /// Where on the sheet a key has brought the tool in the hand; nothing once the pointer has moved it.
+    pub keyed: RwSignal<Option<(f64, f64)>>,
     /// Whether the tool was taken out of the bin with the button held down.
     pub carried: StoredValue<bool>,
     /// What the thing that is dragged would be joined with.
@@ -350,6 +352,7 @@ impl Lab {
             tool_view: RwSignal::new(ToolView::default()),
             typed: RwSignal::new(String::new()),
             cursor: RwSignal::new(None),
+            keyed: RwSignal::new(None),
             carried: StoredValue::new(false),
             dropping: RwSignal::new(None),
             player: Player::default(),

@@ -126,9 +126,16 @@ fn follow(lab: Lab) {
         return;
     }
     lab.coming.set_value(Some(path.clone()));
+    let before = keyboard::holder().filter(|holder| holder.tag_name() != "BODY");
     leptos::task::spawn_local(async move {
         match lab.load(&path).await {
-            Ok(_) if route::present().as_deref() == Some(&path) => lab.show(&path),
+            Ok(_) if route::present().as_deref() == Some(&path) => {
+                lab.show(&path);
+                // what was chosen in the gallery is gone with it
+                if before.is_some() {
+                    keyboard::give_back(before);
+                }
+            }
             Ok(_) => {}
             Err(message) => {
                 // of what was given up the address does not speak any more

@@ -10,7 +10,7 @@ use crate::lab::{Lab, Zoom, first_path};
 use crate::paint::{
     DisplayList, Part, arrows, caught, display_list, ghosts, grid, guides, loci, preview,
 };
-use crate::sheet::{Bounds, View, bounds, fit_box, with_words};
+use crate::sheet::{Bounds, View, bounds, fit_box, scale_in_words, with_words};
 use crate::words;
 use drawing::{Drawing, Point, Vertical};
 use js_sys::Array;
@@ -64,12 +64,17 @@ pub fn Picture(
         words::picture_of(&title, lab.picture.with(|picture| picture.grips.len()))
     });
     let grid_step = grid_step(lab);
+    let scale = Memo::new(move |_| {
+        let millimetres = lab.picture.with(|picture| picture.millimetres);
+        scale_in_words(lab.view.get().scale, millimetres)
+    });
     let caught = Memo::new(move |_| {
         lab.tool_view.with(|tool| tool.caught.as_ref().map(|caught| caught.word.clone()))
     });
     let live = Memo::new(move |_| {
         let of_selection = || described(lab, marked.with(|m| m.selected.last().cloned()));
-        caught.get().unwrap_or_else(of_selection)
+        let keyed = lab.keyed.get().map(words::place);
+        caught.get().or(keyed).unwrap_or_else(of_selection)
     });
     view! {
         <section class="panel picture" aria-label=words::PICTURE>
@@ -130,9 +135,9 @@ pub fn Picture(
                 <button title=words::ZOOM_OUT aria-label=words::ZOOM_OUT
                     on:click=move |_| lab.zoom.set(Some(Zoom::By(0.8)))>"−"</button>
                 <button title=words::FIT
-                    aria-label=move || words::fit_at(100.0 * lab.view.get().scale)
+                    aria-label=move || words::fit_at(&scale.get())
                     on:click=move |_| lab.zoom.set(Some(Zoom::Fit))>
-                    {move || format!("{:.0} %", 100.0 * lab.view.get().scale)}
+                    {scale}
                 </button>
                 <button title=words::ZOOM_IN aria-label=words::ZOOM_IN
                     on:click=move |_| lab.zoom.set(Some(Zoom::By(1.25)))>"+"</button>

@@ -100,6 +100,7 @@ impl Lab {
 
     fn show_tool(self, view: ToolView) {
         self.typed.update(String::clear);
+        self.keyed.set(None);
         self.tool_view.set(view);
     }
 
@@ -218,25 +219,40 @@ impl Lab {
                 let stop = self.ask_of_shown(|session, id| session.tool_stop(id, &pointer, along));
                 let Some(at) = stop.flatten() else { return false };
                 self.set_cursor(at);
-                self.tool_moved(&self.keyboard_pointer(size));
+                self.follow_keys(size);
                 return true;
             }
             "Backspace" => {
                 self.typed.update(|typed| {
                     let _ = typed.pop();
                 });
+                self.follow_typed(size);
                 return true;
             }
             one if self.typed.with_untracked(|typed| adds(typed, one)) => {
                 self.typed.update(|typed| typed.push_str(one));
+                self.follow_typed(size);
                 return true;
             }
             _ => return false,
         };
         let at = self.cursor.get_untracked().unwrap_or((size.0 / 2.0, size.1 / 2.0));
         self.cursor.set(Some((at.0 + by.0, at.1 + by.1)));
-        self.tool_moved(&self.keyboard_pointer(size));
+        self.follow_keys(size);
         true
+    }
+
+    /// The tool follows the pointer of the keyboard.
+    fn follow_keys(self, size: (f64, f64)) {
+        let pointer = self.keyboard_pointer(size);
+        self.tool_moved(&pointer);
+        self.keyed.set(Some(pointer.at));
+    }
+
+    /// The tool shows what would come of what is typed, where that is something.
+    fn follow_typed(self, size: (f64, f64)) {
+        let told = self.typed.with_untracked(|t| pointed(t, self.keyboard_pointer(size)));
+        told.inspect(|pointer| self.tool_moved(pointer));
     }
 
     /// Brings the pointer of the keyboard to a place of the sheet.
@@ -282,6 +298,8 @@ impl Lab {
         let Some(id) = self.id() else { return };
         match self.ask(|session| session.insertion(id, class)) {
             Ok(command) => {
+                // the first part of a sheet is as large as it is placed by the pointer
+                self.fits.set_value(false);
                 let before = self.structure.with_untracked(Vec::len);
                 self.apply_as_meant(&command);
                 let made = self.structure.with_untracked(|rows| {

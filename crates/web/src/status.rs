@@ -41,7 +41,8 @@ pub fn StatusLine(
         let hint = lab.tool_view.with(|view| view.hint.clone());
         let typed = lab.typed.get();
         let typed = (!typed.is_empty()).then(|| words::typed_for_tool(&typed));
-        let hint = match lab.cursor.with(Option::is_none) {
+        let has_keys = lab.cursor.with(Option::is_none) || lab.keyed.with(Option::is_some);
+        let hint = match has_keys {
             true => format!("{hint}; {}", words::TOOL_KEYS),
             false => hint,
         };

@@ -435,8 +435,13 @@ pub fn grid_step(step: &str, unit: &str) -> String {
 }
 
 /// What the button that fits the picture says: its scale, which it shows, and what it does.
-pub fn fit_at(percent: f64) -> String {
-    format!("{percent:.0} %: {FIT}")
+pub fn fit_at(scale: &str) -> String {
+    format!("{scale}: {FIT}")
+}
+
+/// A place of the sheet, as it is heard and typed.
+pub fn place((x, y): (f64, f64)) -> String {
+    format!("{}, {}", base::number::significant(x, 6), base::number::significant(y, 6))
 }
 
 /// What something that is dropped is joined with.

@@ -3,6 +3,7 @@
 //! A copy is the text that says it. What the things are called changes when they are put down, and nothing else; then
 //! they are moved together in a document of their own, so that where they lie is written as any move would be.
 
+use super::lengths::{self, Measure};
 use super::{member_of, of_classes};
 use crate::apply;
 use crate::by_hand::class_at;
@@ -41,11 +42,13 @@ pub struct Clip {
     /// What is copied, by name, each with its class.
     things: Vec<(Name, Name)>,
     relations: Relations,
-    members: Vec<Copied>,
+    pub(super) members: Vec<Copied>,
     /// Where their places were, also those that the text gives to what they are merged with.
     places: Vec<(Path, (f64, f64))>,
     /// What the text that they come from uses and declares: it goes with them where they mean nothing without.
-    header: Vec<String>,
+    pub(super) header: Vec<String>,
+    /// What a length without a unit is where they come from.
+    pub(super) measure: Option<Measure>,
 }
 
 impl Clip {
@@ -71,8 +74,8 @@ pub(crate) fn read(text: &str, host: &dyn Host) -> Option<Clip> {
 
 /// A member of a text that says something of what is copied.
 #[derive(Clone, PartialEq, Eq, Debug)]
-struct Copied {
-    text: String,
+pub(super) struct Copied {
+    pub(super) text: String,
     /// Where it names what is copied.
     names: Vec<(Span, Name)>,
     is_thing: bool,
@@ -151,7 +154,8 @@ pub(crate) fn copied(state: &State, paths: &[Path], relations: Relations) -> Res
     }
     let header = header(&state.text);
     let places = paths.iter().flat_map(|path| places(state, path)).collect();
-    Ok(Clip { things, relations, members, places, header })
+    let measure = Measure::of(document);
+    Ok(Clip { things, relations, members, places, header, measure })
 }
 
 /// Returns where the places of a thing are, by their paths.
@@ -209,13 +213,14 @@ pub(crate) fn pasting(
 ) -> Result<(Command, Vec<String>), Refusal> {
     let names = free_names(&open.state, &clip.things);
     let called = |name: &Name| names.get(name).cloned().unwrap_or_else(|| name.to_string());
-    let written = |copied: &Copied| {
-        let edits: Vec<TextEdit> = { copied.names.iter() }
-            .map(|(span, name)| TextEdit { span: *span, insert: called(name) })
-            .collect();
+    let written = |(copied, lengths): (&Copied, Vec<TextEdit>)| {
+        let names = { copied.names.iter() }
+            .map(|(span, name)| TextEdit { span: *span, insert: called(name) });
+        let edits: Vec<TextEdit> = names.chain(lengths).collect();
         syntax::edit::apply(&copied.text, &edits).trim().to_string()
     };
-    let members: Vec<String> = clip.members.iter().map(written).collect();
+    let (times, lengths) = lengths::kept(clip, &open.state, host);
+    let members: Vec<String> = clip.members.iter().zip(lengths).map(written).collect();
     let own = match clip.relations {
         Relations::Own => of_classes(&open.state.text),
         Relations::All => open.state.text.clone(),
@@ -259,8 +264,8 @@ pub(crate) fn pasting(
     }
     let copies: Vec<String> = clip.things.iter().map(|(name, _)| called(name)).collect();
     let far = f64::from(aside) * ASIDE;
-    let is_placed =
-        clip.relations == Relations::Own && put_aside(&mut trial, host, clip, &called, far);
+    let is_placed = clip.relations == Relations::Own
+        && put_aside(&mut trial, host, clip, &called, (times, far));
     let moved = is_placed || move_aside(&mut trial, host, &copies, far);
     let is_kept = |text: &str| text.starts_with(base.trim_end());
     let moved = moved && (clip.relations == Relations::Own || is_kept(&trial.state.text));
@@ -297,19 +302,20 @@ fn free_names(state: &State, things: &[(Name, Name)]) -> BTreeMap<Name, String> 
     names
 }
 
-/// Puts every place of the copies as far aside of where it was; where that cannot be they stay, and false is returned.
+/// Puts every place of the copies, counted so many times, as far aside of where it was; where that cannot be they stay,
+/// and false is returned.
 fn put_aside(
     trial: &mut Open,
     host: &dyn Host,
     clip: &Clip,
     called: &dyn Fn(&Name) -> String,
-    far: f64,
+    (times, far): (f64, f64),
 ) -> bool {
     let target = |(path, (x, y)): &(Path, (f64, f64))| {
         let (Step::Part(name), rest) = path.0.split_first()? else { return None };
         let first = Step::Part(Name::new(&called(name)));
         let path = Path(std::iter::once(first).chain(rest.iter().cloned()).collect());
-        let place = vec![Literal::Number(x + far), Literal::Number(y + far)];
+        let place = [x, y].map(|x| Literal::Number(lengths::times(*x, times) + far)).to_vec();
         Some((path, Literal::Tuple(place)))
     };
     let Some(targets) = clip.places.iter().map(target).collect::<Option<Vec<_>>>() else {

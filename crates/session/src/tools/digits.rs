@@ -10,29 +10,48 @@ use std::collections::BTreeMap;
 use syntax::ast::{AstNode, NumberExpr, UnaryExpr, UnaryOp};
 use syntax::{SyntaxKind, SyntaxNode, TextEdit};
 
-/// A longer decimal has digits that somebody may mean.
-const LONGEST: usize = 9;
-/// So many digits behind the first one of a value are more than rounding.
-const DIGITS: i32 = 12;
-/// How far a value may be from what it was, as a part of the largest number of its tuple.
-const LIKE: f64 = 1e-12;
+/// What of a number is no more than rounding.
+#[derive(Clone, Copy)]
+pub(super) struct Rounding {
+    /// A longer decimal has digits that somebody may mean.
+    longest: usize,
+    /// So many digits behind the first one of a value are more than rounding.
+    digits: i32,
+    /// How far a value may be from what it was, as a part of the largest number of its tuple.
+    like: f64,
+}
 
-/// Returns what a text says of one of its things, without digits that only rounding has made; as it stands where that
-/// would change what it is.
-pub(super) fn without_noise(trial: &Open, name: &str, host: &dyn Host) -> String {
+/// That of computing.
+pub(super) const COMPUTED: Rounding = Rounding { longest: 9, digits: 12, like: 1e-12 };
+/// That of solving: what is drawn by hand and follows from a constraint is known to a rule's tolerance.
+pub(super) const SOLVED: Rounding = Rounding { longest: 13, digits: 9, like: 1e-9 };
+
+/// Returns what a text says of one of its things, without digits that only rounding has made, of the first sort that
+/// leaves what it is; as it stands where none does.
+pub(super) fn without_noise(
+    trial: &Open,
+    name: &str,
+    sorts: &[Rounding],
+    host: &dyn Host,
+) -> String {
     let member = member_of(&trial.state.text, name);
-    let short = shortened(&member);
-    if short == member || member.is_empty() {
-        return member;
+    let stands = |short: &String, rounding: Rounding| {
+        let again = Open::of(&trial.name, trial.state.text.replacen(&member, short, 1), host);
+        let state = &again.state;
+        let holds = again.status.satisfied && state.gave_way.is_empty() && !state.has_errors();
+        holds && has_values_of(state, &trial.state, rounding)
+    };
+    for &rounding in sorts {
+        let short = shortened(&member, rounding);
+        if short != member && stands(&short, rounding) {
+            return short;
+        }
     }
-    let again = Open::of(&trial.name, trial.state.text.replacen(&member, &short, 1), host);
-    let state = &again.state;
-    let holds = again.status.satisfied && state.gave_way.is_empty() && !state.has_errors();
-    if holds && has_values_of(state, &trial.state) { short } else { member }
+    member
 }
 
 /// Whether the values of a text are those of another one of the same things, up to rounding.
-fn has_values_of(now: &State, was: &State) -> bool {
+fn has_values_of(now: &State, was: &State, rounding: Rounding) -> bool {
     let slots = &was.structure.slots;
     let mut largest: BTreeMap<ThingId, f64> = BTreeMap::new();
     for (slot, of) in slots.iter() {
@@ -43,7 +62,7 @@ fn has_values_of(now: &State, was: &State) -> bool {
     }
     let is_like = |a: f64, b: f64, place: Option<ThingId>| {
         let size = place.and_then(|place| largest.get(&place).copied()).unwrap_or(a.abs());
-        a == b || (a - b).abs() <= LIKE * size
+        a == b || (a - b).abs() <= rounding.like * size
     };
     slots.len() == now.structure.slots.len()
         && slots.iter().all(|(slot, of)| match (was.values.get(slot), now.values.get(slot)) {
@@ -52,16 +71,16 @@ fn has_values_of(now: &State, was: &State) -> bool {
         })
 }
 
-/// Returns a text with the numbers of each value to twelve digits of its largest, where they are much shorter so.
-fn shortened(text: &str) -> String {
+/// Returns a text with the numbers of each value to some digits of its largest, where they are much shorter so.
+fn shortened(text: &str, rounding: Rounding) -> String {
     let tree = syntax::parse(base::FileId(0), text).syntax();
     let numbers = tree.descendants().filter_map(NumberExpr::cast);
-    let edits: Vec<TextEdit> = numbers.filter_map(|number| shorter(&number)).collect();
+    let edits: Vec<TextEdit> = numbers.filter_map(|number| shorter(&number, rounding)).collect();
     syntax::edit::apply(text, &edits)
 }
 
 /// Returns the edit that shortens a number; none where it is as short as it can be, or stands within quotes.
-fn shorter(number: &NumberExpr) -> Option<TextEdit> {
+fn shorter(number: &NumberExpr, rounding: Rounding) -> Option<TextEdit> {
     let (digits, x) = (number.digits()?, number.value()?);
     if number.syntax().ancestors().any(|node| node.kind() == SyntaxKind::TextExpr) {
         return None;
@@ -69,8 +88,8 @@ fn shorter(number: &NumberExpr) -> Option<TextEdit> {
     let signed = signed(number);
     let tuple = signed.parent().filter(|node| node.kind() == SyntaxKind::TupleExpr);
     let largest = tuple.map_or(x, |tuple| largest(&tuple));
-    let short = decimal(x, largest);
-    if short.len() > LONGEST || short.len() >= digits.text().len() {
+    let short = decimal(x, largest, rounding.digits);
+    if short.len() > rounding.longest || short.len() >= digits.text().len() {
         return None;
     }
     let span = digits.span();
@@ -94,18 +113,22 @@ fn largest(tuple: &SyntaxNode) -> f64 {
     own.filter_map(|number| number.value()).fold(0.0, f64::max)
 }
 
-/// Returns a number rounded to the twelfth digit behind the first one of a larger one.
-fn decimal(x: f64, largest: f64) -> String {
+/// Returns a number rounded to so many digits behind the first one of a larger one.
+fn decimal(x: f64, largest: f64, digits: i32) -> String {
     let first = format!("{largest:e}");
     let first: i32 = first.split_once('e').and_then(|(_, e)| e.parse().ok()).unwrap_or_default();
-    let decimals = (DIGITS - first).max(0) as usize;
+    let decimals = (digits - first).max(0) as usize;
     rounded(x, decimals).parse().map(shortest).unwrap_or_default()
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{Open, shortened, without_noise};
+    use super::{COMPUTED, Open, SOLVED, without_noise};
     use crate::host::Host;
+
+    fn shortened(text: &str) -> String {
+        super::shortened(text, COMPUTED)
+    }
 
     #[test]
     fn digits_that_only_rounding_made_are_left_out() {
@@ -151,9 +174,21 @@ mod tests {
     fn a_free_parameter_that_is_small_is_written_as_it_is() {
         let class = "class Pipe { size, leak, total: Real  constraint total = size + leak }\n";
         let member = |size: &str| format!("pipe: Pipe {{ size = {size}  leak = 2.5e-13 }}");
-        let written =
-            |text: String| without_noise(&Open::of("trial", text, &Nothing), "pipe", &Nothing);
+        let written = |text: String| {
+            without_noise(&Open::of("trial", text, &Nothing), "pipe", &[SOLVED, COMPUTED], &Nothing)
+        };
         assert_eq!(written(format!("{class}{}\n", member("200.00000000000003"))), member("200"));
+        // what a rule leaves of a place is written to the rule's tolerance
+        let round = "class Place { x, y: Real }\nclass Ray { end: Place  far: Real  constraint far = sqrt(end.x^2 + end.y^2) }\n";
+        let ray = |end: &str| format!("ray: Ray {{ end = {end}  far = 200 }}");
+        let drawn = ray("(89.44271910000069, -178.88543819963163)");
+        let short = without_noise(
+            &Open::of("trial", format!("{round}{drawn}\n"), &Nothing),
+            "ray",
+            &[SOLVED, COMPUTED],
+            &Nothing,
+        );
+        assert!(short.contains("(89.4427191, -178.8854382)"), "{short}");
         // a small difference of large numbers would be another one
         let apart = "class Pipe { size, less, leak: Real  constraint leak = size - less }\n";
         let member = "pipe: Pipe { size = 200.00000000000003  less = 200 }";

@@ -60,8 +60,9 @@ impl Stage {
             (Self::Far { .. }, _) => String::from("the opposite corner"),
             _ => part.to_string(),
         };
-        let way = if is_first { "click or press" } else { "click" };
-        format!("{class}: {way} to set {what}; Shift: no joints and guides; Esc: done")
+        let (way, leave) =
+            if is_first { ("click or press", "done") } else { ("click", "end here, again: done") };
+        format!("{class}: {way} to set {what}; Shift: no joints and guides; Esc: {leave}")
     }
 }
 

@@ -6,7 +6,7 @@ use crate::view::{Grip, MovedView, PictureView, SheetUnit};
 use crate::views::drawn;
 use crate::words;
 use base::IdVec;
-use kernel::{ClassKind, DOCUMENT, SlotId, ThingId, Values};
+use kernel::{ClassKind, DOCUMENT, Document, SlotId, ThingId, Values};
 use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 
@@ -157,6 +157,7 @@ impl Shown {
                 name: name.to_string(),
                 across: across(document.units_per_metre),
             }),
+            millimetres: millimetres(document),
             made: self.made,
             times: self.times,
         };
@@ -359,6 +360,13 @@ pub(crate) fn unpictured(state: &State, picture: &PictureView) -> Vec<String> {
     let parts = parts.filter(is_written);
     let is_bare = |path: &String| !is_pictured(path) && !super::values::is_of_library(state, path);
     parts.filter(is_thing).map(own).filter(is_bare).collect()
+}
+
+/// Returns how many millimetres a unit of a document's drawing is; none where its lengths are units of the sheet alone.
+fn millimetres(document: &Document) -> Option<f64> {
+    let stored = document.scale.factor(expr::Dimension::LENGTH);
+    let is_known = document.unit.is_some() || document.writes_lengths;
+    is_known.then(|| 1000.0 / document.units_per_metre / stored)
 }
 
 /// Returns how wide a piece of a sheet is looked at while nothing is drawn: some 20 centimetres, as of a sheet of paper,

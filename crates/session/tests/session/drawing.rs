@@ -472,3 +472,15 @@ fn the_last_side_of_a_box_is_as_upright_as_the_others() {
     assert!(text.contains("line4.p1.x = line4.p2.x"), "{text}");
     assert_eq!(desk.session.status(desk.id).freedom, 4, "{text}");
 }
+
+#[test]
+fn the_end_of_an_arc_is_written_without_the_solver_s_rounding() {
+    let mut desk = Desk::of("use geometry\n");
+    desk.session.take_tool(desk.id, "Arc").expect("a tool");
+    for (x, y) in [(0.0, 107.0), (200.0, 107.0), (100.0, -93.0)] {
+        click(&mut desk, &pointer(x, y));
+    }
+    holds(&desk);
+    let text = desk.text();
+    assert!(text.contains("end = (89.4427191, -71.8854382)"), "{text}");
+}

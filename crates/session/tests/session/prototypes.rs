@@ -103,3 +103,32 @@ fn what_is_said_typed_and_deleted_in_the_pane_is_of_the_class() {
     let none = desk.session.open_prototype(desk.id, "Line").map_err(|refusal| refusal.message);
     assert_eq!(none, Err("the document declares no class Line".to_string()));
 }
+
+#[test]
+fn a_length_typed_with_a_unit_in_a_pane_gives_the_document_that_unit() {
+    let (mut desk, shown) = pane();
+    let change = desk.session.set_typed(shown, "strut.line.p2.x", "30 mm").expect("it is free");
+    assert_eq!(change.unit.as_deref(), Some("mm"));
+    assert!(desk.text().starts_with("use geometry\nunit mm\n"), "{}", desk.text());
+    assert!(desk.text().contains("p2 = (30 mm, 0)") || desk.text().contains("p2 = (30, 0)"));
+    assert_eq!(place(&desk, shown, "strut.line.p2"), (30.0, 0.0));
+    assert_eq!(place(&desk, desk.id, "a.line.p2"), (30.0, 0.0));
+    assert_eq!(desk.session.history(desk.id).0.len(), 1, "one step");
+    desk.session.apply(shown, &Command::Undo).expect("there is a step");
+    assert_eq!(desk.text(), STRUTS);
+    assert_eq!(place(&desk, shown, "strut.line.p2"), (100.0, 0.0));
+}
+
+#[test]
+fn a_length_that_is_refused_in_a_pane_leaves_the_document_without_a_unit() {
+    let (mut desk, shown) = pane();
+    let hold = Command::Anchor { path: at("strut.line.p2"), held: true };
+    desk.session.apply(shown, &hold).expect("it can be held");
+    let said = "constraint strut.line.p2.x = 100";
+    let said = Command::Edit { target: Path::default(), members: said.into() };
+    desk.session.apply(shown, &said).expect("it is so");
+    let before = desk.text();
+    desk.session.set_typed(shown, "strut.line.p2.x", "30 mm").expect_err("it is 100");
+    assert_eq!(desk.text(), before);
+    assert_eq!(place(&desk, shown, "strut.line.p2"), (100.0, 0.0));
+}

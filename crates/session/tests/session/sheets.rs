@@ -2,6 +2,7 @@
 
 use crate::desk::{Desk, at, edited};
 use session::drafting::view::NewParameter;
+use session::view::{Pointer, TypedLength};
 use session::{Command, Path, Relations};
 
 const LINE: &str = "use geometry\nline: Line { p1 = (-200, 107)  p2 = (100, 7) }\n";
@@ -112,4 +113,20 @@ fn copies_bring_the_unit_of_their_sheet() {
     desk.apply(&command).expect("it stands");
     assert!(desk.text().contains("unit mm"), "{}", desk.text());
     assert_eq!(shown(&desk, "ring.radius"), "5 cm");
+}
+
+#[test]
+fn a_circle_drawn_with_a_typed_radius_takes_its_unit_over_and_keeps_it() {
+    let mut desk = Desk::of("use geometry\n");
+    desk.session.take_tool(desk.id, "Circle").expect("there are circles");
+    desk.session.tool_set(desk.id, &Pointer::default()).expect("its middle");
+    let length = TypedLength::read("30 mm");
+    let typed = Pointer { at: (5.0, 0.0), length, ..Pointer::default() };
+    let view = desk.session.tool_moved(desk.id, &typed).expect("a tool is held");
+    assert!(view.hint.contains("digits: its radius"), "{}", view.hint);
+    let view = desk.session.tool_set(desk.id, &typed).expect("its radius");
+    let change = desk.apply(&view.command.expect("it is drawn")).expect("it can be made");
+    assert_eq!(change.unit.as_deref(), Some("mm"));
+    assert_eq!(shown(&desk, "circle.radius"), "30 mm");
+    assert!(desk.text().contains("constraint circle.radius = 30 mm"), "{}", desk.text());
 }

@@ -396,6 +396,8 @@ impl Lab {
     pub fn begin_new(self) {
         leptos::task::spawn_local(async move {
             let path = self.free_path(UNTITLED).await;
+            // whose key began it, draws next
+            crate::keyboard::focus("#picture");
             route::go(&route::to(&path));
         });
     }

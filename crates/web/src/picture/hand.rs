@@ -236,6 +236,9 @@ impl Hand {
     fn pointer(self, at: (f64, f64)) -> Pointer {
         let alone = self.state.with_value(|state| state.shift);
         self.lab.cursor.set(Some(at));
+        if self.lab.keyed.with_untracked(Option::is_some) {
+            self.lab.keyed.set(None);
+        }
         self.lab.pointer_at(at, self.reach(), alone)
     }
 
