@@ -162,6 +162,18 @@ pub fn scale_in_words(scale: f64, millimetres: Option<f64>) -> String {
     if times >= 1.0 { format!("{large} : 1") } else { format!("1 : {small}") }
 }
 
+/// The width and height of what a printed page has room for, in millimetres: A4 and Letter, upright, within margins and
+/// under a title.
+const PAGE: (f64, f64) = (170.0, 210.0);
+
+/// Returns how many CSS pixels a unit of the sheet has where a drawing is printed as large as it is; nothing where a page
+/// has no room for it, or it is not known how many millimetres a unit is.
+pub fn printed_true(drawing: &Drawing, millimetres: Option<f64>) -> Option<f64> {
+    let (millimetres, bounds) = (millimetres?, drawing::bounds(drawing)?);
+    let (width, height) = (millimetres * bounds.width(), millimetres * bounds.height());
+    (width <= PAGE.0 && height <= PAGE.1).then(|| millimetres / MILLIMETRES_PER_PIXEL)
+}
+
 /// What is a smaller part of a canvas is not looked at comfortably.
 const GOOD: f64 = 0.2;
 
@@ -436,6 +448,14 @@ mod tests {
         ] {
             assert_eq!(super::scale_in_words(scale, millimetres), says);
         }
+    }
+
+    #[test]
+    fn what_a_page_has_room_for_is_printed_as_large_as_it_is() {
+        let drawn = dots(&[(0.0, 0.0), (80.0, 50.0)], Vertical::Up);
+        assert_eq!(super::printed_true(&drawn, Some(1.0)), Some(96.0 / 25.4));
+        assert_eq!(super::printed_true(&drawn, Some(10.0)), None, "80 cm are wider than a page");
+        assert_eq!(super::printed_true(&drawn, None), None);
     }
 
     #[test]

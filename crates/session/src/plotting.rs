@@ -307,6 +307,14 @@ impl Sampler {
         self.samples.push(sample);
     }
 
+    /// Says what the latest moment is over, in base units.
+    fn set_over(&mut self, value: f64) {
+        let latest = self.samples.last_mut().and_then(|sample| sample.first_mut());
+        if let Some(Some(Reading::Number(over, _))) = latest {
+            *over = value;
+        }
+    }
+
     /// Makes the plot; `counted` is what samples are called where they are over nothing else.
     fn plot(&self, counted: &str, notes: Vec<String>) -> Plot {
         let numbers = |at: usize| -> Vec<Option<(f64, Dimension)>> {

@@ -507,6 +507,10 @@ impl Session {
     pub fn svg(&self, id: DocumentId) -> String {
         views::picture::svg(&self.picture(id))
     }
+    /// Returns the picture as an SVG text, with so many pixels for a unit of the drawing.
+    pub fn svg_at(&self, id: DocumentId, pixels_per_unit: f64) -> String {
+        views::picture::svg_at(&self.picture(id), pixels_per_unit)
+    }
     /// Returns the picture as a DXF text, in millimetres.
     pub fn dxf(&self, id: DocumentId) -> String {
         let options = drawing::dxf::DxfOptions {

@@ -41,6 +41,7 @@ mod prototype;
 mod views;
 
 pub use drafts::Offered;
+pub use export::Printed;
 pub use jobs::{Jobs, Kind, Told};
 pub use prototype::Shown;
 
@@ -272,6 +273,8 @@ pub enum Zoom {
     Seen,
     /// Everything in sight and a good part of it, after a length was typed, unless a person has looked elsewhere.
     Sized,
+    /// The same, and what hangs over a side is moved into sight, never larger, unless a person has looked elsewhere.
+    Within,
     /// A box of the sheet in sight, unless it is: moved no further than it must be, and never larger.
     Over(drawing::Bounds),
     /// Larger or smaller by this factor.

@@ -11,7 +11,7 @@ use crate::drafting::prompt::PromptLine;
 use crate::gallery::Gallery;
 use crate::history::History;
 use crate::inspector::Inspector;
-use crate::lab::{Drawer, Lab};
+use crate::lab::{Drawer, Lab, Printed};
 use crate::lesson::Coach;
 use crate::menu::{self, MenuView};
 use crate::palette::Palette;
@@ -250,6 +250,7 @@ fn Document(lab: Lab) -> impl IntoView {
             <Splitter name="right" way=Way::Left least=220.0 most=900.0 />
             <div class="side"><Inspector lab=lab /></div>
             <Handles lab=lab />
+            <Printed lab=lab />
             <Show when=bench::is_asked><bench::Bench lab=lab /></Show>
         </main>
         <StatusLine lab=lab />

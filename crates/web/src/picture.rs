@@ -31,6 +31,9 @@ const MARGIN: f64 = 56.0;
 /// So many pixels of its lower edge stay free, unless it is lower than this.
 const BELOW: f64 = 64.0;
 const LOW: f64 = 420.0;
+/// How much of its right side the document covers of the picture of a class, in a window wider than this.
+const INSET: f64 = 212.0;
+const NARROW: f64 = 900.0;
 
 /// The picture of the open document.
 #[component]
@@ -348,6 +351,13 @@ fn look(lab: Lab, view: View) {
 }
 
 /// How far what is fitted stays from the sides of a canvas of that size.
+/// How much of the right side of a picture the document covers that a shown class is of.
+fn covered(lab: Lab) -> f64 {
+    let width = window().inner_width().ok().and_then(|width| width.as_f64());
+    let is_wide = width.is_some_and(|width| width > NARROW);
+    if is_wide && lab.prototype.with_untracked(Option::is_some) { INSET } else { 0.0 }
+}
+
 fn margin(size: (f64, f64)) -> f64 {
     MARGIN.min(0.12 * size.0.min(size.1))
 }
@@ -388,10 +398,13 @@ fn zoom_as_asked(lab: Lab, size: (f64, f64)) {
                 look(lab, lab.view.get_untracked().zoomed(GOOD_PART, room.middle()));
             }
         }
-        Zoom::Seen | Zoom::Sized => {
+        Zoom::Seen | Zoom::Sized | Zoom::Within => {
             let view = lab.view.get_untracked();
-            if drawn(lab).is_some_and(|drawn| view.loses(drawn, size)) {
+            let Some(drawn) = drawn(lab) else { return };
+            if view.loses(drawn, size) {
                 show_all(lab, size, (room, margin));
+            } else if asked == Zoom::Within && !lab.looked.get_value() {
+                look(lab, view.with_in_sight(drawn, (room.width, size.1 - BELOW), margin));
             }
         }
         Zoom::By(factor) => {
@@ -421,6 +434,7 @@ struct Room {
 impl Room {
     /// What waits or is offered lies over the lower edge, a lesson over the upper one.
     fn of(lab: Lab, (width, height): (f64, f64)) -> Self {
+        let width = width - covered(lab);
         if height <= LOW {
             return Self { width, above: 0.0, height };
         }

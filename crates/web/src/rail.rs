@@ -1,7 +1,7 @@
 //! The rail of tools, and what the hand does with one: it asks the session and shows what that answers.
 
 use crate::actions::{self, ACTIONS, Action, Group};
-use crate::lab::{Lab, Notice};
+use crate::lab::{Lab, Notice, Zoom};
 use crate::{icons, keyboard, words};
 use leptos::prelude::*;
 use presentation::palette::Makeable;
@@ -302,6 +302,7 @@ impl Lab {
                 self.fits.set_value(false);
                 let before = self.structure.with_untracked(Vec::len);
                 self.apply_as_meant(&command);
+                self.zoom.set(Some(Zoom::Within));
                 let made = self.structure.with_untracked(|rows| {
                     let mut own =
                         rows.iter().filter(|row| row.depth == 1 && row.kind == RowKind::Part);

@@ -30,7 +30,9 @@ pub fn Strip(
         move || lab.tool.with(Option::is_none) && lab.drafting.prompt.with(Option::is_none);
     let is_shown = move || {
         let something = !(offers.with(Vec::is_empty) && held.with(Vec::is_empty));
-        something || lab.touch.get() && is_idle() && lab.selected.with(Option::is_some)
+        // several things can be a class, whatever else can be said of them
+        let several = lab.also.with(|also| !also.is_empty()) && lab.dragging.with(Option::is_none);
+        something || (lab.touch.get() || several) && is_idle() && lab.selected.with(Option::is_some)
     };
     Effect::new(move |_| {
         if lab.selected.with(Option::is_none) {

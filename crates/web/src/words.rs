@@ -439,6 +439,11 @@ pub fn fit_at(scale: &str) -> String {
     format!("{scale}: {FIT}")
 }
 
+/// The title of what is printed as large as it is.
+pub fn true_size(title: &str) -> String {
+    format!("{title} (1 : 1)")
+}
+
 /// A place of the sheet, as it is heard and typed.
 pub fn place((x, y): (f64, f64)) -> String {
     format!("{}, {}", base::number::significant(x, 6), base::number::significant(y, 6))

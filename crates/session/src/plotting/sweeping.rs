@@ -30,6 +30,8 @@ pub struct Sweeping {
     way: Way,
     /// How many values are done or given up.
     done: u32,
+    /// Whether the curves are over what is swept: at -180° an angle may read 180°.
+    is_over_itself: bool,
     ahead: Sampler,
     behind: Sampler,
     notes: Vec<String>,
@@ -83,8 +85,21 @@ impl Sweeping {
         let first = (0..=sweep.steps).find(|&i| f64::from(i) >= part).unwrap_or(sweep.steps);
         let walk = Walk::begin(&mut trial, host, &path)?;
         let (range, way) = ((from, to, sweep.steps), Way::Ahead(first));
-        let notes = Vec::new();
-        Ok(Self { trial, path, range, first, walk, way, done: 0, ahead, behind, notes })
+        let is_over_itself = over.trim() == sweep.of.trim();
+        let (done, notes) = (0, Vec::new());
+        Ok(Self {
+            trial,
+            path,
+            range,
+            first,
+            walk,
+            way,
+            done,
+            is_over_itself,
+            ahead,
+            behind,
+            notes,
+        })
     }
 
     /// Goes on to the next value. Returns false once there is none.
@@ -116,6 +131,9 @@ impl Sweeping {
             Ok(()) => {
                 let sampler = if is_ahead { &mut self.ahead } else { &mut self.behind };
                 sampler.read(self.trial.values());
+                if self.is_over_itself {
+                    sampler.set_over(value);
+                }
                 (self.way, self.done) = (next, self.done + 1);
             }
             Err(note) => {

@@ -14,6 +14,7 @@ use crate::recognise;
 use crate::session::thing_at;
 use crate::state::State;
 use crate::view::Refusal;
+use crate::views::picture::across;
 use crate::words;
 use base::{Name, Span};
 use kernel::{ClassKind, Command, DOCUMENT, Literal, Path, Step};
@@ -22,8 +23,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use syntax::ast::{AstNode, Expr, Member, Value};
 use syntax::edit::TextEdit;
 
-/// How far aside a copy lies, on the sheet.
-const ASIDE: f64 = 20.0;
+/// A copy lies aside by what is looked at of an empty sheet over so many.
+const ASIDE: f64 = 10.0;
 /// Of more places than this copies are moved as one.
 const MOST_PLACES: usize = 200;
 
@@ -263,7 +264,7 @@ pub(crate) fn pasting(
         return Err(words::refuse(message));
     }
     let copies: Vec<String> = clip.things.iter().map(|(name, _)| called(name)).collect();
-    let far = f64::from(aside) * ASIDE;
+    let far = f64::from(aside) * across(&lowered.document) / ASIDE;
     let is_placed = clip.relations == Relations::Own
         && put_aside(&mut trial, host, clip, &called, (times, far));
     let moved = is_placed || move_aside(&mut trial, host, &copies, far);

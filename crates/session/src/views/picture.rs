@@ -153,10 +153,10 @@ impl Shown {
             drawn_by: vec![None; made.things.len()],
             freedom: made.things.iter().map(|&t| words::freedom_of(structure, status, t)).collect(),
             grips: self.grips.iter().map(grip).chain(self.drawn.iter().cloned()).collect(),
-            unit: document.unit.as_ref().map(|name| SheetUnit {
-                name: name.to_string(),
-                across: across(document.units_per_metre),
-            }),
+            unit: document
+                .unit
+                .as_ref()
+                .map(|name| SheetUnit { name: name.to_string(), across: across(document) }),
             millimetres: millimetres(document),
             made: self.made,
             times: self.times,
@@ -323,11 +323,16 @@ const FITTED: f64 = 800.0;
 
 /// Returns a picture as SVG of a readable size, each element with the path of its thing.
 pub(crate) fn svg(picture: &PictureView) -> String {
-    let path = |tag: drawing::Tag| picture.paths.get(tag.0 as usize).cloned();
     let around = drawing::bounds(&picture.drawing);
     let longest = around.map_or(0.0, |b| b.width().max(b.height()));
     let is_readable = READABLE.contains(&longest) || longest <= 0.0 || !longest.is_finite();
     let pixels_per_unit = if is_readable { 1.0 } else { FITTED / longest };
+    svg_at(picture, pixels_per_unit)
+}
+
+/// The same, with so many pixels for a unit of the drawing.
+pub(crate) fn svg_at(picture: &PictureView, pixels_per_unit: f64) -> String {
+    let path = |tag: drawing::Tag| picture.paths.get(tag.0 as usize).cloned();
     let options =
         drawing::svg::SvgOptions { pixels_per_unit, margin: 16.0, title: None, path: &path };
     drawing::svg::write(&picture.drawing, &options)
@@ -371,6 +376,7 @@ fn millimetres(document: &Document) -> Option<f64> {
 
 /// Returns how wide a piece of a sheet is looked at while nothing is drawn: some 20 centimetres, as of a sheet of paper,
 /// and of a sheet that counts in more or in less than that a good number of its units.
-fn across(units_per_metre: f64) -> f64 {
-    (0.2 * units_per_metre).clamp(20.0, 200.0)
+pub(crate) fn across(document: &Document) -> f64 {
+    let counted = 0.2 * document.units_per_metre;
+    if document.unit.is_some() { counted.clamp(20.0, 200.0) } else { 200.0 }
 }

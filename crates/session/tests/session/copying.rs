@@ -244,3 +244,11 @@ fn what_has_no_unit_is_pasted_as_it_stands() {
     let desk = pasted(&plain, "use geometry\nunit cm\np: Point = (1, 1)\n");
     assert!(desk.text().contains("width = 80  height = 50"), "{}", desk.text());
 }
+
+#[test]
+fn a_copy_in_a_sheet_of_centimetres_lies_near() {
+    let mut desk = Desk::of("use geometry\nunit cm\np: Point = (1, 1)\n");
+    let (command, _) = copy(&desk, &["p"], Relations::Own).expect("it stands alone");
+    desk.apply(&command).expect("it can be made");
+    assert_eq!(desk.place("point"), (3.0, 3.0));
+}

@@ -137,3 +137,12 @@ fn what_cannot_be_plotted_is_told() {
     );
     assert!(half.svg((640.0, 360.0)).matches("<polyline").count() == 2);
 }
+
+#[test]
+fn a_curve_over_a_whole_turn_does_not_run_back_where_the_angle_begins_again() {
+    let desk = Desk::of(&gallery("four-bar"));
+    let plot = swept(&desk, &["rocker.direction"], ("turn", "-180 deg", "180 deg"), 24);
+    let over: Vec<f64> = plot.curves[0].points.iter().flatten().map(|(x, _)| *x).collect();
+    assert_eq!(over.len(), 25);
+    assert!(over.windows(2).all(|pair| pair[0] < pair[1]), "{over:?}");
+}

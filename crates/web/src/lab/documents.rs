@@ -33,6 +33,12 @@ const RECENT: &str = "thinglab/recent";
 /// What stands in a new document.
 const NEW_TEXT: &str = "use geometry\n";
 
+/// Tells of a document whether this browser keeps unsaved changes of it, from an earlier visit or of another tab.
+fn kept_drafts() -> impl Fn(&str) -> bool {
+    let begun: Vec<String> = theme::names();
+    move |path| begun.iter().any(|n| place_of(n).is_some_and(|(_, of)| of == path))
+}
+
 impl Lab {
     /// Fetches the library once; without it documents open with diagnostics.
     pub async fn fetch_library(self) {
@@ -314,9 +320,7 @@ impl Lab {
     /// The paths of what this browser showed last, of those that a list has or that are not saved anywhere yet.
     pub fn recent(self, listed: &[Listed]) -> Vec<String> {
         let kept = theme::keep(RECENT).unwrap_or_default();
-        let begun: Vec<String> = theme::names();
-        let has_draft =
-            |path: &str| begun.iter().any(|n| place_of(n).is_some_and(|(_, of)| of == path));
+        let has_draft = kept_drafts();
         recent::offered(&kept, |path| listed.iter().any(|one| one.path == path) || has_draft(path))
     }
 
@@ -408,8 +412,10 @@ impl Lab {
         let _ = self.fetch_list().await;
         let paths = std::iter::once(format!("{name}.thing"))
             .chain((2..).map(|n| format!("{name}-{n}.thing")));
+        let has_draft = kept_drafts();
         let is_free = |path: &String| {
-            !self.opened.with_value(|all| all.contains_key(path))
+            !has_draft(path)
+                && !self.opened.with_value(|all| all.contains_key(path))
                 && !self.listed.with_untracked(|all| all.iter().any(|one| one.path == *path))
         };
         { paths }.find(is_free).unwrap_or_default()
