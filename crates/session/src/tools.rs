@@ -207,13 +207,16 @@ impl Tool {
         let mut catch = Catch::at((last.0 + length * dx, last.1 + length * dy));
         if self.goes_on {
             let name = &self.name;
-            let run = format!("atan2({name}.p2.y - {name}.p1.y, {name}.p2.x - {name}.p1.x)");
+            let run = match self.has_direction() {
+                true => format!("{name}.direction"),
+                false => format!("atan2({name}.p2.y - {name}.p1.y, {name}.p2.x - {name}.p1.x)"),
+            };
             let said = [
                 pointer
                     .length
                     .as_ref()
                     .map(|length| format!("{name}.length = {}", written(length))),
-                pointer.angle.map(|x| format!("{run} = {} deg", shortest(x))),
+                pointer.angle.map(|x| format!("{run} = {} deg", shortest(within_half_turns(x)))),
             ];
             catch.rules.extend(said.into_iter().flatten());
         }
@@ -222,6 +225,13 @@ impl Tool {
             catch.rules.extend(pointer.length.as_ref().map(said));
         }
         catch
+    }
+
+    /// Whether its class says which way a thing runs.
+    fn has_direction(&self) -> bool {
+        let document = &self.trial.state.lowered.document;
+        let class = document.class_named(&self.class);
+        class.is_some_and(|class| document.find_message(class, "direction", None).is_some())
     }
 
     /// Has the present stage follow a place.
@@ -380,6 +390,11 @@ impl Tool {
             makes: self.within.then(Step::Part(Name::new(&self.name))).to_string(),
         }
     }
+}
+
+/// An angle in degrees as directions are told: more than -180, at most 180.
+fn within_half_turns(degrees: f64) -> f64 {
+    degrees - 360.0 * ((degrees - 180.0) / 360.0).ceil()
 }
 
 /// A typed length in the units of the sheet. One that has no unit yet takes over the unit that is typed.

@@ -162,9 +162,11 @@ export function publishBench(json) {
   window.__bench = JSON.parse(json)
 }
 
-// Calls back when the system goes from light to dark or back.
+// Calls back when the system goes from light to dark or back, or chooses the colours itself.
 export function onColorScheme(callback) {
-  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", callback)
+  for (const feature of ["prefers-color-scheme: dark", "forced-colors: active"]) {
+    matchMedia(`(${feature})`).addEventListener("change", callback)
+  }
 }
 
 // Whether the system asks for little motion, and whether the finger is the pointer.

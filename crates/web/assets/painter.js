@@ -15,6 +15,8 @@ const PAPER = ROLES.indexOf("paper")
 function roleColors(canvas) {
   const probe = document.createElement("span")
   probe.hidden = true
+  // where the system chooses colours, the variables say which of them; all would be that of text
+  probe.style.forcedColorAdjust = "none"
   canvas.parentElement.append(probe)
   const colors = ROLES.map((role) => {
     probe.style.color = `var(--${role})`

@@ -184,7 +184,6 @@ impl Lab {
             return;
         }
         match self.tell(session::Session::take_tool_again) {
-            Some(Some(view)) if view.begun => self.show_tool(view),
             Some(Some(view)) => self.show_tool(aside(view)),
             _ => self.drop_tool(),
         }

@@ -189,3 +189,43 @@ async fn the_circumcircle_of_a_triangle_is_drawn_by_the_pointer_alone_in_ten_act
     visit.picture("circumcircle").await;
     visit.book_picture("circumcircle").await;
 }
+
+#[tokio::test]
+async fn a_tool_that_keys_move_says_where_it_is_and_shows_what_is_typed() {
+    let visit = begin().await;
+    // a document that is begun has the keyboard in its picture
+    visit.script("document.querySelector('[data-action=theme]').focus()").await;
+    chord(&visit, &[key::CONTROL], 'k').await;
+    visit.until("document.activeElement.matches('[role=combobox]')").await;
+    keys(&visit, "new document").await;
+    chord(&visit, &[], key::ENTER).await;
+    visit.until("window.__thinglab.state().path === 'untitled-2.thing'").await;
+    visit.until("document.activeElement.id === 'picture'").await;
+    chord(&visit, &[], 'l').await;
+    keys(&visit, "0,0").await;
+    chord(&visit, &[], key::ENTER).await;
+    chord(&visit, &[], key::RIGHT).await;
+    chord(&visit, &[], key::DOWN).await;
+    let heard = "document.getElementById('picture-live').textContent";
+    visit.until(&format!("{heard} === '10, -10'")).await;
+    chord(&visit, &[], key::ESCAPE).await;
+    chord(&visit, &[], key::ESCAPE).await;
+    visit.until(&format!("{heard} === ''")).await;
+}
+
+#[tokio::test]
+async fn things_of_which_nothing_else_can_be_said_are_a_class_from_the_strip() {
+    let visit = begin().await;
+    visit.put(
+        "three.thing",
+        "use geometry\na: Line { p1 = (0, 0)  p2 = (100, 0) }\nb: Line { p1 = (0, 40)  p2 = (70, 90) }\n\
+         k: Circle { center = (220, 40)  radius = 30 }\n",
+    );
+    show(&visit, "three.thing").await;
+    visit.script("document.getElementById('picture').focus()").await;
+    chord(&visit, &[key::CONTROL], 'a').await;
+    visit.until("window.__thinglab.state().also.length === 2").await;
+    visit.until("document.querySelector('.strip [data-action=class-of]')").await;
+    visit.script("document.querySelector('.strip [data-action=class-of]').click()").await;
+    visit.until("document.activeElement.id === 'asked'").await;
+}

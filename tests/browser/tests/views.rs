@@ -149,3 +149,23 @@ async fn no_page_is_wider_than_its_window() {
         }
     }
 }
+
+#[tokio::test]
+async fn what_is_printed_is_lines_as_large_as_they_are() {
+    let visit = begin().await;
+    visit.put(
+        "plate.thing",
+        "/// A plate: with a hole.\nuse geometry\nunit mm\nplate: Rectangle { width = 80  height = 50 }\n",
+    );
+    show(&visit, "plate.thing").await;
+    let printed = "(p => [p.querySelector('h1').textContent, \
+                   p.querySelector('svg')?.getAttribute('width') ?? ''])(document.querySelector('.printed'))";
+    visit.script("dispatchEvent(new Event('beforeprint'))").await;
+    let now = visit.script(&format!("return {printed}")).await;
+    assert_eq!(now[0], "A plate (1 : 1)");
+    // 80 mm of 96 / 25.4 pixels each, and a margin of 16 on both sides
+    let width: f64 = now[1].as_str().and_then(|w| w.parse().ok()).expect("a width");
+    assert!((width - (80.0 * 96.0 / 25.4 + 32.0)).abs() < 1.0, "{width}");
+    visit.script("dispatchEvent(new Event('afterprint'))").await;
+    assert_eq!(visit.script(&format!("return {printed}")).await, serde_json::json!(["", ""]));
+}

@@ -417,7 +417,7 @@ fn a_typed_angle_is_the_direction_of_the_line() {
     click(&mut desk, &typed);
     holds(&desk);
     let text = desk.text();
-    let said = "constraint atan2(line.p2.y - line.p1.y, line.p2.x - line.p1.x) = 30 deg";
+    let said = "constraint line.direction = 30 deg";
     assert!(text.contains(said), "{text}");
     let (x, y) = desk.place("line.p2");
     assert!((x - 25.0 * 3.0_f64.sqrt()).abs() < 1e-9 && (y - 25.0).abs() < 1e-9, "{x} {y}");
@@ -483,4 +483,16 @@ fn the_end_of_an_arc_is_written_without_the_solver_s_rounding() {
     holds(&desk);
     let text = desk.text();
     assert!(text.contains("end = (89.4427191, -71.8854382)"), "{text}");
+}
+
+#[test]
+fn an_angle_of_more_than_half_a_turn_that_is_typed_holds() {
+    let mut desk = Desk::of("use geometry\n");
+    desk.session.take_tool(desk.id, "Line").expect("a tool");
+    click(&mut desk, &pointer(0.0, 0.0));
+    let typed = Pointer { length: Some(50.0.into()), angle: Some(270.0), ..pointer(9.0, 9.0) };
+    click(&mut desk, &typed);
+    holds(&desk);
+    assert!(desk.text().contains("constraint line.direction = -90 deg"), "{}", desk.text());
+    assert_eq!(desk.place("line.p2").1, -50.0);
 }
