@@ -37,7 +37,14 @@ pub fn meant_in(words: &str, unit: &str) -> String {
     }
 }
 
-/// A value as a button shows it, to six digits; the field that asks for it has them all.
+/// What is meant by the words of a field that begins with a value as it is shown: where they are still those, the value
+/// itself with all its digits.
+pub fn exactly(typed: &str, value: &str) -> String {
+    let is_same = typed.trim() == to_read(value);
+    String::from(if is_same { value } else { typed.trim() })
+}
+
+/// A value as a button and the field that asks for it show it, to six digits.
 pub fn to_read(value: &str) -> String {
     let (number, unit) = value.split_once(' ').unwrap_or((value, ""));
     match number.parse() {
@@ -48,7 +55,15 @@ pub fn to_read(value: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{meant_in, slider_range, step, to_read};
+    use super::{exactly, meant_in, slider_range, step, to_read};
+
+    #[test]
+    fn a_value_that_is_left_as_it_is_shown_keeps_its_digits() {
+        let value = "252.98221281347034 mm";
+        assert_eq!(to_read(value), "252.982 mm");
+        assert_eq!(exactly(" 252.982 mm", value), value);
+        assert_eq!(exactly("252.98 mm ", value), "252.98 mm");
+    }
 
     #[test]
     fn a_bare_number_takes_the_unit_beside_it() {

@@ -5,6 +5,7 @@ use crate::{keyboard, words};
 use leptos::ev::{KeyboardEvent, SubmitEvent};
 use leptos::html::Input;
 use leptos::prelude::*;
+use presentation::numbers::{exactly, to_read};
 use session::view::Offer;
 use session::{Command, Session};
 use std::time::Duration;
@@ -50,7 +51,7 @@ fn Open(lab: Lab, wish: Wish) -> impl IntoView {
             (words::new_name_of(path), String::from(name))
         }
         Wish::Dimension(offer) => {
-            (words::value_of(&offer.label), offer.value.clone().unwrap_or_default())
+            (words::value_of(&offer.label), to_read(offer.value.as_deref().unwrap_or_default()))
         }
         Wish::Equation(begun) => (String::from(words::ASK_EQUATION), begun.clone()),
         Wish::Kind(path) => (words::name_of_kind(path), String::new()),
@@ -80,7 +81,8 @@ fn Open(lab: Lab, wish: Wish) -> impl IntoView {
         let Some(typed) = input.get_untracked().map(|input| input.value()) else { return };
         let command = match wish.get_value() {
             Wish::Dimension(offer) => {
-                let said = |session: &Session, id| session.said(id, &offer, Some(typed.trim()));
+                let value = exactly(&typed, offer.value.as_deref().unwrap_or_default());
+                let said = |session: &Session, id| session.said(id, &offer, Some(&value));
                 match lab.ask_of_shown(said) {
                     Some(Ok(command)) => command,
                     Some(Err(refusal)) => {
@@ -119,10 +121,13 @@ fn Open(lab: Lab, wish: Wish) -> impl IntoView {
                     }
                 }
             }),
-            Wish::Dimension(offer) => match lab.set_dimension(&offer, typed.trim()) {
-                Ok(()) => lab.wish.set(None),
-                Err(sentence) => error.set(Some(sentence)),
-            },
+            Wish::Dimension(offer) => {
+                let value = exactly(&typed, offer.value.as_deref().unwrap_or_default());
+                match lab.set_dimension(&offer, &value) {
+                    Ok(()) => lab.wish.set(None),
+                    Err(sentence) => error.set(Some(sentence)),
+                }
+            }
             Wish::Equation(_) => match lab.say_equation(&typed) {
                 Ok(()) => lab.wish.set(None),
                 Err(sentence) => error.set(Some(sentence)),

@@ -41,7 +41,6 @@ mod prototype;
 mod views;
 
 pub use drafts::Offered;
-pub use export::Printed;
 pub use jobs::{Jobs, Kind, Told};
 pub use prototype::Shown;
 

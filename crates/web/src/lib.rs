@@ -39,6 +39,7 @@ pub mod palette;
 pub mod picture;
 pub mod player;
 pub mod plot;
+pub mod printed;
 pub mod probe;
 pub mod rail;
 pub mod route;

@@ -3,7 +3,6 @@
 use super::{ABSENT, Lab, Notice};
 use crate::server::Stored;
 use crate::{js, route, words};
-use leptos::ev;
 use leptos::prelude::*;
 use presentation::sheet::printed_true;
 use presentation::table::csv;
@@ -37,7 +36,7 @@ impl Lab {
 
     /// The title of what is printed, and the picture in lines: as large as it is where a page has room for it, else
     /// whether it is to be fitted to the page.
-    fn printed(self) -> Option<(String, String, bool)> {
+    pub fn printed(self) -> Option<(String, String, bool)> {
         let (_, fitted) = self.drawn()?;
         let scale = self.picture.with_untracked(|p| printed_true(&p.drawing, p.millimetres));
         let title = self.document.with_untracked(|d| d.as_ref().map(|d| d.title.clone()))?;
@@ -101,36 +100,5 @@ impl Lab {
                 }
             }
         });
-    }
-}
-
-/// What is printed of the document: it is made when the browser is about to print, and gone when it has.
-#[component]
-pub fn Printed(
-    /// The lab.
-    lab: Lab,
-) -> impl IntoView {
-    let (title, sheet) = (NodeRef::<leptos::html::H1>::new(), NodeRef::<leptos::html::Div>::new());
-    let put = move |(words, svg, is_fitted): (String, String, bool)| {
-        if let (Some(title), Some(sheet)) = (title.get_untracked(), sheet.get_untracked()) {
-            title.set_text_content(Some(&words));
-            sheet.set_inner_html(&svg);
-            sheet.set_class_name(if is_fitted { "fitted" } else { "" });
-        }
-    };
-    let on = |name: &'static str, act: Box<dyn Fn()>| {
-        window_event_listener(ev::Custom::<web_sys::Event>::new(name), move |_| act())
-    };
-    let before = on("beforeprint", Box::new(move || drop(lab.printed().map(put))));
-    let after = on("afterprint", Box::new(move || put((String::new(), String::new(), false))));
-    on_cleanup(move || {
-        before.remove();
-        after.remove();
-    });
-    view! {
-        <section class="printed" aria-hidden="true">
-            <h1 node_ref=title></h1>
-            <div node_ref=sheet></div>
-        </section>
     }
 }
