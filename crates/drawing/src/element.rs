@@ -317,52 +317,6 @@ impl Element {
     }
 }
 
-impl Element {
-    /// Turns it about a point, from the x axis towards the y axis, by an angle in radians. Words of a constant size on
-    /// the screen stay upright.
-    pub fn turn(&mut self, about: Point, by: f64) {
-        let (cos, sin) = (base::number::cos(by), base::number::sin(by));
-        let way = |p: &mut Point| {
-            *p = Point { x: cos * p.x - sin * p.y, y: sin * p.x + cos * p.y };
-        };
-        let point = |p: &mut Point| {
-            let mut from = Point { x: p.x - about.x, y: p.y - about.y };
-            way(&mut from);
-            *p = Point { x: about.x + from.x, y: about.y + from.y };
-        };
-        if let Some(dimension) = &mut self.style.dimension {
-            Arc::make_mut(dimension).points.iter_mut().for_each(point);
-        }
-        match &mut self.shape {
-            Shape::Dot(at) | Shape::Circle { center: at, radius: _ } => point(at),
-            Shape::Segment(p, q) => {
-                point(p);
-                point(q);
-            }
-            Shape::Polyline { points, closed: _ } | Shape::Spline(points) => {
-                points.iter_mut().for_each(point);
-            }
-            Shape::Arc { center, start, .. } => {
-                point(center);
-                *start += by;
-            }
-            Shape::Ellipse { center, major, .. } => {
-                point(center);
-                way(major);
-            }
-            Shape::Region(rings) => {
-                rings.iter_mut().flatten().for_each(|corner| point(&mut corner.at));
-            }
-            Shape::Text { at, placement, turn, .. } => {
-                point(at);
-                if let Placement::OnSheet(_) = placement {
-                    *turn += by;
-                }
-            }
-        }
-    }
-}
-
 /// Elements in order; the layers first by [`Layer`], within a layer as listed.
 #[derive(Clone, PartialEq, Debug, Default)]
 pub struct Drawing {

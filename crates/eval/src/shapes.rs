@@ -296,9 +296,6 @@ impl<'a> Evaluator<'a> {
             PictureMessage::Turned => self.number(&arguments[0])?.0,
             _ => 0.0,
         };
-        if let (PictureMessage::Turned, Some(about)) = (message, arguments.get(1)) {
-            return self.turned_picture(elements, self.place(about)?, turned);
-        }
         let color = match message {
             PictureMessage::Colored | PictureMessage::Filled => arguments.first(),
             _ => None,
@@ -347,19 +344,6 @@ impl<'a> Evaluator<'a> {
             surface
         });
         elements.splice(0..0, surfaces);
-        Ok(Answer::Picture(Rc::new(elements)))
-    }
-
-    /// Turns a picture about a place; how a run of numbers does that is not noted.
-    fn turned_picture(&self, elements: &[Element], about: Point, by: f64) -> Result<Answer<'a>> {
-        let about = self.plain(about)?;
-        let mut elements = elements.to_vec();
-        for element in &mut elements {
-            let mut numbers = Vec::new();
-            element.shape.each_number(&mut |x| numbers.push(*x));
-            numbers.into_iter().try_for_each(|x| self.number(&Answer::plain(x)).map(drop))?;
-            element.turn(about, by);
-        }
         Ok(Answer::Picture(Rc::new(elements)))
     }
 

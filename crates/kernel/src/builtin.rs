@@ -302,7 +302,7 @@ table! {
     Filled "filled" Picture [perhaps("color", Kind::Color)] Picture "The picture with its closed shapes filled: with a colour, or faintly.";
     Colored "colored" Picture [one("color", Kind::Color)] Picture "The picture in a colour.";
     Measured "measured" Picture [one("kind", Kind::Text), one("points", Kind::List)] Picture "The picture as a dimension of what is exported as DXF: `aligned`, `linear`, `radius`, `diameter` or `angle`, with the points that such a one has.";
-    Turned "turned" Picture [one("by", Kind::Plain), perhaps("about", Kind::Place)] Picture "The picture turned to the left by an angle about a place; without one its words alone, each around its own.";
+    Turned "turned" Picture [one("by", Kind::Plain)] Picture "The picture with its words turned to the left by an angle, each around its place.";
     Centered "centered" Picture [] Picture "The picture with the middle of its words at their places.";
 }
 

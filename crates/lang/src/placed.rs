@@ -27,8 +27,6 @@ use syntax::ast::{self, AstNode, Expr};
 
 /// The message by which a placed thing of a program shows all that it draws, where it is placed. No text can say it.
 pub const PLACED: &str = "(placed)";
-/// The message by which a placed thing is itself, scaled and moved, but not turned. No text can say it.
-const UNTURNED: &str = "(unturned)";
 /// How many parts of a master are placed, those of its parts included.
 const MOST_FIELDS: u32 = 10_000;
 
@@ -262,25 +260,26 @@ impl Lowerer<'_> {
     /// Lets a placed class answer to whatever its master does.
     fn forward(&mut self, class: ClassId, master: ClassId) {
         let origin = self.document.classes[class].origin;
-        let own_master = Term::send(Term::Me, "master");
-        let mut placing = Placing::new(&self.document, &self.placed.of);
-        let answer = placing.term(own_master.clone(), master, 0);
-        let mut level =
-            Placing { is_turned: false, ..Placing::new(&self.document, &self.placed.of) };
-        let unturned = level.term(own_master.clone(), master, 0);
+        let mut placing = Placing {
+            document: &self.document,
+            placed: &self.placed.of,
+            way: Vec::new(),
+            fields: 0,
+        };
+        let answer = placing.term(Term::send(Term::Me, "master"), master, 0);
         if placing.fields > MOST_FIELDS {
             let name = self.master_name(master);
             let message = format!("{name} has more than {MOST_FIELDS} parts to be placed");
             self.report(Diagnostic::error("too-many-members", self.origins.place(origin), message));
         }
         let kind = Kind::of_class(&self.document, master);
-        self.add_hidden_message(class, "placed", answer, kind.clone(), origin);
-        self.add_hidden_message(class, UNTURNED, unturned, kind, origin);
+        self.add_hidden_message(class, "placed", answer, kind, origin);
         let own: BTreeSet<&str> =
             ["master", "scale", "turn", "at", "placed", "picture"].into_iter().collect();
         let names: BTreeSet<String> = self.names_of(master).into_iter().collect();
         let placed = Term::send(Term::Me, "placed");
-        self.add_hidden_message(class, "picture", turned_picture(), Kind::Picture, origin);
+        let picture = Term::send(placed.clone(), "picture");
+        self.add_hidden_message(class, "picture", picture, Kind::Picture, origin);
         for name in names.iter().filter(|n| !own.contains(n.as_str())) {
             let name = Name::new(name);
             let kind = self.kind_of_part(master, &name).unwrap_or(Kind::Unknown);
@@ -295,17 +294,8 @@ impl Lowerer<'_> {
                 value: Term::Local(p.name.clone()),
             };
             let arguments = parameters.iter().map(pass).collect();
-            let is_computed = parameters.is_empty() && self.class_of_part(master, &name).is_none();
-            let mut placing = Placing::new(&self.document, &self.placed.of);
-            let of = Term::send(own_master.clone(), &name);
-            // what the master computes of its places is theirs, turned as they are
-            let answer = match is_computed.then(|| placing.answer(of, &kind, 0)).flatten() {
-                Some(answer) => answer,
-                None => {
-                    let to = Box::new(placed.clone());
-                    Term::Send { to, name: name.clone(), arguments, search: None }
-                }
-            };
+            let to = Box::new(placed.clone());
+            let answer = Term::Send { to, name: name.clone(), arguments, search: None };
             let index = self.add_hidden_message(class, &name, answer, kind, origin);
             self.document.classes[class].messages[index].parameters = parameters;
         }
@@ -422,39 +412,9 @@ struct Placing<'d> {
     /// The classes whose things are being placed, each inside the one before it.
     way: Vec<ClassId>,
     fields: u32,
-    /// Whether places are turned; where not, they are only scaled and moved.
-    is_turned: bool,
 }
 
-impl<'d> Placing<'d> {
-    fn new(document: &'d Document, placed: &'d BTreeMap<ClassId, ClassId>) -> Self {
-        Self { document, placed, way: Vec::new(), fields: 0, is_turned: true }
-    }
-
-    /// Returns the term for what the master computes, where that is a thing of a class of its own, or a list of such.
-    fn answer(&mut self, of: Term, kind: &Kind, depth: u32) -> Option<Term> {
-        match kind {
-            Kind::Thing(class) => {
-                let is_whole = !self.document.classes[*class].is_abstract;
-                is_whole.then(|| self.term(of, *class, depth))
-            }
-            Kind::List(element) => {
-                let name = element_name(depth);
-                let each = self.answer(Term::Local(name.clone()), element, depth + 1)?;
-                Some(mapped(of, name, each))
-            }
-            Kind::Number(_)
-            | Kind::Bool
-            | Kind::Option(_)
-            | Kind::Text
-            | Kind::Color
-            | Kind::Tuple(_)
-            | Kind::Picture
-            | Kind::Function
-            | Kind::Unknown => None,
-        }
-    }
-
+impl Placing<'_> {
     /// Returns the term for a part of the master as the placed thing shows it. `depth` counts the
     /// lists around it.
     fn term(&mut self, of: Term, class: ClassId, depth: u32) -> Term {
@@ -464,9 +424,12 @@ impl<'d> Placing<'d> {
             }
             ClassKind::Primitive(_) | ClassKind::Reference(_) | ClassKind::Set(_) => of,
             ClassKind::List(element) => {
-                let name = element_name(depth);
+                let name = Name::new(&format!("(element {depth})"));
                 let each = self.term(Term::Local(name.clone()), element, depth + 1);
-                mapped(of, name, each)
+                let value = Term::Lambda(vec![name], Box::new(each));
+                let arguments = vec![Argument { label: None, value }];
+                let map = Name::new("map");
+                Term::Send { to: Box::new(of), name: map, arguments, search: None }
             }
             ClassKind::Composite => self.thing(&of, class, depth),
         }
@@ -480,12 +443,7 @@ impl<'d> Placing<'d> {
         self.way.push(class);
         let is_planar = planar(self.document, class);
         let is_placed = self.placed.contains_key(&class);
-        let is_turned = self.is_turned;
         let turned = |along: &str, x: Term, y: Term| {
-            if !is_turned {
-                let unturned = if along == "x" { x } else { y };
-                return plus(Term::send(own("at"), along), times(own("scale"), unturned));
-            }
             let (cos, sin) = (call("cos", own("turn")), call("sin", own("turn")));
             let (a, b, sign) = match along {
                 "x" => (times(cos, x), times(sin, y), BinaryOperator::Subtract),
@@ -502,7 +460,7 @@ impl<'d> Placing<'d> {
                 "x" | "y" if is_planar => {
                     turned(&name, Term::send(of.clone(), "x"), Term::send(of.clone(), "y"))
                 }
-                "turn" if is_placed && is_turned => plus(own("turn"), part),
+                "turn" if is_placed => plus(own("turn"), part),
                 "scale" if is_placed => times(own("scale"), part),
                 _ => self.term(part, self.document.field_class(field), depth),
             };
@@ -546,34 +504,6 @@ fn shown(of: Term) -> Term {
     let to = Box::new(of.clone());
     let moved = Term::Send { to, name: Name::new("moved"), arguments, search: None };
     Term::If(Box::new(is_plain), Box::new(moved), Box::new(somewhere_else(of)))
-}
-
-/// The picture of a placed thing: as its parts draw it where nothing is turned, turned about its place as a whole. What
-/// stands upright in its class, as a box between two corners does, is turned with it.
-fn turned_picture() -> Term {
-    let is_upright = (Box::new(own("turn")), Box::new(Term::number(0.0)));
-    let is_upright = Term::Binary(BinaryOperator::Equal, is_upright.0, is_upright.1);
-    let labelled =
-        |label: &str, part: &str| Argument { label: Some(Name::new(label)), value: own(part) };
-    let picture = Term::send(own(UNTURNED), "picture");
-    let turned = Term::Send {
-        to: Box::new(picture.clone()),
-        name: Name::new("turned"),
-        arguments: vec![labelled("by", "turn"), labelled("about", "at")],
-        search: None,
-    };
-    Term::If(Box::new(is_upright), Box::new(picture), Box::new(turned))
-}
-
-fn element_name(depth: u32) -> Name {
-    Name::new(&format!("(element {depth})"))
-}
-
-/// A list with what an expression makes of each element.
-fn mapped(of: Term, element: Name, each: Term) -> Term {
-    let value = Term::Lambda(vec![element], Box::new(each));
-    let arguments = vec![Argument { label: None, value }];
-    Term::Send { to: Box::new(of), name: Name::new("map"), arguments, search: None }
 }
 
 fn own(name: &str) -> Term {

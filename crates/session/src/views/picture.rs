@@ -357,12 +357,7 @@ pub(crate) fn unpictured(state: &State, picture: &PictureView) -> Vec<String> {
         };
         picture.paths.iter().any(below)
     };
-    // what nobody wrote, and is seen where it is placed
-    let masters = state.lowered.masters.as_ref();
-    let is_written =
-        |&part: &ThingId| masters.is_none() || structure.field_name(document, part) != masters;
     let parts = structure.parts(DOCUMENT).filter(|&part| structure.merged[part] == part);
-    let parts = parts.filter(is_written);
     let is_bare = |path: &String| !is_pictured(path) && !super::values::is_of_library(state, path);
     parts.filter(is_thing).map(own).filter(is_bare).collect()
 }
