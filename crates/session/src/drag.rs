@@ -109,7 +109,11 @@ const MOST_FOLLOWING: usize = 3;
 impl Drag {
     /// Which numbers follow where what is dragged is computed of them, with what they are now.
     pub(crate) fn following(&self, state: &State) -> Vec<String> {
+        let is_same = |slot: SlotId| self.values.numbers[slot] == state.values.numbers[slot];
         let told = |&slot: &SlotId| {
+            if is_same(slot) {
+                return None;
+            }
             let now = words::slot_in_words(state, slot, &self.values);
             let is_other = now != words::slot_in_words(state, slot, &state.values);
             is_other.then(|| format!("{} {now}", state.slot_path(slot)))

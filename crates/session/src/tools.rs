@@ -352,8 +352,9 @@ impl Tool {
 
     /// The command that makes the thing as it is in the trial, joined to what its places were caught by.
     fn command(&self, host: &dyn Host) -> Command {
-        // what a rule says of a place, the place says to the last digit
-        let is_free = self.set.iter().all(|catch| catch.rules.is_empty());
+        // what a rule or a joint says of a place, the place says to the last digit; what was typed, too
+        let is_free = self.set.iter().all(|catch| catch.rules.is_empty() && catch.joins.is_none())
+            && !self.trial.state.structure.constraints.is_empty();
         let sorts = if is_free { &[SOLVED, COMPUTED][..] } else { &[COMPUTED] };
         let mut members = digits::without_noise(&self.trial, &self.name, sorts, host);
         for (stage, catch) in self.stages.iter().zip(&self.set) {
@@ -372,7 +373,7 @@ impl Tool {
         let trial = &self.trial;
         let shown = views::picture::picture(&trial.state, trial.values(), &trial.status);
         let stage = self.stages.get(self.set.len());
-        let hint = stage.map(|stage| stage.hint(&self.class, self.set.is_empty()));
+        let hint = stage.map(|stage| stage.hint(&self.class, (self.set.is_empty(), self.goes_on)));
         let hint = hint.unwrap_or_default();
         let hint = match stage {
             Some(Stage::Reach { number }) => format!("{hint}; digits: its {number}, as 30 or 3 cm"),
@@ -394,7 +395,10 @@ impl Tool {
 
 /// An angle in degrees as directions are told: more than -180, at most 180.
 fn within_half_turns(degrees: f64) -> f64 {
-    degrees - 360.0 * ((degrees - 180.0) / 360.0).ceil()
+    let turns = ((degrees - 180.0) / 360.0).ceil();
+    // twelve digits are more than anybody types, and the rest is rounding
+    let within = base::number::significant(degrees - 360.0 * turns, 12);
+    if turns == 0.0 { degrees } else { within.parse().unwrap_or(degrees) }
 }
 
 /// A typed length in the units of the sheet. One that has no unit yet takes over the unit that is typed.

@@ -350,7 +350,6 @@ fn look(lab: Lab, view: View) {
     }
 }
 
-/// How far what is fitted stays from the sides of a canvas of that size.
 /// How much of the right side of a picture the document covers that a shown class is of.
 fn covered(lab: Lab) -> f64 {
     let width = window().inner_width().ok().and_then(|width| width.as_f64());
@@ -358,6 +357,7 @@ fn covered(lab: Lab) -> f64 {
     if is_wide && lab.prototype.with_untracked(Option::is_some) { INSET } else { 0.0 }
 }
 
+/// How far what is fitted stays from the sides of a canvas of that size.
 fn margin(size: (f64, f64)) -> f64 {
     MARGIN.min(0.12 * size.0.min(size.1))
 }

@@ -27,7 +27,8 @@ pub fn StatusLine(
             let drag = drag.as_ref()?;
             let follow = lab.ask_of_shown(session::Session::dragged_along).unwrap_or_default();
             let modes = drag.modes.iter().map(|mode| mode.message.clone());
-            let said: Vec<String> = drag.message.iter().cloned().chain(modes).chain(follow).collect();
+            let said: Vec<String> =
+                drag.message.iter().cloned().chain(modes).chain(follow).collect();
             (!said.is_empty()).then(|| said.join("; "))
         })
     });

@@ -212,16 +212,16 @@ pub(crate) fn pasting(
     clip: &Clip,
     aside: u32,
 ) -> Result<(Command, Vec<String>), Refusal> {
+    lengths::count_alike(clip.measure.as_ref(), &open.state.lowered.document)?;
     let names = free_names(&open.state, &clip.things);
     let called = |name: &Name| names.get(name).cloned().unwrap_or_else(|| name.to_string());
-    let written = |(copied, lengths): (&Copied, Vec<TextEdit>)| {
+    let written = |copied: &Copied| {
         let names = { copied.names.iter() }
             .map(|(span, name)| TextEdit { span: *span, insert: called(name) });
-        let edits: Vec<TextEdit> = names.chain(lengths).collect();
+        let edits: Vec<TextEdit> = names.collect();
         syntax::edit::apply(&copied.text, &edits).trim().to_string()
     };
-    let (times, lengths) = lengths::kept(clip, &open.state, host);
-    let members: Vec<String> = clip.members.iter().zip(lengths).map(written).collect();
+    let members: Vec<String> = clip.members.iter().map(written).collect();
     let own = match clip.relations {
         Relations::Own => of_classes(&open.state.text),
         Relations::All => open.state.text.clone(),
@@ -264,9 +264,9 @@ pub(crate) fn pasting(
         return Err(words::refuse(message));
     }
     let copies: Vec<String> = clip.things.iter().map(|(name, _)| called(name)).collect();
-    let far = f64::from(aside) * across(&lowered.document) / ASIDE;
-    let is_placed = clip.relations == Relations::Own
-        && put_aside(&mut trial, host, clip, &called, (times, far));
+    let far = f64::from(aside) * across(&trial.state.lowered.document) / ASIDE;
+    let is_placed =
+        clip.relations == Relations::Own && put_aside(&mut trial, host, clip, &called, far);
     let moved = is_placed || move_aside(&mut trial, host, &copies, far);
     let is_kept = |text: &str| text.starts_with(base.trim_end());
     let moved = moved && (clip.relations == Relations::Own || is_kept(&trial.state.text));
@@ -303,20 +303,20 @@ fn free_names(state: &State, things: &[(Name, Name)]) -> BTreeMap<Name, String> 
     names
 }
 
-/// Puts every place of the copies, counted so many times, as far aside of where it was; where that cannot be they stay,
+/// Puts every place of the copies as far aside of where it was; where that cannot be they stay,
 /// and false is returned.
 fn put_aside(
     trial: &mut Open,
     host: &dyn Host,
     clip: &Clip,
     called: &dyn Fn(&Name) -> String,
-    (times, far): (f64, f64),
+    far: f64,
 ) -> bool {
     let target = |(path, (x, y)): &(Path, (f64, f64))| {
         let (Step::Part(name), rest) = path.0.split_first()? else { return None };
         let first = Step::Part(Name::new(&called(name)));
         let path = Path(std::iter::once(first).chain(rest.iter().cloned()).collect());
-        let place = [x, y].map(|x| Literal::Number(lengths::times(*x, times) + far)).to_vec();
+        let place = [x, y].map(|x| Literal::Number(x + far)).to_vec();
         Some((path, Literal::Tuple(place)))
     };
     let Some(targets) = clip.places.iter().map(target).collect::<Option<Vec<_>>>() else {

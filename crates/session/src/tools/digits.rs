@@ -4,7 +4,7 @@ use super::member_of;
 use crate::document::Open;
 use crate::host::Host;
 use crate::state::State;
-use base::number::{rounded, shortest};
+use base::number::{RULE_TOLERANCE, rounded, shortest};
 use kernel::{ThingId, Value};
 use std::collections::BTreeMap;
 use syntax::ast::{AstNode, NumberExpr, UnaryExpr, UnaryOp};
@@ -21,10 +21,22 @@ pub(super) struct Rounding {
     like: f64,
 }
 
+/// A decimal that is computed and longer has digits that somebody may mean.
+const LONGEST: usize = 9;
+/// So many digits behind the first one of a computed value are more than rounding.
+const DIGITS: i32 = 12;
+/// How far a computed value may be from what it was, as a part of the largest number of its tuple.
+const LIKE: f64 = 1e-12;
+/// The same of what is solved: longest decimal.
+const LONGEST_SOLVED: usize = 13;
+/// The same of what is solved: digits behind the first one.
+const DIGITS_SOLVED: i32 = 9;
+
 /// That of computing.
-pub(super) const COMPUTED: Rounding = Rounding { longest: 9, digits: 12, like: 1e-12 };
+pub(super) const COMPUTED: Rounding = Rounding { longest: LONGEST, digits: DIGITS, like: LIKE };
 /// That of solving: what is drawn by hand and follows from a constraint is known to a rule's tolerance.
-pub(super) const SOLVED: Rounding = Rounding { longest: 13, digits: 9, like: 1e-9 };
+pub(super) const SOLVED: Rounding =
+    Rounding { longest: LONGEST_SOLVED, digits: DIGITS_SOLVED, like: RULE_TOLERANCE };
 
 /// Returns what a text says of one of its things, without digits that only rounding has made, of the first sort that
 /// leaves what it is; as it stands where none does.

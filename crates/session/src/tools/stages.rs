@@ -52,16 +52,20 @@ impl Stage {
         Some(document.classes[document.named_class(class)].name.clone())
     }
 
-    /// What the mouse does, in one sentence.
-    pub(crate) fn hint(&self, class: &str, is_first: bool) -> String {
+    /// What the mouse does, in one sentence: for the first place of a thing, and for others of one that a next goes on
+    /// from, or not.
+    pub(crate) fn hint(&self, class: &str, (is_first, goes_on): (bool, bool)) -> String {
         let part = self.part();
         let what = match (self, part.0.is_empty()) {
             (_, true) => String::from("it"),
             (Self::Far { .. }, _) => String::from("the opposite corner"),
             _ => part.to_string(),
         };
-        let (way, leave) =
-            if is_first { ("click or press", "done") } else { ("click", "end here, again: done") };
+        let (way, leave) = match (is_first, goes_on) {
+            (true, _) => ("click or press", "done"),
+            (false, true) => ("click", "end here, again: done"),
+            (false, false) => ("click", "give up"),
+        };
         format!("{class}: {way} to set {what}; Shift: no joints and guides; Esc: {leave}")
     }
 }
