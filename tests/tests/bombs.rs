@@ -96,9 +96,12 @@ fn assert_as_said(cases: Vec<(&'static str, String, Said)>) {
 
 use Said::{Anything, Error, Holds, Unmet};
 
+fn deep_lists(i: usize) -> String {
+    format!("class C{i} {{ xs: {}C{} }}", "List of 1 ".repeat(60), i + 1)
+}
+
 #[test]
 fn what_nests_or_goes_on_overflows_no_stack() {
-    let deep_lists = |i| format!("class C{i} {{ xs: {}C{} }}", "List of 1 ".repeat(60), i + 1);
     assert_as_said(vec![
         (
             "a chain of comparisons",

@@ -142,7 +142,7 @@ fn what_is_missing_is_said() {
             "expected-class at `)`: found `)`, wanted `:` and the parameter's class",
         ],
     );
-    check("abstract x: Real", &["expected-class at `x`: found `x`, wanted `class`"]);
+    check("abstract x: Real", &["expected-class at `x`: found `x`, wanted `class` or `program`"]);
     check("ref x -> a", &["expected-class at `->`: found `->`, wanted `:` and a class"]);
     check("side a", &["expected-side at `a`: found the end of the text, wanted `:` and the side"]);
     check("check { undo }", &["expected-text at `{`: found `{`, wanted a name in quotes"]);

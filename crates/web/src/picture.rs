@@ -66,11 +66,6 @@ pub fn Picture(
         let title = lab.document.with(|d| d.as_ref().map_or_else(String::new, |d| d.title.clone()));
         words::picture_of(&title, lab.picture.with(|picture| picture.grips.len()))
     });
-    let grid_step = grid_step(lab);
-    let scale = Memo::new(move |_| {
-        let millimetres = lab.picture.with(|picture| picture.millimetres);
-        scale_in_words(lab.view.get().scale, millimetres)
-    });
     let caught = Memo::new(move |_| {
         lab.tool_view.with(|tool| tool.caught.as_ref().map(|caught| caught.word.clone()))
     });
@@ -131,20 +126,7 @@ pub fn Picture(
                 }
             })}
             <p id="picture-live" class="unseen" aria-live="polite">{live}</p>
-            <div class="corner" role="group" aria-label=words::TOOLS>
-                {move || grid_step.get().map(|step| view! {
-                    <span class="step" title=words::GRID_STEP>{step}</span>
-                })}
-                <button title=words::ZOOM_OUT aria-label=words::ZOOM_OUT
-                    on:click=move |_| lab.zoom.set(Some(Zoom::By(0.8)))>"−"</button>
-                <button title=words::FIT
-                    aria-label=move || words::fit_at(&scale.get())
-                    on:click=move |_| lab.zoom.set(Some(Zoom::Fit))>
-                    {scale}
-                </button>
-                <button title=words::ZOOM_IN aria-label=words::ZOOM_IN
-                    on:click=move |_| lab.zoom.set(Some(Zoom::By(1.25)))>"+"</button>
-            </div>
+            <Corner lab=lab />
         </section>
     }
 }
@@ -291,6 +273,32 @@ pub(crate) fn paint(
     numbers.extend_from_slice(&list.numbers);
     painter.paint(&numbers, view.x, view.y, view.scale, view.scale_y());
     (list.words.clone(), list.colors.clone())
+}
+
+/// How the sheet is seen: the step of its grid, its scale, and what changes that.
+#[component]
+fn Corner(lab: Lab) -> impl IntoView {
+    let grid_step = grid_step(lab);
+    let scale = Memo::new(move |_| {
+        let millimetres = lab.picture.with(|picture| picture.millimetres);
+        scale_in_words(lab.view.get().scale, millimetres)
+    });
+    view! {
+        <div class="corner" role="group" aria-label=words::TOOLS>
+            {move || grid_step.get().map(|step| view! {
+                <span class="step" title=words::GRID_STEP>{step}</span>
+            })}
+            <button title=words::ZOOM_OUT aria-label=words::ZOOM_OUT
+                on:click=move |_| lab.zoom.set(Some(Zoom::By(0.8)))>"−"</button>
+            <button title=words::FIT
+                aria-label=move || words::fit_at(&scale.get())
+                on:click=move |_| lab.zoom.set(Some(Zoom::Fit))>
+                {scale}
+            </button>
+            <button title=words::ZOOM_IN aria-label=words::ZOOM_IN
+                on:click=move |_| lab.zoom.set(Some(Zoom::By(1.25)))>"+"</button>
+        </div>
+    }
 }
 
 /// A view that a panel has had moved: what it was, in which size, and what it became.

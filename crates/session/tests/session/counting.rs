@@ -1,6 +1,6 @@
 //! Counts that depend on values: whatever was tried with them, rules speak of as many as there are.
 
-use crate::desk::{Desk, at};
+use crate::desk::{Desk, Moment, at};
 
 /// As many numbers of a list as `n` says, of which there are four.
 const LISTED: &str = "n: Integer = 2\nxs: List of 4 Real = [1, 2, 3, 4]\ntotal: Real\n\
@@ -21,7 +21,7 @@ const BOUNDED: &str = "n: Integer = 2\nm: Real = 3\nconstraint m = (1..n).map(i 
                        constraint m <= 10\n";
 
 /// What an edit came to: whether it was made, and all that is there.
-fn came(desk: &mut Desk, n: f64) -> (Option<String>, (String, Vec<(String, String, Option<u64>)>)) {
+fn came(desk: &mut Desk, n: f64) -> (Option<String>, Moment) {
     let refusal = desk.set("n", n).err().map(|refusal| refusal.message);
     (refusal, desk.moment())
 }

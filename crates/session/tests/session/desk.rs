@@ -22,6 +22,9 @@ impl Host for Library {
     }
 }
 
+/// A text, and of each value its path, how it is shown and its bits.
+pub(crate) type Moment = (String, Vec<(String, String, Option<u64>)>);
+
 /// One open document.
 pub(crate) struct Desk {
     pub(crate) session: Session,
@@ -117,7 +120,7 @@ impl Desk {
         rows.map(|r| (r.path, r.text, r.number.map(f64::to_bits))).collect()
     }
     /// The text and every value, bit for bit.
-    pub(crate) fn moment(&self) -> (String, Vec<(String, String, Option<u64>)>) {
+    pub(crate) fn moment(&self) -> Moment {
         (self.text(), self.bits())
     }
     pub(crate) fn undo_label(&self) -> Option<String> {

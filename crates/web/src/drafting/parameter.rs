@@ -71,30 +71,7 @@ pub fn Define(
             folded.set(false);
         }
     });
-    // the reading changes with the document, and with the tables that come
-    let come = RwSignal::new(0_u32);
-    let reading = Memo::new(move |_| {
-        lab.drafting.turned.track();
-        come.track();
-        let typed = new.get();
-        lab.tell(|session, id| session.read_parameter(id, &typed)).unwrap_or_default()
-    });
-    // a table that is named is looked for, and looked for again once another word is said of it
-    let range = Memo::new(move |_| new.with(|n| n.range.clone()));
-    let look_again = move || {
-        lab.forget_missing_tables();
-        come.update(|n| *n += 1);
-    };
-    Effect::new(move |_| {
-        range.track();
-        look_again();
-    });
-    Effect::new(move |_| {
-        lab.drafting.turned.track();
-        come.track();
-        reading.track();
-        lab.fetch_table(move || come.update(|n| *n += 1));
-    });
+    let (reading, look_again) = read(lab);
     let form = Form { new, reading, left: RwSignal::new(Vec::new()) };
     // the next one is not wrong before it is typed
     Effect::new(move |_| {
@@ -166,6 +143,36 @@ pub fn Define(
             </div>
         </form>
     }
+}
+
+/// Returns how what is typed is understood, which changes with the document and with the tables that come; and what has
+/// a table looked for again.
+fn read(lab: Lab) -> (Memo<ParameterReading>, impl Fn() + Copy) {
+    let new = lab.drafting.parameter;
+    let come = RwSignal::new(0_u32);
+    let reading = Memo::new(move |_| {
+        lab.drafting.turned.track();
+        come.track();
+        let typed = new.get();
+        lab.tell(|session, id| session.read_parameter(id, &typed)).unwrap_or_default()
+    });
+    // a table that is named is looked for, and looked for again once another word is said of it
+    let range = Memo::new(move |_| new.with(|n| n.range.clone()));
+    let look_again = move || {
+        lab.forget_missing_tables();
+        come.update(|n| *n += 1);
+    };
+    Effect::new(move |_| {
+        range.track();
+        look_again();
+    });
+    Effect::new(move |_| {
+        lab.drafting.turned.track();
+        come.track();
+        reading.track();
+        lab.fetch_table(move || come.update(|n| *n += 1));
+    });
+    (reading, look_again)
 }
 
 /// Whether of a parameter a class or what is allowed is said.
