@@ -203,7 +203,10 @@ fn in_the_browser(length: Length, page: Page, programs: &Receiver<Programs>) -> 
     match (built, programs.recv()) {
         (Ok(_), Ok(Programs { thinglab, tests })) => {
             let mut tests = Command::new(tests);
-            tests.arg("--quiet").env("THINGLAB", thinglab);
+            // one more than there are cores: pages wait, too
+            let cores = std::thread::available_parallelism().map_or(1, usize::from);
+            tests.arg("--quiet").args(["--test-threads", &(cores + 1).to_string()]);
+            tests.env("THINGLAB", thinglab);
             if let Some(chromium) = tools::browser() {
                 tests.env("CHROMIUM", chromium);
             }
