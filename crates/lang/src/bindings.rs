@@ -15,7 +15,7 @@ use kernel::{
 use std::collections::BTreeSet;
 use syntax::ast::{AstNode, Expr, span_without_doc};
 
-/// So many texts of a list are bound each by itself, for which the list is computed anew.
+/// So many texts of a list, or parts of a thing, are bound each by itself, for which the whole is computed anew.
 const MOST_TEXTS: u32 = 100;
 
 impl Lowerer<'_> {
@@ -65,7 +65,9 @@ impl Lowerer<'_> {
         if class.is_some_and(|class| self.is_thing_itself(scope, class, value)) {
             return;
         }
-        if let Some(class) = class.filter(|&class| is_mixed(&self.document, class)) {
+        let by_parts =
+            |&class: &ClassId| is_mixed(&self.document, class) && self.has_few_parts(class);
+        if let Some(class) = class.filter(by_parts) {
             return self.bind_fields(scope, (path, class), (value, term), given);
         }
         let elements = class.and_then(|class| self.texts_of(scope, path, class));
@@ -87,6 +89,35 @@ impl Lowerer<'_> {
         let count = self.length_at(scope, path)?;
         let are_texts = count <= MOST_TEXTS && !is_of_numbers(&self.document, element);
         are_texts.then_some((count, element))
+    }
+
+    /// Returns true for a class whose things have few parts and texts in lists, those of their parts counted: none
+    /// that has itself as a part, without end.
+    fn has_few_parts(&self, class: ClassId) -> bool {
+        let (mut count, mut open) = (0u32, vec![class]);
+        while let Some(class) = open.pop() {
+            for field in self.document.layout(class) {
+                let of = self.document.field_class(field);
+                let texts = match self.document.classes[of].kind {
+                    ClassKind::List(element) if !is_of_numbers(&self.document, element) => {
+                        self.count_of_part(class, self.document.field_name(field))
+                    }
+                    ClassKind::Composite => {
+                        open.push(of);
+                        None
+                    }
+                    ClassKind::List(_)
+                    | ClassKind::Primitive(_)
+                    | ClassKind::Set(_)
+                    | ClassKind::Reference(_) => None,
+                };
+                count = count.saturating_add(texts.unwrap_or(1));
+            }
+            if count > MOST_TEXTS {
+                return false;
+            }
+        }
+        true
     }
 
     /// Adds the constraint that a part is what an expression of other parts is.

@@ -56,7 +56,10 @@ impl Lowerer<'_> {
         let written = written.lines().next().unwrap_or_default();
         // what makes the value elsewhere says how it is made here
         let maker = match value {
-            Expr::Call(call) => call.name().and_then(|maker| called_otherwise(maker.text())),
+            Expr::Call(call) => call
+                .name()
+                .filter(|maker| !self.is_known(scope, maker))
+                .and_then(|maker| called_otherwise(maker.text())),
             _ => None,
         };
         self.diagnostics[before + at] = match near {
@@ -79,6 +82,18 @@ impl Lowerer<'_> {
             }
             None => plain.hint(format!("there are {}", names.join(", "))),
         };
+    }
+
+    /// Returns true for a name that a class, a message of one or a part has that can be spoken of here.
+    fn is_known(&self, scope: &Scope, word: &ast::Word) -> bool {
+        let is_it = |m: &Message| m.word() == word.text();
+        let has_it = |&class: &ClassId| {
+            let line = self.document.lineage(class);
+            line.iter().any(|&c| self.document.classes[c].messages.iter().any(is_it))
+        };
+        self.visible.class(scope.file, word.text()).is_some()
+            || scope.classes.iter().any(has_it)
+            || !self.messages_by(scope, word, is_it, written).is_empty()
     }
 
     /// Says how a message of a class is asked, and what it answers.

@@ -179,6 +179,10 @@ impl Lowerer<'_> {
             return;
         }
         let place = Place { file: scope.file, span: word.span() };
+        // behind a name without its colon it is told already
+        if self.said.contains(&(place, "expected-colon")) {
+            return;
+        }
         if word.text() == FOR {
             let d = Diagnostic::error("for-as-value", place, "a `for` is no value");
             return self.report(d.hint(FOR_AS_VALUE));
@@ -199,18 +203,17 @@ impl Lowerer<'_> {
         } else if let Some(unit) = self.unit_below(place, word.text()) {
             d = d.meant(&unit);
         } else if let Some(power) = raised(word.text()).or_else(|| raised_below(word)) {
-            let hint = match unit_above(word) {
+            let is_unit = expr::units::unit(&power).is_some();
+            let hint = match unit_above(word).filter(|_| is_unit) {
                 Some(above) => format!("the unit is `{above}/{power}`"),
                 None => format!("a power is `{power}`"),
             };
             d = d.hint(hint).fix(format!("write {power}"), [(place, power)]);
         } else if let Some(hint) = per_unit(word) {
             d = d.hint(hint);
-        } else if let Some(hint) = crate::hints::called_otherwise(word.text()) {
+        } else if let Some(hint) = self.known_elsewhere(scope, word) {
             d = d.hint(hint);
-        } else if let Some(hint) =
-            self.asked_elsewhere(scope, word).or_else(|| self.made_elsewhere(scope, word))
-        {
+        } else if let Some(hint) = crate::hints::called_otherwise(word.text()) {
             d = d.hint(hint);
         } else if self.may_guess() {
             let locals = scope.locals.iter().map(|(n, _)| n.to_string());
@@ -221,25 +224,32 @@ impl Lowerer<'_> {
             let classes = self.visible.names(scope.file).map(ToString::to_string);
             let names = locals.chain(constants).chain(parts).chain(functions).chain(classes);
             let names: Vec<String> = names.collect();
-            let of_document = || {
-                let (top, _) =
-                    self.top_of(scope.file).filter(|(top, _)| !scope.classes.contains(top))?;
-                let name = word.name();
-                self.class_of_part(top, &name)
-                    .or_else(|| Some(self.find_message(top, &name, None)?.0))
-            };
-            if let Some(things) = self.library_with(scope, &word.name()) {
-                d = d.hint(format!("`{things}` has it: write `{things}.{}`", word.text()));
-            } else if of_document().is_some() {
-                d = d.hint(format!(
-                    "a class sees its own parts and constants alone: `owner.{}` asks what its things are part of",
-                    word.text()
-                ));
-            } else if let Some(near) = self.nearest(word.text(), names.iter().map(String::as_str)) {
+            if let Some(near) = self.nearest(word.text(), names.iter().map(String::as_str)) {
                 d = d.meant(near);
             }
         }
         self.report(d);
+    }
+
+    /// Says where a name is known that is not known here: what is asked by it, and what has a part of that name.
+    fn known_elsewhere(&self, scope: &Scope, word: &ast::Word) -> Option<String> {
+        if !self.may_guess() {
+            return None;
+        }
+        let asked = self.asked_elsewhere(scope, word).or_else(|| self.made_elsewhere(scope, word));
+        if asked.is_some() {
+            return asked;
+        }
+        let (name, text) = (word.name(), word.text());
+        if let Some(things) = self.library_with(scope, &name) {
+            return Some(format!("`{things}` has it: write `{things}.{text}`"));
+        }
+        let (top, _) = self.top_of(scope.file).filter(|(top, _)| !scope.classes.contains(top))?;
+        let is_known = self.class_of_part(top, &name).is_some()
+            || self.find_message(top, &name, None).is_some();
+        is_known.then(|| {
+            format!("a class sees its own parts and constants alone: `owner.{text}` asks what its things are part of")
+        })
     }
 
     /// Returns true if the text goes on with a sign behind a place, on its line.

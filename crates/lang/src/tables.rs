@@ -75,17 +75,7 @@ impl Table {
     /// Why the text is no table.
     pub fn read(text: &str) -> Result<Self, String> {
         if text.contains(char::REPLACEMENT_CHARACTER) {
-            return Err("it is no text in UTF-8: save it as such".into());
-        }
-        let header = text.lines().find(|line| !line.starts_with(char::from(COMMENT)));
-        if let Some(sign) = header
-            .filter(|h| !h.contains(','))
-            .and_then(|h| h.find([';', '\t']).map(|at| &h[at..=at]))
-        {
-            let sign = if sign == "\t" { "tabs" } else { "`;`" };
-            return Err(format!(
-                "{sign} stand between its cells: save it with commas between them, and with decimal points"
-            ));
+            return Err("it has U+FFFD, which stands for what is no text in UTF-8: save it as such, without that character".into());
         }
         let mut reader = csv::ReaderBuilder::new()
             .comment(Some(COMMENT))
@@ -93,7 +83,13 @@ impl Table {
             .flexible(true)
             .from_reader(text.as_bytes());
         let unreadable = |e: csv::Error| e.to_string();
-        let columns = reader.headers().map_err(unreadable)?.iter().map(name_and_unit).collect();
+        let header = reader.headers().map_err(unreadable)?;
+        if let Some(sign) = other_sign(text, header) {
+            return Err(format!(
+                "{sign} stand between its cells: save it with commas between them, and with decimal points"
+            ));
+        }
+        let columns = header.iter().map(name_and_unit).collect();
         let mut rows = Vec::new();
         for record in reader.records() {
             let record = record.map_err(unreadable)?;
@@ -124,6 +120,19 @@ impl Table {
             }
         }
         Some(all.into_iter().map(|(cell, line)| (line, cell)).collect())
+    }
+}
+
+/// Returns what stands between the cells of a table whose header is one column, unless that column is in quotes.
+fn other_sign(text: &str, header: &csv::StringRecord) -> Option<&'static str> {
+    let is_record = |line: &&str| !line.is_empty() && line.as_bytes().first() != Some(&COMMENT);
+    let line = text.trim_start_matches('\u{feff}').lines().find(is_record)?.trim();
+    let quoted = line.strip_prefix('"').and_then(|rest| rest.strip_suffix('"'));
+    let is_quoted = quoted.is_some_and(|column| !column.contains('"'));
+    let column = header.get(0).filter(|_| header.len() == 1 && !is_quoted)?;
+    match column.find([';', '\t']).map(|at| &column[at..=at])? {
+        ";" => Some("`;`"),
+        _ => Some("tabs"),
     }
 }
 

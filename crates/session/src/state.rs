@@ -226,11 +226,14 @@ impl Solved {
         diagnostics.extend(lowered.fault_diagnostics(&faults));
         // that a reference names nothing is said at its place, and not at all that goes through it
         let lost = diagnostics.iter().any(|d| d.code == LOST);
+        // of a value that is bound part by part a fault is one
+        let mut said = BTreeSet::new();
         let through = unplanned
             .iter()
             .map(|f| Diagnostic::error(f.kind.code(), lowered.place(f.origin), f.message.clone()))
             .chain(given_diagnostics(&lowered, &given_faults))
-            .filter(|d| !(lost && d.code == LOST));
+            .filter(|d| !(lost && d.code == LOST))
+            .filter(|d| said.insert((d.place, d.code, d.message.clone())));
         diagnostics.extend(through);
         diagnostics.extend(ended_diagnostics(&lowered, &structure, &values));
         crate::fixes::add_uses(&text, &mut diagnostics, host);

@@ -212,6 +212,10 @@ impl<'t> Parser<'t> {
                 .text_between(self.previous + 3, self.previous + 3)
                 .starts_with(char::is_uppercase)
     }
+    /// The index of the first token of the present member.
+    pub(crate) fn member(&self) -> usize {
+        self.member
+    }
     /// The first word of the present member.
     pub(crate) fn member_word(&self) -> &'t str {
         self.text_between(self.member, self.member)

@@ -253,3 +253,45 @@ fn what_may_be_a_product_or_a_name_is_not_corrected() {
         assert!(d.fixes.is_empty(), "{text}");
     }
 }
+#[test]
+fn a_body_behind_a_colon_is_told_with_the_head_that_it_has() {
+    let hint = |text: &str| {
+        let parse = parse(FileId(0), text);
+        let [d] = parse.diagnostics() else { panic!("{text}: {:?}", parse.diagnostics()) };
+        d.hint.clone().unwrap_or_default()
+    };
+    for (text, body) in [
+        ("class Box:\ny: Real", "class Box { … }"),
+        ("class Box is A:\ny: Real", "class Box is A { … }"),
+        ("program P(d: Real):\ny: Real", "program P(d: Real) { … }"),
+        ("family F:\ny: Real", "family F of … { … }"),
+        ("family F of P:\ny: Real", "family F of P { … }"),
+    ] {
+        assert_eq!(hint(text), format!("a body stands in braces: `{body}`"));
+    }
+    for (text, part) in [
+        ("input x\ny = 3", "x: Real"),
+        ("input Real x\ny = 3", "x: Real"),
+        ("parameter Real r =\ny: Real", "r: Real"),
+        ("parameter Real r = 3", "r: Real = 3"),
+    ] {
+        assert_eq!(hint(text), format!("a part has its class behind it: `{part}`"), "{text}");
+    }
+    for text in ["x: Real {1 <= x <= 3}", "x: Real = 2 {1 <= x <= 3}", "x: Real {-1 mm <= x}"] {
+        let parse = parse(FileId(0), text);
+        assert_eq!(parse.diagnostics().len(), 1, "{text}: {:?}", parse.diagnostics());
+    }
+    assert_eq!(
+        hint("x: Real {1 <= x <= 3}"),
+        "a bound is a rule of its own: `constraint 1 <= x <= 3`"
+    );
+}
+#[test]
+fn a_strength_behind_a_rule_belongs_to_no_following_line() {
+    check(
+        "constraint a = b weak\nconstraint b = 4\ny: Real",
+        &["expected-member at `weak`: found `weak` behind a rule, wanted the end of the line"],
+    );
+    check("constraint a = b; weak\nconstraint b = 4\ny: Real", &[]);
+    check("constraint a = b\nweak\nconstraint b = 4\ny: Real", &[]);
+}

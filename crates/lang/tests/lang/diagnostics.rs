@@ -36,6 +36,12 @@ const WRONG: &[(&str, &str, &str)] = &[
     ("class A is A { }", "superclass-cycle", "A"),
     ("class A is Real { }", "primitive-superclass", "Real"),
     ("class A { inside: A }\na: A", "endless-parts", "inside: A"),
+    (
+        "class A { n: Real  t: Text  next: A }\nk: Real = 3\nb: A\na: A = if k > 2 then b else b",
+        "endless-parts",
+        "next: A",
+    ),
+    ("a: Real\nconstraint a deg = 3", "expected-colon", "deg"),
     ("abstract class A { }\na: A", "abstract-part", "a: A"),
     ("abstract class A { x: Real }\nclass B { f => A(3) }", "abstract-part", "A"),
     ("class A { x: Real }\nclass B is A, A { }", "duplicate-name", "A"),
@@ -428,4 +434,41 @@ fn a_number_in_a_comment_is_a_comment() {
     let parse = syntax::parse(base::FileId(0), text);
     assert_eq!(parse.diagnostics(), []);
     assert!(syntax::format(&parse).contains("\ny => x"));
+}
+
+#[test]
+fn a_thing_of_many_parts_is_bound_as_a_whole() {
+    let bindings = |count: u32| {
+        let lists = format!("xs: List of {count} Text  ys: List of {count} Text");
+        let text = format!(
+            "class B {{ n: Real  t: Text  {lists} }}\nk: Real = 3\nb, c: B\na: B = if k > 2 then b else c"
+        );
+        let document = right(&text).document;
+        document.classes[document.root].bindings.len()
+    };
+    assert_eq!(bindings(3), 8);
+    assert_eq!(bindings(90), 1);
+}
+
+#[test]
+fn words_of_other_languages_are_names_where_the_document_has_them() {
+    let hint = |text: &str| lower(text).diagnostics[0].hint.clone().unwrap_or_default();
+    let length = "class Bar { length: Real => 3 }\nb: Bar\nn: Real = length";
+    assert_eq!(hint(length), "it is asked of a Bar: `bar.length`");
+    assert!(hint("n: Real = length").contains("list.count"));
+    let class = "class Segment { x: Real }\n";
+    assert_eq!(
+        hint(&format!("{class}s = Segment(3)")),
+        "declare it with its class: `s: Segment = Segment(3)`"
+    );
+    assert!(hint("s = Segment(3)").contains("`Line`"));
+    let message = "mean(x: Real) => x\nm = mean(3)";
+    assert_eq!(hint(message), "declare it with its class: `m: Real = mean(3)`");
+}
+
+#[test]
+fn a_raised_name_below_a_unit_is_a_unit_where_there_is_one() {
+    let hint = |text: &str| lower(text).diagnostics[0].hint.clone();
+    assert_eq!(hint("q: Real = 2\na => 3 kg/q²").as_deref(), Some("a power is `q^2`"));
+    assert_eq!(hint("a => 9.81 m/s²").as_deref(), Some("the unit is `m/s^2`"));
 }

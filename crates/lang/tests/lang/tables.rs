@@ -128,3 +128,16 @@ fn a_table_that_is_not_there_is_told_once() {
     let said: Vec<&str> = lowered.diagnostics.iter().map(|d| d.message.as_str()).collect();
     assert_eq!(said, ["there is no table gone.csv beside this one"]);
 }
+
+#[test]
+fn a_table_is_refused_for_the_signs_between_its_cells_alone() {
+    let columns = |text: &str| Table::read(text).map(|table| table.names().join("|"));
+    assert_eq!(columns("d\t\n3\n"), Ok("d".into()));
+    assert_eq!(columns("\"a;b\"\n3\n"), Ok("a;b".into()));
+    for text in ["a;b\n3;4\n", "\na;b\n3;4\n", "# two\n\na;b\n3;4\n", "\"a\";\"b\"\n3;4\n"] {
+        let why = columns(text).expect_err(text);
+        assert!(why.starts_with("`;` stand between its cells"), "{text}: {why}");
+    }
+    assert!(columns("a\tb\n3\t4\n").expect_err("it has tabs").starts_with("tabs stand"));
+    assert!(columns("a\n\u{fffd}\n").expect_err("it is lost").starts_with("it has U+FFFD"));
+}

@@ -352,10 +352,10 @@ fn class(p: &mut Parser<'_>) {
     p.finish();
 }
 
-/// `is B as b, C`
-pub(super) fn superclasses(p: &mut Parser<'_>) {
-    if mistakes::elsewhere::body_by_colon(p) {
-        return;
+/// `is B as b, C`; returns true where a colon behind it was reported, in the place of a body.
+pub(super) fn superclasses(p: &mut Parser<'_>) -> bool {
+    if mistakes::elsewhere::body_by_colon(p, "") {
+        return true;
     }
     let elsewhere = p.at(Colon) && p.nth(1) == Ident
         || p.at(Ident) && matches!(p.word(0), "extends" | "inherits" | "implements");
@@ -370,7 +370,7 @@ pub(super) fn superclasses(p: &mut Parser<'_>) {
         p.report_mistake((at, at), said, Some((p.span_at(at), is.into())));
         p.bump();
     } else if !p.eat_word("is") {
-        return;
+        return false;
     }
     loop {
         p.start(Superclass);
@@ -380,13 +380,16 @@ pub(super) fn superclasses(p: &mut Parser<'_>) {
         }
         p.finish();
         if !p.eat(Comma) {
-            break;
+            return mistakes::elsewhere::body_by_colon(p, "");
         }
     }
 }
 
 /// `weak constraint …`, `strong stay …`
 fn strengthened(p: &mut Parser<'_>) {
+    if mistakes::elsewhere::strength_behind_rule(p) {
+        return p.skip_line();
+    }
     match p.word(1) {
         "stay" => {
             p.start_documented(Stay);

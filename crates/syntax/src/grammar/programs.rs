@@ -2,6 +2,7 @@
 
 use super::expressions::{bracketed, expression};
 use super::members::{one, superclasses};
+use super::mistakes::elsewhere::body_by_colon;
 use super::statements::text_body;
 use super::types::{class_name, parameters};
 use super::{Scope, body};
@@ -32,11 +33,7 @@ pub(super) fn member(p: &mut Parser<'_>, scope: Scope) -> bool {
             p.bump_keyword();
             program(p);
         }),
-        "family" => one(p, Family, |p| {
-            p.expect(Ident, "expected-name", "the family's name");
-            super::members::into(p, "of", class_name);
-            body(p, Scope::Family);
-        }),
+        "family" => one(p, Family, family),
         "check" => one(p, Check, |p| text_body(p, Scope::Check)),
         "lesson" => one(p, Lesson, |p| text_body(p, Scope::Lesson)),
         "next" => one(p, Next, bindings),
@@ -66,8 +63,21 @@ fn program(p: &mut Parser<'_>) {
     if p.at(LParen) {
         parameters(p);
     }
-    superclasses(p);
-    body(p, Scope::Thing);
+    if !superclasses(p) || p.at(LBrace) {
+        body(p, Scope::Thing);
+    }
+}
+
+/// `F of P { table "sizes.csv" }`, behind the keyword.
+fn family(p: &mut Parser<'_>) {
+    p.expect(Ident, "expected-name", "the family's name");
+    if body_by_colon(p, " of …") {
+        return;
+    }
+    super::members::into(p, "of", class_name);
+    if !body_by_colon(p, "") || p.at(LBrace) {
+        body(p, Scope::Family);
+    }
 }
 
 /// A block as a step's value, if one begins here: `column = repeat with … { … }`.

@@ -67,10 +67,14 @@ fn word(p: &Parser<'_>) -> Option<String> {
             "a body ends with the `}` that closes its `{`: leave the line out".into()
         }
         "parameter" | "input" | "output" | "attribute" | "property" if is_named => {
-            let declared = match (p.nth(2), p.nth(3)) {
-                (Ident, Eq) => format!("{}: {next} = {}", p.word(2), p.quoted_line(p.pos() + 4)),
-                (Ident, _) => format!("{}: {next}", p.word(2)),
-                _ => format!("{next}: Real"),
+            let is_of_class = p.nth(2) == Ident && !p.begins_line(2) && p.nth(3) != Colon;
+            let has_value = p.nth(3) == Eq && !p.begins_line(3) && !ends_line(p, 4);
+            let declared = match is_of_class {
+                true if has_value => {
+                    format!("{}: {next} = {}", p.word(2), p.quoted_line(p.pos() + 4))
+                }
+                true => format!("{}: {next}", p.word(2)),
+                false => format!("{next}: Real"),
             };
             format!("a part has its class behind it: `{declared}`")
         }
@@ -121,8 +125,9 @@ fn sign(p: &Parser<'_>) -> Option<String> {
                 p.word(0).trim_matches('"')
             )
         }
-        LBrace if matches!(p.nth(1), Number | Ident | Minus) && compares(p.nth(2)) => {
-            format!("a bound is a rule of its own: `constraint {}`", within_braces(p))
+        Number | Ident | Minus if is_bound(p) => {
+            let bound = p.quoted(p.pos(), p.line_end());
+            format!("a bound is a rule of its own: `constraint {bound}`")
         }
         Ident if matches!(p.word(0), "weak" | "medium" | "strong" | "required") => {
             format!("a strength stands before its rule: `{} constraint …`", p.word(0))
@@ -140,11 +145,15 @@ fn compares(kind: SyntaxKind) -> bool {
     matches!(kind, Eq | Less | LessEq | Greater | GreaterEq | NotEq)
 }
 
-/// Returns what stands in the braces that begin here.
-fn within_braces(p: &Parser<'_>) -> String {
-    let length =
-        (1..).take_while(|&n| !matches!(p.nth(n), RBrace | Eof) && !p.begins_line(n)).count();
-    p.quoted(p.pos() + 1, p.pos() + length)
+/// `x: Real {1 <= x <= 3}`: returns true at the first word of a part's body, where a comparison stands on its line.
+fn is_bound(p: &Parser<'_>) -> bool {
+    let begins_body = p.behind(1) == LBrace && p.behind(2) == Ident && p.behind(3) == Colon;
+    // what has two names in a row, or commas, is something else
+    let goes_on = |&n: &usize| {
+        !matches!(p.nth(n), Comma | Colon) && (p.nth(n - 1), p.nth(n)) != (Ident, Ident)
+    };
+    let mut within = (1..=p.line_end() - p.pos()).take_while(goes_on);
+    begins_body && !p.begins_line(0) && within.any(|n| compares(p.nth(n)))
 }
 
 /// `sum x = 3` after `constraint`: a name without its colon, or a product without its sign. Returns true where it was
@@ -327,6 +336,25 @@ pub(in crate::grammar) fn in_brackets(p: &mut Parser<'_>, wanted: &str) -> bool 
     true
 }
 
+/// `constraint a = b weak` before the end of a line: returns true where it was reported. The next line is a rule of its
+/// own.
+pub(in crate::grammar) fn strength_behind_rule(p: &mut Parser<'_>) -> bool {
+    let is_one = p.begins_line(1)
+        && !p.begins_line(0)
+        && !matches!(p.behind(1), LBrace | Semicolon | Eof)
+        && matches!(p.word_before(), "constraint" | "stay");
+    if is_one {
+        let (at, strength) = (p.pos(), p.word(0));
+        let said = (
+            "expected-member",
+            format!("found `{strength}` behind a rule, wanted the end of the line"),
+            format!("a strength stands before its rule: `{strength} {} …`", p.word_before()),
+        );
+        p.report_mistake((at, at), said, None);
+    }
+    is_one
+}
+
 /// `copy a`: returns true where it was reported.
 pub(in crate::grammar) fn copy_without_of(p: &mut Parser<'_>) -> bool {
     let is_one =
@@ -343,15 +371,16 @@ pub(in crate::grammar) fn copy_without_of(p: &mut Parser<'_>) -> bool {
     is_one
 }
 
-/// `class Box:` at the end of a line: returns true where it was reported.
-pub(in crate::grammar) fn body_by_colon(p: &mut Parser<'_>) -> bool {
+/// `class Box:` at the end of a line, where `missing` stands in a hint before the body: returns true where it was
+/// reported.
+pub(in crate::grammar) fn body_by_colon(p: &mut Parser<'_>, missing: &str) -> bool {
     let is_one = p.at(Colon) && p.begins_line(1);
     if is_one {
         let at = p.pos();
         let said = (
             "expected-body",
             "found `:`, wanted `{`".to_string(),
-            format!("a body stands in braces: `class {} {{ … }}`", p.text_between(at - 1, at - 1)),
+            format!("a body stands in braces: `{}{missing} {{ … }}`", p.quoted(p.member(), at - 1)),
         );
         p.report_mistake((at, at), said, None);
         p.bump();
