@@ -302,7 +302,8 @@ fn file_of(
             leptos::task::spawn_local(async move {
                 let found = lab.table(&path).await;
                 let text = found.and_then(|text| text.ok_or_else(|| words::no_table(&path)));
-                fetched.set(Some((path, text)));
+                // the dock may be shut meanwhile
+                let _ = fetched.try_set(Some((path, text)));
             });
         }
     });

@@ -57,7 +57,7 @@ pub fn Splitter(
     });
     // The size that the panel has now, whatever decided it.
     let present = move || {
-        let Some(bar) = bar.get_untracked() else { return least };
+        let Some(bar) = bar.try_get_untracked().flatten() else { return least };
         let panel = match way {
             Way::Right | Way::Down => bar.previous_element_sibling(),
             Way::Left | Way::Up => bar.next_element_sibling(),

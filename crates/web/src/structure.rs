@@ -63,18 +63,18 @@ impl Tree {
         self.toggled.with(|toggled| is_open(row, self.open_depth.get(), toggled))
     }
 
-    /// The height of a row, in pixels; nothing before there are any.
+    /// The height of a row, in pixels; nothing before there are any, and once the tree is gone.
     fn row_height(self) -> Option<f64> {
-        let sheet = self.sheet.get_untracked()?;
-        let rows = self.visible.with_untracked(Vec::len);
+        let sheet = self.sheet.try_get_untracked().flatten()?;
+        let rows = self.visible.try_with_untracked(Vec::len)?;
         let height = f64::from(sheet.offset_height()) / rows as f64;
         (height > 0.0).then_some(height)
     }
 
-    /// The places of the rows in sight, among the visible ones.
-    fn in_sight(self) -> std::ops::Range<usize> {
-        let most = self.visible.with_untracked(Vec::len);
-        match (self.frame.get_untracked(), self.row_height()) {
+    /// The places of the rows in sight, among the visible ones; nothing once the tree is gone.
+    fn in_sight(self) -> Option<std::ops::Range<usize>> {
+        let most = self.visible.try_with_untracked(Vec::len)?;
+        Some(match (self.frame.try_get_untracked().flatten(), self.row_height()) {
             (Some(frame), Some(height)) => {
                 let top = f64::from(frame.scroll_top()) / height;
                 let rows = f64::from(frame.client_height()) / height;
@@ -82,15 +82,17 @@ impl Tree {
                 from..(from + rows as usize + 2 * SPARE_ROWS).min(most)
             }
             _ => 0..most.min(FIRST_ROWS + SPARE_ROWS),
-        }
+        })
     }
 
-    /// Brings a row into sight.
+    /// Brings a row into sight; the tree may be gone by the frame that asks for it.
     fn scroll_to(self, at: usize) {
-        let place = self.visible.with_untracked(|visible| visible.iter().position(|v| v.at == at));
-        let (Some(place), Some(frame), Some(height)) =
-            (place, self.frame.get_untracked(), self.row_height())
-        else {
+        let place = |visible: &Vec<Shown>| visible.iter().position(|v| v.at == at);
+        let (Some(place), Some(frame), Some(height)) = (
+            self.visible.try_with_untracked(place).flatten(),
+            self.frame.try_get_untracked().flatten(),
+            self.row_height(),
+        ) else {
             return;
         };
         let (top, sight) = (f64::from(frame.scroll_top()), f64::from(frame.client_height()));
@@ -257,10 +259,11 @@ pub fn Structure(
     lab: Lab,
 ) -> impl IntoView {
     let tree = Tree::new(lab);
-    let window = RwSignal::new(tree.in_sight());
+    let window = RwSignal::new(tree.in_sight().unwrap_or_default());
     let look = move || {
-        let now = tree.in_sight();
-        if window.with_untracked(|window| *window != now) {
+        // another view may have taken the tree's place since the frame was asked for
+        let Some(now) = tree.in_sight() else { return };
+        if window.try_with_untracked(|window| *window != now) == Some(true) {
             window.set(now);
         }
     };

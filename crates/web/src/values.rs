@@ -207,7 +207,9 @@ fn Scrub(
     };
     let frame = move || {
         let x = latest.try_update_value(Option::take).flatten();
-        let (Some(x), Some((from, number, dragging))) = (x, start.get_value()) else { return };
+        // the row may be gone by the frame that asks
+        let start_now = start.try_get_value().flatten();
+        let (Some(x), Some((from, number, dragging))) = (x, start_now) else { return };
         if !dragging {
             if (x - from).abs() < 3.0 {
                 return;
