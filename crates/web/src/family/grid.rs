@@ -1,7 +1,7 @@
 //! The rows of a family as a grid: each cell a field, each row with what comes of it.
 
 use super::{Family, MOST_ROWS};
-use crate::{icons, js, words};
+use crate::{icons, js, keyboard, words};
 use leptos::ev::KeyboardEvent;
 use leptos::prelude::*;
 use session::view::{FamilyRow, RowUse};
@@ -25,9 +25,15 @@ pub fn Grid(
         let row = |(at, row)| view! { <Row family=family at=at row=row /> };
         shown.into_iter().enumerate().map(row).collect_view()
     };
+    // once it is made, another one is begun: nothing that was typed goes over to it
     let new_row = move || {
-        let (at, is_own) = grid.with(|grid| (grid.rows.len(), grid.is_own));
-        (is_own && at < MOST_ROWS).then(|| view! { <NewRow family=family at=at /> })
+        let begun = grid.with(|grid| {
+            let at = grid.rows.len();
+            let columns = grid.columns.iter().map(|c| (c.name.clone(), c.example.clone()));
+            let is_begun = grid.is_own && at < MOST_ROWS;
+            is_begun.then(|| (at, grid.name.clone(), columns.collect::<Vec<_>>()))
+        });
+        begun.into_iter()
     };
     let head = move || {
         let columns = grid.with(|grid| grid.columns.clone());
@@ -53,7 +59,12 @@ pub fn Grid(
                         <th scope="col">{words::ROW_OUTCOME}</th>
                         <th scope="col"><span class="unseen">{words::ROW_SET}</span></th>
                     </tr></thead>
-                    <tbody>{rows}{new_row}</tbody>
+                    <tbody>
+                        {rows}
+                        <For each=new_row key=|row| row.clone() let(row)>
+                            <NewRow family=family at=row.0 />
+                        </For>
+                    </tbody>
                 </table>
             </Show>
             <p class="quiet" role="status">{counted}</p>
@@ -67,42 +78,85 @@ pub fn Grid(
 #[component]
 fn NewRow(family: Family, at: usize) -> impl IntoView {
     let columns = family.grid.with_untracked(|grid| grid.columns.clone());
-    let change = move |column: usize, typed: &str| {
-        if !typed.trim().is_empty() {
-            family
-                .edit(|session, id, name| session.set_family_cells(id, name, (at, column), typed));
+    let field = move |column: usize, name: &str, placeholder: String| {
+        // what was refused stays, marked, until it is said otherwise
+        let is_wrong = RwSignal::new(false);
+        let take = move |typed: &str, next: usize| {
+            let cell = (at, column);
+            let is_made =
+                family.edit(|session, id, name| session.set_family_cells(id, name, cell, typed));
+            let _ = is_wrong.try_set(!is_made);
+            if is_made {
+                go_on(at, next);
+            }
+        };
+        let change = move |e: leptos::ev::Event| {
+            let typed = event_target_value(&e);
+            match typed.trim().is_empty() {
+                true => is_wrong.set(false),
+                false => take(&typed, column + 1),
+            }
+        };
+        let paste = move |e: web_sys::ClipboardEvent| {
+            if let Some(block) = block_of(&e) {
+                take(&block, column);
+            }
+        };
+        view! {
+            <input class="field" autocomplete="off" spellcheck="false" aria-label=words::cell_of(name, words::NEW_ROW)
+                placeholder=placeholder data-cell=format!("{at},{column}")
+                aria-invalid=move || is_wrong.get().to_string()
+                on:paste=paste on:keydown=move |e| walk(&e) on:change=change />
         }
     };
     let cell = move |(index, column): (usize, session::view::GridColumn)| {
-        view! {
-            <td><input class="field" autocomplete="off" spellcheck="false" aria-label=words::cell_of(&column.name, words::NEW_ROW)
-                placeholder=column.example data-cell=format!("{at},{}", index + 1)
-                on:paste=move |e| paste(family, (at, index + 1), &e) on:keydown=move |e| walk(&e)
-                on:change=move |e| change(index + 1, &event_target_value(&e)) /></td>
-        }
+        view! { <td>{field(index + 1, &column.name, column.example)}</td> }
     };
     view! {
         <tr class="new">
-            <th scope="row"><input class="field" autocomplete="off" spellcheck="false" aria-label=words::cell_of(words::ROW_NAME, words::NEW_ROW)
-                placeholder=words::NEW_ROW data-cell=format!("{at},0")
-                on:paste=move |e| paste(family, (at, 0), &e) on:keydown=move |e| walk(&e)
-                on:change=move |e| change(0, &event_target_value(&e)) /></th>
+            <th scope="row">{field(0, words::ROW_NAME, String::from(words::NEW_ROW))}</th>
             {columns.into_iter().enumerate().map(cell).collect_view()}
             <td></td><td></td>
         </tr>
     }
 }
 
+/// With the next frame, gives the keyboard to a cell of the row that was just made, or, after its last one, to the row
+/// that is begun then; not where it went elsewhere meanwhile.
+fn go_on(row: usize, column: usize) {
+    request_animation_frame(move || {
+        let holder = keyboard::holder().filter(|holder| holder.tag_name() != "BODY");
+        let is_begun = |holder: &web_sys::Element| matches!(holder.closest("tr.new"), Ok(Some(_)));
+        if holder.is_none_or(|holder| is_begun(&holder)) && !focus_cell(row, column) {
+            focus_cell(row + 1, 0);
+        }
+    });
+}
+
+/// Gives a cell the keyboard; returns whether there is such a one.
+fn focus_cell(row: usize, column: usize) -> bool {
+    let found = document().query_selector(&format!("[data-cell='{row},{column}']")).ok().flatten();
+    let field = found.and_then(|found| found.dyn_into::<web_sys::HtmlElement>().ok());
+    field.is_some_and(|field| field.focus().is_ok())
+}
+
 /// Takes a block of cells that was copied in a spreadsheet, from a cell on; what is one cell is typed as always.
 fn paste(family: Family, from: (usize, usize), e: &web_sys::ClipboardEvent) {
-    let data = js::field(e.as_ref(), "clipboardData");
-    let Ok(read) = js::field(&data, "getData").dyn_into::<js_sys::Function>() else { return };
-    let block = read.call1(&data, &"text/plain".into()).ok().and_then(|text| text.as_string());
-    let block = block.unwrap_or_default();
-    if block.trim_end().contains(['\t', '\n']) {
-        e.prevent_default();
+    if let Some(block) = block_of(e) {
         family.edit(|session, id, name| session.set_family_cells(id, name, from, &block));
     }
+}
+
+/// Returns what is pasted where it is more than one cell, and keeps the field from taking it.
+fn block_of(e: &web_sys::ClipboardEvent) -> Option<String> {
+    let data = js::field(e.as_ref(), "clipboardData");
+    let read = js::field(&data, "getData").dyn_into::<js_sys::Function>().ok()?;
+    let block = read.call1(&data, &"text/plain".into()).ok().and_then(|text| text.as_string())?;
+    let is_block = block.trim_end().contains(['\t', '\n']);
+    if is_block {
+        e.prevent_default();
+    }
+    is_block.then_some(block)
 }
 
 /// One row.
@@ -183,27 +237,26 @@ fn Row(family: Family, at: usize, row: FamilyRow) -> impl IntoView {
     }
 }
 
-/// Arrow keys and Enter go from cell to cell up and down.
+/// Arrow keys and Enter go from cell to cell up and down; below the last one Enter says what is typed.
 fn walk(e: &KeyboardEvent) {
-    let by: i64 = match e.key().as_str() {
+    let by: isize = match e.key().as_str() {
         "ArrowUp" => -1,
         "ArrowDown" | "Enter" => 1,
         _ => return,
     };
     let field = e.target().and_then(|t| t.dyn_into::<web_sys::HtmlElement>().ok());
-    let Some(at) = field.and_then(|field| field.get_attribute("data-cell")) else { return };
+    let Some(field) = field else { return };
+    let Some(at) = field.get_attribute("data-cell") else { return };
     let Some((row, column)) = at.split_once(',') else { return };
-    let to = row.parse::<i64>().unwrap_or_default() + by;
-    let focus = move |selector: String| {
-        let found = document().query_selector(&selector).ok().flatten();
-        found.and_then(|f| f.dyn_into::<web_sys::HtmlElement>().ok()).map(|f| f.focus())
-    };
-    e.prevent_default();
-    let selector = format!("[data-cell='{to},{column}']");
-    // a change makes the rows anew: the next field is looked for then
-    if focus(selector.clone()).is_some() {
-        request_animation_frame(move || {
-            focus(selector);
-        });
+    let (Ok(row), Ok(column)) = (row.parse::<usize>(), column.parse::<usize>()) else { return };
+    let to = row.checked_add_signed(by);
+    if let Some(to) = to.filter(|to| focus_cell(*to, column)) {
+        e.prevent_default();
+        // a change makes the rows anew: the next field is looked for then
+        request_animation_frame(move || _ = focus_cell(to, column));
+    } else if e.key() == "Enter" {
+        // what is typed is said when its field is left; where that makes no row, one types on
+        let _ = field.blur();
+        let _ = field.focus();
     }
 }
