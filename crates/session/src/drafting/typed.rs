@@ -29,7 +29,7 @@ pub(crate) fn coordinate(pointer: &Pointer, axis: &str) -> String {
 /// Returns what is typed as the language writes it. `last` is the point that was given last.
 ///
 /// # Errors
-/// Nothing is typed; a place is said from a point, and there is none.
+/// Nothing is typed; no `dx,dy` or `length<angle` follows `@`.
 pub(crate) fn operand(slot: &Slot, typed: &str, last: Option<&str>) -> Result<String, Refusal> {
     let typed = typed.trim();
     if typed.is_empty() {
@@ -56,10 +56,13 @@ pub(crate) fn operand(slot: &Slot, typed: &str, last: Option<&str>) -> Result<St
 /// Something else follows `@`.
 pub(crate) fn at(typed: &str, from: &str) -> Result<String, Refusal> {
     let typed = typed.trim();
-    Ok(match (typed.strip_prefix('@'), pair(typed.trim_start_matches('@'), '<')) {
-        (Some(by), None) => {
-            let wrong = || words::refuse(format!("{typed}: `@dx,dy` is wanted"));
-            let (dx, dy) = pair(by, ',').ok_or_else(wrong)?;
+    let by = typed.strip_prefix('@');
+    Ok(match (by, said(by.unwrap_or(typed))) {
+        (Some(by), Said::Whole) => {
+            let wanted = if by.starts_with('@') { "one `@`" } else { "`@dx,dy`" };
+            return Err(words::refuse(format!("{typed}: {wanted} is wanted")));
+        }
+        (Some(_), Said::Pair(dx, dy)) => {
             let (x, y) = match coordinates(from) {
                 Some((x, y)) => (x.into(), y.into()),
                 None => {
@@ -70,20 +73,43 @@ pub(crate) fn at(typed: &str, from: &str) -> Result<String, Refusal> {
             format!("Point({}, {})", further(&x, dx), further(&y, dy))
         }
         // `@20<45` is what other programs want
-        (_, Some((length, angle))) => {
+        (_, Said::Polar(length, angle)) => {
             let angle = if is_number(angle) { format!("{angle} deg") } else { angle.into() };
             format!("Point.polar(from: {from}, distance: {length}, angle: {angle})")
         }
-        (None, None) => match pair(typed, ',') {
-            Some((x, y)) => format!("Point({x}, {y})"),
-            None => typed.into(),
-        },
+        (None, Said::Pair(x, y)) => format!("Point({x}, {y})"),
+        (None, Said::Whole) => typed.into(),
     })
+}
+
+/// How a place is typed.
+enum Said<'a> {
+    /// As any expression, or as nothing that can be read.
+    Whole,
+    /// `x,y`
+    Pair(&'a str, &'a str),
+    /// `length<angle`
+    Polar(&'a str, &'a str),
+}
+
+/// Tells how a place is typed. What is an expression by itself is taken apart only where it is a bare `a < b`:
+/// `if d < 5 then p else q` is one place.
+fn said(typed: &str) -> Said<'_> {
+    let is_less = |e: &Expr| matches!(e, Expr::Binary(b) if b.op() == Some(BinaryOp::Less));
+    let polar = || pair(typed, '<').map(|(length, angle)| Said::Polar(length, angle));
+    let found = match expression(typed) {
+        Some(whole) if is_less(&whole) => polar(),
+        Some(_) => None,
+        None if typed.starts_with('@') => None,
+        None => pair(typed, ',').map(|(x, y)| Said::Pair(x, y)).or_else(polar),
+    };
+    found.unwrap_or(Said::Whole)
 }
 
 /// Whether what is typed goes on from a point.
 pub(crate) fn goes_from(typed: &str) -> bool {
-    typed.trim().starts_with('@') || pair(typed, '<').is_some()
+    let typed = typed.trim();
+    typed.starts_with('@') || matches!(said(typed), Said::Polar(..))
 }
 
 /// A yes or no as the language writes it.
@@ -206,7 +232,30 @@ pub(super) fn pair(text: &str, at: char) -> Option<(&str, &str)> {
 
 #[cfg(test)]
 mod tests {
-    use super::further;
+    use super::{at, further, goes_from};
+
+    #[test]
+    fn a_comparison_in_a_place_is_not_taken_for_length_and_angle() {
+        let place = |typed| at(typed, "Point(1, 2)").map_err(|refusal| refusal.message);
+        let choice = "if d < 5 then corner else other";
+        assert_eq!(place(choice).as_deref(), Ok(choice));
+        assert!(!goes_from(choice));
+        assert_eq!(
+            place("if d < 5 then 1 else 2, 3").as_deref(),
+            Ok("Point(if d < 5 then 1 else 2, 3)")
+        );
+        assert_eq!(
+            place("@if d < 5 then 1 else 2, 3").as_deref(),
+            Ok("Point(1 + (if d < 5 then 1 else 2), 2 + 3)")
+        );
+        for typed in ["20<45", "@20<45"] {
+            let polar = "Point.polar(from: Point(1, 2), distance: 20, angle: 45 deg)";
+            assert_eq!(place(typed).as_deref(), Ok(polar));
+            assert!(goes_from(typed));
+        }
+        assert_eq!(place("@@@5<3"), Err("@@@5<3: one `@` is wanted".into()));
+        assert_eq!(place("@5"), Err("@5: `@dx,dy` is wanted".into()));
+    }
 
     #[test]
     fn a_step_from_a_choice_is_not_taken_into_its_last_branch() {
