@@ -211,10 +211,7 @@ impl Session {
         from: (usize, usize),
         block: &str,
     ) -> Result<Change, Refusal> {
-        let rows: Vec<Vec<&str>> = {
-            let lines = block.trim_end_matches(['\n', '\r']).lines();
-            lines.map(|line| line.split('\t').map(cell_alone).collect()).collect()
-        };
+        let rows = rows_of(block)?;
         let label = match rows.as_slice() {
             [row] if row.len() == 1 => format!("set a cell of {family}"),
             _ => format!("paste into {family}"),
@@ -227,7 +224,7 @@ impl Session {
                 return Err(words::refuse(message));
             }
             if from.0 > lines.len() {
-                return Err(words::refuse(format!("{family} has no row {}", from.0)));
+                return Err(words::refuse(format!("{family} has no row {}", from.0 + 1)));
             }
             for (at, row) in (from.0..).zip(&rows) {
                 if at == lines.len() {
@@ -237,9 +234,9 @@ impl Session {
                 for (column, cell) in (from.1..).zip(row) {
                     match column.checked_sub(1) {
                         None if cell.is_empty() => {}
-                        None => lines[at].name = (*cell).into(),
+                        None => lines[at].name.clone_from(cell),
                         Some(column) => {
-                            lines[at].cells[column] = (!cell.is_empty()).then(|| (*cell).into());
+                            lines[at].cells[column] = (!cell.is_empty()).then(|| cell.clone());
                         }
                     }
                 }
@@ -449,10 +446,37 @@ impl Session {
     }
 }
 
-/// What stands in a cell that was copied, without the quotes around it.
-fn cell_alone(cell: &str) -> &str {
-    let cell = cell.trim();
-    cell.strip_prefix('"').and_then(|cell| cell.strip_suffix('"')).unwrap_or(cell).trim()
+/// The cells of a block that was copied, row by row; a cell in quotes may have tabs and line breaks in it.
+///
+/// # Errors
+/// It cannot be read.
+fn rows_of(block: &str) -> Result<Vec<Vec<String>>, Refusal> {
+    let block = block.replace("\r\n", "\n");
+    let block = block.trim_end_matches(['\n', '\r']);
+    // what is one cell is typed: quotes in it are its own
+    if !block.contains(['\t', '\n', '\r']) {
+        let cell = Some(block.trim()).filter(|cell| !cell.is_empty());
+        return Ok(cell.map(|cell| vec![cell.to_string()]).into_iter().collect());
+    }
+    let block = format!("{block}\n");
+    let mut reader = csv::ReaderBuilder::new()
+        .delimiter(b'\t')
+        .has_headers(false)
+        .flexible(true)
+        .from_reader(block.as_bytes());
+    let refused = |e: csv::Error| words::refuse(format!("what is pasted cannot be read: {e}"));
+    let (mut rows, mut record) = (Vec::new(), csv::StringRecord::new());
+    let mut line = reader.position().line();
+    while reader.read_record(&mut record).map_err(refused)? {
+        let next = reader.position().line();
+        let breaks: usize = record.iter().map(|cell| cell.matches('\n').count()).sum();
+        // the reader leaves out empty lines, which are rows without cells
+        let empty = (next - line).saturating_sub(1 + breaks as u64);
+        rows.extend((0..empty).map(|_| vec![String::new()]));
+        rows.push(record.iter().map(|cell| cell.trim().to_string()).collect());
+        line = next;
+    }
+    Ok(rows)
 }
 
 /// A number that no row is called by.

@@ -109,12 +109,22 @@ fn a_block_of_cells_is_pasted_from_a_spreadsheet() {
     assert_eq!(rows[3], named("4", ["16", "4 mm", ""]));
     desk.undo();
     assert_eq!(desk.text(), before);
+    // a line break in quotes begins no row, and an empty line is one
+    let block = "\"Long\r\nname\"\t12\r\n\r\nLast\t14\r\n";
+    desk.session.set_family_cells(desk.id, "Sold", (1, 0), block).expect("all fit");
+    let rows = cells(&desk, "Sold");
+    assert_eq!(rows[1], named("Long\nname", ["12", "", ""]));
+    assert_eq!(rows[2], named("3", ["", "", ""]));
+    assert_eq!(rows[3], named("Last", ["14", "", ""]));
+    desk.undo();
     // a row is made by what is typed in the one that is not there yet
     desk.session.set_family_cells(desk.id, "Sold", (2, 0), "D50").expect("it is a name");
     assert_eq!(cells(&desk, "Sold")[2], named("D50", ["", "", ""]));
+    desk.session.set_family_cells(desk.id, "Sold", (3, 0), "\"D\" 60").expect("it is a name");
+    assert_eq!(cells(&desk, "Sold")[3], named("\"D\" 60", ["", "", ""]));
     for (from, block, why) in [
         ((0, 3), "3\t4", "what is pasted ends 1 columns beyond the grid"),
-        ((9, 1), "3", "Sold has no row 9"),
+        ((9, 1), "3", "Sold has no row 10"),
         ((0, 1), "10\tx", "hole: "),
     ] {
         let wrong = desk.session.set_family_cells(desk.id, "Sold", from, block);
