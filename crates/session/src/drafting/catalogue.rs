@@ -5,7 +5,7 @@
 
 use super::parameters::{self, Asks};
 use super::view::ConstructionRow;
-use super::{Home, compound, synonyms, text};
+use super::{Home, compound, outcome, synonyms, text};
 use crate::recognise;
 use crate::state::State;
 use base::{Name, Span};
@@ -276,9 +276,26 @@ impl Slot {
 const IN_PLACE: [&str; 3] = ["trimmed", "begun", "extended"];
 
 impl Tool {
-    /// Whether what it makes takes the place of its first operand, which is erased.
-    pub(crate) fn is_in_place(&self) -> bool {
-        matches!(&self.call, Call::Message(word) if IN_PLACE.contains(&word.as_str()))
+    /// Whether what it makes takes the place of its first operand, which is erased: where the library's lines and arcs
+    /// answer so, never by a message of the document's own that is called the same.
+    pub(crate) fn is_in_place(&self, state: &State, home: &Home, of: &str) -> bool {
+        let Call::Message(word) = &self.call else { return false };
+        if !IN_PLACE.contains(&word.as_str()) {
+            return false;
+        }
+        let mut found = false;
+        outcome::try_all(state, home, &[of.to_string()], &mut |_, evaluator, answer| {
+            let document = evaluator.document;
+            let class = answer.ok().and_then(|answer| evaluator.class_of(&answer));
+            let declared = class.and_then(|c| document.find_message(c, &Name::new(word), None));
+            found = declared.is_some_and(|(class, message)| {
+                let mut curves = ["Straight", "Round"].into_iter();
+                let is_curve = curves
+                    .any(|c| document.class_named(c).is_some_and(|c| document.is_a(class, c)));
+                is_curve && state.lowered.own_span(message.origin).is_none()
+            });
+        });
+        found
     }
 
     /// Writes the construction with operands for its first slots.

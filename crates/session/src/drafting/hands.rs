@@ -152,7 +152,10 @@ fn give(open: &mut Open, host: &dyn Host, operand: Operand) -> Result<Turn, Refu
     }
     let next = prompt(open);
     let said = typed::expression(&chosen.text).and_then(|e| steps::pattern_in_words(&e));
-    let (name, text) = (names.join(", "), said.unwrap_or(chosen.text));
+    let (name, mut text) = (names.join(", "), said.unwrap_or(chosen.text));
+    if let Some(of) = line.stays {
+        text += &format!("; {of} stays, for it is no step of this block");
+    }
     Ok(Turn::Made { change: Box::new(change), name, text, next })
 }
 

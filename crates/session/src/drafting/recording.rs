@@ -15,7 +15,7 @@ use crate::words;
 use base::{Name, Severity, Span};
 use kernel::{ClassId, Command, DOCUMENT, Path};
 use std::collections::BTreeSet;
-use syntax::ast::AstNode;
+use syntax::ast::{AstNode, Value};
 
 /// A line of text that makes something.
 pub(crate) struct Line {
@@ -23,6 +23,8 @@ pub(crate) struct Line {
     pub(crate) name: String,
     /// The line.
     pub(crate) text: String,
+    /// What it would take the place of, and which stays, since no step of its block is called so.
+    pub(crate) stays: Option<String>,
 }
 
 /// Returns the line that makes a figure in a home.
@@ -51,30 +53,67 @@ pub(crate) fn line(
                     format!("{name} => {made}")
                 }
             };
-            Line { name, text }
+            Line { name, text, stays: None }
         }
         Home::Program { program, .. } => {
             let of = document.class_named(program).unwrap_or(document.root);
             let taken = text::words_in(&text::Source::now(state), program);
             let name = name_of_other_branch(open, home, base)
                 .unwrap_or_else(|| free_name((state, of), base, &taken));
-            let guide = if dialogue.is_guide { "guide " } else { "" };
-            let mut text = format!("{guide}{name} = {made}");
             let of = operands.first().map_or("", |operand| operand.text.as_str());
-            if dialogue.tool.is_in_place() && is_drawn_here(state, home, of) {
+            let is_in_place = dialogue.tool.is_in_place(state, home, of);
+            let before = if is_in_place { step_behind(state, home, of) } else { None };
+            // what takes the place of a guide is one
+            let is_guide = dialogue.is_guide || before.is_some_and(|before| before.is_guide);
+            let guide = if is_guide { "guide " } else { "" };
+            let mut text = format!("{guide}{name} = {made}");
+            let is_erased = before.is_some_and(|before| before.is_here);
+            if is_erased {
                 text += &format!("\nerase {of}");
             }
-            Line { name, text }
+            let stays = (is_in_place && !is_erased).then(|| of.to_string());
+            Line { name, text, stays }
         }
     }
 }
 
-/// Whether a name is that of a step of the block that is drawn in.
-fn is_drawn_here(state: &State, home: &Home, name: &str) -> bool {
-    let Home::Program { program, .. } = home else { return false };
-    let body = text::block(&text::Source::now(state), program, &text::address_of(home));
-    let made = body.map(|body| text::names_made(&text::steps_of(&body)));
-    made.is_some_and(|made| made.iter().any(|known| known == name))
+/// The step that drew an operand.
+#[derive(Clone, Copy)]
+struct Behind {
+    /// Whether it draws for construction alone.
+    is_guide: bool,
+    /// Whether the operand is all of it, and its block the one that is drawn in.
+    is_here: bool,
+}
+
+/// Finds the step that drew an operand, in the block that is drawn in or around it.
+fn step_behind(state: &State, home: &Home, of: &str) -> Option<Behind> {
+    let Home::Program { program, .. } = home else { return None };
+    let source = text::Source::now(state);
+    let name = of.split(['.', '[']).next().unwrap_or_default();
+    let own = text::address_of(home);
+    let mut address = own.as_str();
+    loop {
+        let body = text::block(&source, program, address);
+        if let Some(is_guide) = body.and_then(|b| guide_among(&text::steps_of(&b), name)) {
+            return Some(Behind { is_guide, is_here: address == own && name == of });
+        }
+        if address.is_empty() {
+            return None;
+        }
+        address = address.rsplit_once('.').map_or("", |(around, _)| around);
+    }
+}
+
+/// Whether the step of a name is a guide, where it stands or in a branch that makes it there; nothing where there is none.
+fn guide_among(steps: &[text::StepNode], name: &str) -> Option<bool> {
+    steps.iter().find_map(|step| match (&step.name, &step.value) {
+        (Some(own), _) => (own == name).then_some(step.is_guide),
+        (None, Some(choice @ Value::If(_))) => {
+            text::inner_steps(choice).iter().find_map(|(_, inner)| guide_among(inner, name))
+        }
+        (None, _) => None,
+    })
 }
 
 /// Returns the name that the first branch of an `if` gave to a thing of the same kind, which the second has not made

@@ -87,6 +87,66 @@ fn a_copy_of_a_small_circle_is_one_of_the_circle_not_of_its_centre() {
 }
 
 #[test]
+fn a_choice_of_two_places_is_one_place() {
+    let mut desk = Desk::recording("Choice", &[("d", "10")]);
+    begin(&mut desk, "Line");
+    enter(&mut desk, "if d < 5 then Point(0, 0) else Point(3, 4)");
+    made(enter(&mut desk, "10,0"));
+    assert_eq!(value(&desk, "choice.line"), "(3, 4) to (10, 0)");
+    assert_eq!(desk.wrong(), []);
+}
+
+const CROSSED: &str = "\
+use geometry
+class Beam is Line {
+    extended(by l: Length) => Line(p2, p1)
+}
+program Trim() {
+    guide line = Line(Point(0, 0), Point(100, 0))
+    line2 = Line(Point(60, -20), Point(60, 20))
+    beam = Beam(p1: Point(0, 50), p2: Point(9, 50))
+}
+trim: Trim
+";
+
+#[test]
+fn a_guide_that_is_trimmed_stays_a_guide() {
+    let mut desk = Desk::of(CROSSED);
+    desk.session.record(desk.id, "Trim").expect("it is there");
+    begin(&mut desk, "Line:trimmed");
+    enter(&mut desk, "line");
+    made(enter(&mut desk, "line2"));
+    let lines = "    guide trimmed = line.trimmed(at: line2)\n    erase line\n";
+    assert!(desk.text().contains(lines), "{}", desk.text());
+    assert_eq!(desk.wrong(), []);
+}
+
+#[test]
+fn what_a_message_of_the_documents_own_is_sent_to_is_not_erased() {
+    let mut desk = Desk::of(CROSSED);
+    desk.session.record(desk.id, "Trim").expect("it is there");
+    begin(&mut desk, "Line:extended");
+    enter(&mut desk, "beam");
+    assert_eq!(made(enter(&mut desk, "5")), "beam.extended(by: 5)");
+    assert!(!desk.text().contains("erase"), "{}", desk.text());
+}
+
+#[test]
+fn a_line_before_the_loop_that_is_trimmed_in_it_stays_and_is_told() {
+    let mut desk = Desk::of(CROSSED);
+    desk.session.record(desk.id, "Trim").expect("it is there");
+    desk.session.begin_loop(desk.id, "").expect("a program is recorded");
+    begin(&mut desk, "Line:trimmed");
+    enter(&mut desk, "line");
+    assert_eq!(
+        made(enter(&mut desk, "line2")),
+        "line.trimmed(at: line2); line stays, for it is no step of this block"
+    );
+    assert!(desk.text().contains("        guide trimmed = "), "{}", desk.text());
+    assert!(!desk.text().contains("erase"), "{}", desk.text());
+}
+
+#[test]
 fn a_line_is_trimmed_and_lengthened_in_its_place() {
     let mut desk = Desk::recording("Trim", &[]);
     for ends in [["0,0", "100,0"], ["60,-20", "60,20"]] {
