@@ -262,13 +262,15 @@ fn value_words<'a>(state: &'a State, evaluator: &Evaluator<'a>, answer: &Answer<
             }
         }
         Answer::Context(context) => format!("{} figures", context.result().count()),
-        other if evaluator.outline_of(other).is_ok_and(|edges| !edges.is_empty()) => {
-            let edges = evaluator.outline_of(other).map_or(0, |edges| edges.len());
-            let area = evaluator.of_part(answer, "area").ok();
-            let area = area.and_then(|area| values::in_words(&state.lowered.document, &area));
-            format!("{edges} edges, area {}", area.unwrap_or_default())
-        }
-        other => evaluator.text_of(other),
+        other => match evaluator.outline_of(other).map_or(0, |edges| edges.len()) {
+            0 => evaluator.text_of(other),
+            edges => {
+                let area = evaluator.of_part(answer, "area").ok();
+                let area = area.and_then(|area| values::in_words(&state.lowered.document, &area));
+                let edges = if edges == 1 { "1 edge".into() } else { format!("{edges} edges") };
+                format!("{edges}, area {}", area.unwrap_or_default())
+            }
+        },
     }
 }
 
