@@ -295,9 +295,11 @@ impl Lab {
 
     /// Gives the construction up.
     pub fn draft_end(self) {
+        let waited = self.drafts();
         self.tell(session::Session::give_up);
-        // what was refused of it is no more
-        if self.notice.with_untracked(|notice| matches!(notice, Some(Notice::Refused(_)))) {
+        // what was refused of it is no more; any other refusal stands
+        if waited && self.notice.with_untracked(|notice| matches!(notice, Some(Notice::Refused(_))))
+        {
             self.notice.set(None);
         }
         self.drafting.calculator.set(false);
