@@ -24,12 +24,6 @@ impl FileSet {
         self.texts.retain(|path, text| text.is_some() || !is_table(path));
     }
 
-    /// Returns the paths of the tables that were asked for, with what is known of each.
-    pub fn tables(&self) -> Vec<(String, Option<String>)> {
-        let tables = self.texts.iter().filter(|(path, _)| is_table(path));
-        tables.map(|(path, text)| (path.clone(), text.clone())).collect()
-    }
-
     /// Returns the text of a library, or of a document by its name in a folder; or notes that this is wanted.
     pub fn find(&mut self, folder: &str, name: &str) -> Option<String> {
         if let Some(library) = self.libraries.get(name) {
@@ -73,7 +67,6 @@ mod tests {
         files.texts.insert(String::from("shop/bolts.csv"), None);
         assert_eq!(files.find("shop/", "bolts.csv"), None);
         assert!(files.wanted.is_empty());
-        assert_eq!(files.tables(), [(String::from("shop/bolts.csv"), None)]);
         files.forget_missing_tables();
         assert_eq!(files.find("shop/", "bolts.csv"), None);
         assert!(files.wanted.contains("shop/bolts.csv"));

@@ -23,7 +23,7 @@ use eval::{Answer, Context, Evaluator, Measures, Standing, Why};
 use kernel::{ClassId, ClassKind, DOCUMENT, Document, Literal, Primitive, Term};
 use lang::tables::{Table, with_unit};
 use lang::{Family, Wanted};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 
 /// Of what was drawn at most this many measures are told.
@@ -41,6 +41,15 @@ pub(crate) fn list(state: &State) -> Vec<FamilyView> {
         doc: family.doc.clone(),
     };
     state.lowered.families.iter().map(family).collect()
+}
+
+/// Returns the paths of the tables that a document uses, with those that are missing.
+pub(crate) fn tables(state: &State) -> BTreeSet<String> {
+    let lowered = &state.lowered;
+    let read = lowered.files.iter().map(|(_, file)| file).filter(|file| file.is_table());
+    let missing = lowered.missing.iter().filter(|name| lang::tables::is_name(name));
+    let of_families = lowered.families.iter().filter_map(|family| family.table.clone());
+    read.map(|file| file.name.clone()).chain(missing.cloned()).chain(of_families).collect()
 }
 
 /// Finds a program by its name, or by that of a family.

@@ -535,6 +535,11 @@ impl Session {
     pub fn families(&self, id: DocumentId) -> Vec<FamilyView> {
         crate::families::list(&self.document(id).state)
     }
+    /// Returns the paths of the tables that a document uses, from its own folder: those of its families and of the
+    /// parameters of all programs in scope, with those that are missing.
+    pub fn tables(&self, id: DocumentId) -> BTreeSet<String> {
+        crate::families::tables(&self.document(id).state)
+    }
     /// Reads the rows of a family, or of a program with a table.
     ///
     /// # Errors

@@ -97,8 +97,8 @@ pub struct Lab {
     pub current: RwSignal<Option<String>>,
     /// Whether the page has begun with a document that is still to come.
     pub arriving: RwSignal<bool>,
-    /// The path of the document that the address names and that is being opened.
-    pub coming: StoredValue<Option<String>>,
+    /// How often a document that the address names was begun to be opened, and its path while it comes.
+    pub coming: StoredValue<(usize, Option<String>)>,
     /// The shown document, as of the last command.
     pub document: RwSignal<Option<Opened>>,
     /// Its structure view.
@@ -309,7 +309,7 @@ impl Lab {
             listing: StoredValue::new_local(views::Rows::default()),
             current: RwSignal::new(None),
             arriving: RwSignal::new(false),
-            coming: StoredValue::new(None),
+            coming: StoredValue::new((0, None)),
             document: RwSignal::new(None),
             structure,
             values: RwSignal::new(Vec::new()),

@@ -122,14 +122,20 @@ fn follow(lab: Lab) {
         return;
     };
     if lab.current.get_untracked().as_deref() == Some(&path)
-        || lab.coming.with_value(|coming| coming.as_deref() == Some(&path))
+        || lab.coming.with_value(|(_, coming)| coming.as_deref() == Some(&path))
     {
         return;
     }
-    lab.coming.set_value(Some(path.clone()));
+    let mine = lab.coming.with_value(|(count, _)| count + 1);
+    lab.coming.set_value((mine, Some(path.clone())));
     let before = keyboard::holder().filter(|holder| holder.tag_name() != "BODY");
     leptos::task::spawn_local(async move {
-        match lab.load(&path).await {
+        let loaded = lab.load(&path).await;
+        // what was begun after it speaks for itself
+        if lab.coming.with_value(|(count, _)| *count != mine) {
+            return;
+        }
+        match loaded {
             Ok(_) if route::present().as_deref() == Some(&path) => {
                 lab.show(&path);
                 // what was chosen in the gallery is gone with it
@@ -146,7 +152,7 @@ fn follow(lab: Lab) {
                 lab.say_refused(format!("{path}: {message}"));
             }
         }
-        lab.coming.update_value(|coming| _ = coming.take_if(|coming| *coming == path));
+        lab.coming.set_value((mine, None));
         lab.arriving.set(false);
     });
 }

@@ -57,6 +57,14 @@ fn told(text: &str) -> Vec<String> {
 }
 
 #[test]
+fn the_tables_of_a_document_are_those_that_it_uses_and_misses() {
+    let text = "use parts.nuts\nuse parts.lost\n";
+    let (session, id) = opened(&format!("{text}{}", bolt("\"sizes.csv\".d")));
+    let tables: Vec<String> = session.tables(id).into_iter().collect();
+    assert_eq!(tables, ["parts/bolts.csv", "parts/gone.csv", "sizes.csv"]);
+}
+
+#[test]
 fn the_values_of_a_column_are_those_that_are_allowed() {
     let (mut session, id) = opened(&bolt("\"bolts.csv\".d"));
     assert!(session.text(id).diagnostics.is_empty());

@@ -94,6 +94,8 @@ impl Lab {
     pub fn give_openings_up(self) {
         self.given_up.update_value(|times| *times += 1);
         self.opening.set(None);
+        // it may be opened again, though the task that opens it has not ended yet
+        self.coming.update_value(|(_, coming)| *coming = None);
         let shown = self.current.get_untracked();
         if route::present() != shown {
             let address =
@@ -109,7 +111,8 @@ impl Lab {
         let is_long = stored.text.len() > LONG;
         let goes_on = move || !is_long || self.given_up.get_value() == given_up;
         let opened = self.take_up_while(path, stored, goes_on).await;
-        if is_long {
+        // what was given up is shown no more: another one may be
+        if is_long && goes_on() {
             self.opening.set(None);
         }
         opened
@@ -202,30 +205,43 @@ impl Lab {
         Ok(table)
     }
 
-    /// Asks for the tables again that were asked for, and reads the shown document with what has changed: a spreadsheet
-    /// may have saved one meanwhile. While the server is away, what was read stays.
+    /// Asks again for the tables that the shown document uses, and reads what is shown with those that have changed: a
+    /// spreadsheet may have saved one meanwhile. While the server is away, what was read stays.
     pub fn renew_tables(self) {
         let Some(shown) = self.current.get_untracked() else { return };
-        let known = self.files.with_value(FileSet::tables);
-        if known.is_empty() {
+        let folder =
+            shown.rsplit_once('/').map_or(String::new(), |(folder, _)| format!("{folder}/"));
+        for name in self.ask_of_shown(Session::tables).unwrap_or_default() {
+            leptos::task::spawn_local(self.renew_table(format!("{folder}{name}")));
+        }
+    }
+
+    async fn renew_table(self, path: String) {
+        self.dragged().await;
+        let Ok(table) = server::table(&path).await else { return };
+        // a drag goes on with what it began with
+        self.dragged().await;
+        if self.files.with_value(|files| files.texts.get(&path) == Some(&table)) {
             return;
         }
-        leptos::task::spawn_local(async move {
-            let mut is_other = false;
-            for (path, before) in known {
-                is_other |= self.table(&path).await.is_ok_and(|table| table != before);
-            }
-            while self.dragging.with_untracked(Option::is_some) {
-                js::painted().await;
-            }
-            if is_other && self.current.get_untracked() == Some(shown) {
-                self.flush_text();
-                self.tell(Session::catch_up);
-                self.refresh();
-                self.fetch_missing();
-                self.tables.update(|times| *times += 1);
-            }
+        self.files.update_value(|files| {
+            files.texts.insert(path, table);
         });
+        // whatever is shown by now may use it
+        if self.current.with_untracked(Option::is_some) {
+            self.flush_text();
+            self.tell(Session::catch_up);
+            self.refresh();
+            self.fetch_missing();
+            self.tables.update(|times| *times += 1);
+        }
+    }
+
+    /// Waits until nothing is dragged.
+    async fn dragged(self) {
+        while self.dragging.with_untracked(Option::is_some) {
+            js::painted().await;
+        }
     }
 
     /// Forgets which tables were not there: by now they may be.
