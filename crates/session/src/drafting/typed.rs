@@ -232,30 +232,7 @@ pub(super) fn pair(text: &str, at: char) -> Option<(&str, &str)> {
 
 #[cfg(test)]
 mod tests {
-    use super::{at, further, goes_from};
-
-    #[test]
-    fn a_comparison_in_a_place_is_not_taken_for_length_and_angle() {
-        let place = |typed| at(typed, "Point(1, 2)").map_err(|refusal| refusal.message);
-        let choice = "if d < 5 then corner else other";
-        assert_eq!(place(choice).as_deref(), Ok(choice));
-        assert!(!goes_from(choice));
-        assert_eq!(
-            place("if d < 5 then 1 else 2, 3").as_deref(),
-            Ok("Point(if d < 5 then 1 else 2, 3)")
-        );
-        assert_eq!(
-            place("@if d < 5 then 1 else 2, 3").as_deref(),
-            Ok("Point(1 + (if d < 5 then 1 else 2), 2 + 3)")
-        );
-        for typed in ["20<45", "@20<45"] {
-            let polar = "Point.polar(from: Point(1, 2), distance: 20, angle: 45 deg)";
-            assert_eq!(place(typed).as_deref(), Ok(polar));
-            assert!(goes_from(typed));
-        }
-        assert_eq!(place("@@@5<3"), Err("@@@5<3: one `@` is wanted".into()));
-        assert_eq!(place("@5"), Err("@5: `@dx,dy` is wanted".into()));
-    }
+    use super::further;
 
     #[test]
     fn a_step_from_a_choice_is_not_taken_into_its_last_branch() {

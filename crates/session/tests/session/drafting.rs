@@ -87,12 +87,20 @@ fn a_copy_of_a_small_circle_is_one_of_the_circle_not_of_its_centre() {
 }
 
 #[test]
-fn a_choice_of_two_places_is_one_place() {
+fn a_comparison_in_a_place_is_not_taken_for_length_and_angle() {
     let mut desk = Desk::recording("Choice", &[("d", "10")]);
     begin(&mut desk, "Line");
     enter(&mut desk, "if d < 5 then Point(0, 0) else Point(3, 4)");
-    made(enter(&mut desk, "10,0"));
-    assert_eq!(value(&desk, "choice.line"), "(3, 4) to (10, 0)");
+    let text = made(enter(&mut desk, "@if d < 5 then 1 else 2, 3"));
+    assert!(!text.contains("polar"), "{text}");
+    assert_eq!(value(&desk, "choice.line"), "(3, 4) to (5, 7)");
+    enter(&mut desk, "if d < 5 then 1 else 2, 3");
+    let wrong = desk.session.enter(desk.id, "@@@5<3").expect_err("one sign is enough").message;
+    assert_eq!(wrong, "@@@5<3: one `@` is wanted");
+    let wrong = desk.session.enter(desk.id, "@5").expect_err("it is one number").message;
+    assert_eq!(wrong, "@5: `@dx,dy` is wanted");
+    made(enter(&mut desk, "@20<90"));
+    assert_eq!(value(&desk, "choice.line2"), "(2, 3) to (2, 23)");
     assert_eq!(desk.wrong(), []);
 }
 
