@@ -105,7 +105,7 @@ fn step_behind(state: &State, home: &Home, of: &str) -> Option<Behind> {
     }
 }
 
-/// Whether the step of a name is a guide, where it stands or in a branch that makes it there; nothing where there is none.
+/// Whether the step of a name is a guide, where it stands or in a branch that makes it there; nothing without one.
 fn guide_among(steps: &[text::StepNode], name: &str) -> Option<bool> {
     steps.iter().find_map(|step| match (&step.name, &step.value) {
         (Some(own), _) => (own == name).then_some(step.is_guide),
