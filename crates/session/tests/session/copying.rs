@@ -213,7 +213,7 @@ const PLATE: &str = "use geometry\nunit mm\nplate: Rectangle { corner = (10, 20)
 
 #[test]
 fn what_would_be_of_other_lengths_in_a_sheet_of_another_unit_is_not_pasted() {
-    let mut desk = Desk::of("use geometry\nunit cm\np: Point = (1, 1)\n");
+    let desk = Desk::of("use geometry\nunit cm\np: Point = (1, 1)\n");
     let clip = desk.session.copies_in(PLATE).expect("it says something of things");
     let refused = desk.session.pasting(desk.id, &clip, 0).map(|_| ()).expect_err("of 80 mm 80 cm");
     assert_eq!(
