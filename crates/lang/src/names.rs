@@ -214,21 +214,39 @@ impl Lowerer<'_> {
         } else if let Some(hint) = self.known_elsewhere(scope, word) {
             d = d.hint(hint);
         } else if let Some(hint) = crate::hints::called_otherwise(word.text()) {
-            d = d.hint(hint);
+            // a name of its own that is written almost so is meant before a word of another language
+            d = match self.near_own(scope, word.text()) {
+                Some(near) => d.meant(&near),
+                None => d.hint(hint),
+            };
         } else if self.may_guess() {
-            let locals = scope.locals.iter().map(|(n, _)| n.to_string());
-            let elements = scope.elements.iter().map(|e| e.name.to_string());
-            let constants = scope.constants.keys().map(ToString::to_string).chain(elements);
-            let parts = scope.classes.iter().flat_map(|&class| self.names_of(class));
             let functions = builtin::FUNCTIONS.iter().map(|b| b.name.to_string());
             let classes = self.visible.names(scope.file).map(ToString::to_string);
-            let names = locals.chain(constants).chain(parts).chain(functions).chain(classes);
+            let names = self.own_names(scope).chain(functions).chain(classes);
             let names: Vec<String> = names.collect();
             if let Some(near) = self.nearest(word.text(), names.iter().map(String::as_str)) {
                 d = d.meant(near);
             }
         }
         self.report(d);
+    }
+
+    /// The names that are declared around a place: locals, constants, elements and parts.
+    fn own_names<'s>(&'s self, scope: &'s Scope) -> impl Iterator<Item = String> + 's {
+        let locals = scope.locals.iter().map(|(n, _)| n.to_string());
+        let elements = scope.elements.iter().map(|e| e.name.to_string());
+        let constants = scope.constants.keys().map(ToString::to_string).chain(elements);
+        let parts = scope.classes.iter().flat_map(|&class| self.names_of(class));
+        locals.chain(constants).chain(parts)
+    }
+
+    /// Returns the name of these that is written almost as another one.
+    fn near_own(&self, scope: &Scope, word: &str) -> Option<String> {
+        if !self.may_guess() {
+            return None;
+        }
+        let names: Vec<String> = self.own_names(scope).collect();
+        self.nearest(word, names.iter().map(String::as_str)).map(String::from)
     }
 
     /// Says where a name is known that is not known here: what is asked by it, and what has a part of that name.

@@ -144,7 +144,7 @@ impl Planner {
             let patterns = self.plans.patterns();
             let decided = tried.guards.iter().map(|guard| guard.decided_at(patterns, values));
             let decided = decided.collect();
-            self.without_course(decided);
+            self.note_unsettled(decided);
         }
         report
     }

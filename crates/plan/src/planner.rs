@@ -136,7 +136,7 @@ impl Planner {
             Some(_) if self.lowering.on == On::Unsettled => false,
             Some(unsettled) => {
                 self.lower_on(model, None);
-                self.without_course(unsettled);
+                self.note_unsettled(unsettled);
                 true
             }
             None => self.take_course_at(model, values),
@@ -160,7 +160,7 @@ impl Planner {
         &self.lowering.course_faults
     }
     /// Notes that no course was found on which rules speak of as many as they say, and how it is decided there.
-    pub(crate) fn without_course(&mut self, unsettled: Rc<[Guard]>) {
+    pub(crate) fn note_unsettled(&mut self, unsettled: Rc<[Guard]>) {
         let message = "how many this speaks of does not settle: it changes with what the rule does";
         let mut lowering = (*self.lowering).clone();
         let faults = lowering.awaiting.iter().map(|&o| Trouble::not_yet(message).at(o));

@@ -61,17 +61,22 @@ pub(crate) fn line(
             let name = name_of_other_branch(open, home, base)
                 .unwrap_or_else(|| free_name((state, of), base, &taken));
             let of = operands.first().map_or("", |operand| operand.text.as_str());
+            // `-line` and `(line)` are drawn by the same step
+            let of = of.trim_matches(['-', '(', ')', ' ']);
             let is_in_place = dialogue.tool.is_in_place(state, home, of);
             let before = if is_in_place { step_behind(state, home, of) } else { None };
             // what takes the place of a guide is one
             let is_guide = dialogue.is_guide || before.is_some_and(|before| before.is_guide);
             let guide = if is_guide { "guide " } else { "" };
             let mut text = format!("{guide}{name} = {made}");
-            let is_erased = before.is_some_and(|before| before.is_here);
+            // what is drawn stays where only a guide would be left of it
+            let is_erased = before
+                .is_some_and(|before| before.is_here && (before.is_guide || !dialogue.is_guide));
             if is_erased {
                 text += &format!("\nerase {of}");
             }
-            let stays = (is_in_place && !is_erased).then(|| of.to_string());
+            let is_told = is_in_place && !is_erased && !dialogue.is_guide;
+            let stays = is_told.then(|| of.to_string());
             Line { name, text, stays }
         }
     }

@@ -459,8 +459,11 @@ fn rows_of(block: &str) -> Result<Vec<Vec<String>>, Refusal> {
         return Ok(cell.map(|cell| vec![cell.to_string()]).into_iter().collect());
     }
     let block = format!("{block}\n");
+    // a quote that nothing closes is one of a cell's own
+    let is_quoted = block.matches('"').count() % 2 == 0;
     let mut reader = csv::ReaderBuilder::new()
         .delimiter(b'\t')
+        .quoting(is_quoted)
         .has_headers(false)
         .flexible(true)
         .from_reader(block.as_bytes());

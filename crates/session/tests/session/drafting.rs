@@ -130,6 +130,18 @@ fn a_guide_that_is_trimmed_stays_a_guide() {
 }
 
 #[test]
+fn what_is_drawn_is_not_erased_for_a_guide() {
+    let mut desk = Desk::of(CROSSED);
+    desk.session.record(desk.id, "Trim").expect("it is there");
+    begin(&mut desk, "Line:trimmed");
+    desk.session.draw_guides(desk.id, true);
+    enter(&mut desk, "line2");
+    made(enter(&mut desk, "line"));
+    assert!(desk.text().contains("guide trimmed = line2.trimmed(at: line)"), "{}", desk.text());
+    assert!(!desk.text().contains("erase"), "{}", desk.text());
+}
+
+#[test]
 fn what_a_message_of_the_documents_own_is_sent_to_is_not_erased() {
     let mut desk = Desk::of(CROSSED);
     desk.session.record(desk.id, "Trim").expect("it is there");

@@ -122,6 +122,10 @@ fn a_block_of_cells_is_pasted_from_a_spreadsheet() {
     assert_eq!(cells(&desk, "Sold")[2], named("D50", ["", "", ""]));
     desk.session.set_family_cells(desk.id, "Sold", (3, 0), "\"D\" 60").expect("it is a name");
     assert_eq!(cells(&desk, "Sold")[3], named("\"D\" 60", ["", "", ""]));
+    // a quote that nothing closes is one of the cell's own
+    desk.session.set_family_cells(desk.id, "Sold", (4, 0), "\"A\t5\nB\t6").expect("two rows");
+    assert_eq!(cells(&desk, "Sold")[4], named("\"A", ["5", "", ""]));
+    assert_eq!(cells(&desk, "Sold")[5], named("B", ["6", "", ""]));
     for (from, block, why) in [
         ((0, 3), "3\t4", "what is pasted ends 1 columns beyond the grid"),
         ((9, 1), "3", "Sold has no row 10"),

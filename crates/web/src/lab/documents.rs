@@ -211,30 +211,32 @@ impl Lab {
         let Some(shown) = self.current.get_untracked() else { return };
         let folder =
             shown.rsplit_once('/').map_or(String::new(), |(folder, _)| format!("{folder}/"));
-        for name in self.ask_of_shown(Session::tables).unwrap_or_default() {
-            leptos::task::spawn_local(self.renew_table(format!("{folder}{name}")));
-        }
-    }
-
-    async fn renew_table(self, path: String) {
-        self.dragged().await;
-        let Ok(table) = server::table(&path).await else { return };
-        // a drag goes on with what it began with
-        self.dragged().await;
-        if self.files.with_value(|files| files.texts.get(&path) == Some(&table)) {
+        let names = self.ask_of_shown(Session::tables).unwrap_or_default();
+        if names.is_empty() {
             return;
         }
-        self.files.update_value(|files| {
-            files.texts.insert(path, table);
-        });
-        // whatever is shown by now may use it
-        if self.current.with_untracked(Option::is_some) {
+        leptos::task::spawn_local(async move {
+            self.dragged().await;
+            let mut found = Vec::new();
+            for path in names.iter().map(|name| format!("{folder}{name}")) {
+                if let Ok(table) = server::table(&path).await {
+                    found.push((path, table));
+                }
+            }
+            // a drag goes on with what it began with
+            self.dragged().await;
+            self.files.update_value(|files| files.texts.extend(found));
+            if self.current.with_untracked(Option::is_none) {
+                return;
+            }
+            // whatever is shown by now may use them, and some may have come on another way
             self.flush_text();
-            self.tell(Session::catch_up);
-            self.refresh();
-            self.fetch_missing();
-            self.tables.update(|times| *times += 1);
-        }
+            if self.tell(Session::catch_up).flatten().is_some() {
+                self.refresh();
+                self.fetch_missing();
+                self.tables.update(|times| *times += 1);
+            }
+        });
     }
 
     /// Waits until nothing is dragged.
@@ -331,6 +333,7 @@ impl Lab {
         self.show_views();
         self.meet_lesson(path);
         self.zoom.set(Some(Zoom::Fit));
+        self.renew_tables();
     }
 
     /// The paths of what this browser showed last, of those that a list has or that are not saved anywhere yet.
