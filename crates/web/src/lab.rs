@@ -92,6 +92,8 @@ pub struct Lab {
     opened: StoredValue<BTreeMap<String, Opened>>,
     pending_text: StoredValue<Option<String>>,
     typing: StoredValue<u32>,
+    /// How often tables were asked for again: only what came of the last time counts.
+    renewals: StoredValue<u32>,
     listing: StoredValue<views::Rows, LocalStorage>,
     /// The path of the document that is shown; none in the gallery.
     pub current: RwSignal<Option<String>>,
@@ -306,6 +308,7 @@ impl Lab {
             opened: StoredValue::new(BTreeMap::new()),
             pending_text: StoredValue::new(None),
             typing: StoredValue::new(0),
+            renewals: StoredValue::new(0),
             listing: StoredValue::new_local(views::Rows::default()),
             current: RwSignal::new(None),
             arriving: RwSignal::new(false),

@@ -215,6 +215,8 @@ impl Lab {
         if names.is_empty() {
             return;
         }
+        self.renewals.update_value(|times| *times += 1);
+        let time = self.renewals.get_value();
         leptos::task::spawn_local(async move {
             self.dragged().await;
             let mut found = Vec::new();
@@ -225,6 +227,10 @@ impl Lab {
             }
             // a drag goes on with what it began with
             self.dragged().await;
+            // what was asked for before something else may come after it, and is older
+            if self.renewals.get_value() != time {
+                return;
+            }
             self.files.update_value(|files| files.texts.extend(found));
             if self.current.with_untracked(Option::is_none) {
                 return;
