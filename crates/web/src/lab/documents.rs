@@ -231,15 +231,23 @@ impl Lab {
             if self.renewals.get_value() != time {
                 return;
             }
+            let is_new = |(path, table): &(String, Option<String>)| {
+                self.files.with_value(|files| files.texts.get(path) != Some(table))
+            };
+            let are_new = found.iter().any(is_new);
             self.files.update_value(|files| files.texts.extend(found));
             if self.current.with_untracked(Option::is_none) {
                 return;
             }
             // whatever is shown by now may use them, and some may have come on another way
             self.flush_text();
-            if self.tell(Session::catch_up).flatten().is_some() {
+            let is_read_again = self.tell(Session::catch_up).flatten().is_some();
+            if is_read_again {
                 self.refresh();
                 self.fetch_missing();
+            }
+            // families read them besides
+            if is_read_again || are_new {
                 self.tables.update(|times| *times += 1);
             }
         });
