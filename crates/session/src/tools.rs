@@ -280,6 +280,9 @@ impl Tool {
         let catch = self.catch(state, pointer);
         self.follow(catch.at, host);
         let mut view = self.view();
+        if self.is_before_a_line() {
+            view.preview.elements.push(dot(catch.at));
+        }
         view.preview.elements.extend(guides(&catch, self.set.last()));
         view.caught = catch.word.map(|word| Caught { at: catch.at, word });
         view
@@ -368,10 +371,19 @@ impl Tool {
         Command::Edit { target: Path::default(), members }
     }
 
+    /// Whether a line is to begin: which way it goes cannot be shown yet.
+    fn is_before_a_line(&self) -> bool {
+        self.goes_on && self.set.is_empty()
+    }
+
     /// What there is to see of it.
     pub(crate) fn view(&self) -> ToolView {
         let trial = &self.trial;
-        let shown = views::picture::picture(&trial.state, trial.values(), &trial.status);
+        let mut preview =
+            views::picture::picture(&trial.state, trial.values(), &trial.status).drawing;
+        if self.is_before_a_line() {
+            preview.elements.clear();
+        }
         let stage = self.stages.get(self.set.len());
         let hint = stage.map(|stage| stage.hint(&self.class, (self.set.is_empty(), self.goes_on)));
         let hint = hint.unwrap_or_default();
@@ -384,7 +396,7 @@ impl Tool {
         };
         ToolView {
             hint,
-            preview: shown.drawing,
+            preview,
             caught: None,
             command: None,
             begun: !self.set.is_empty(),
@@ -423,17 +435,23 @@ fn written(length: &TypedLength) -> String {
 
 /// The dashed lines that say what a catch was found by.
 fn guides(catch: &Catch, last: Option<&Catch>) -> Vec<Element> {
-    let last = last.filter(|_| catch.is_level);
-    let line = last.map(|last| {
+    let last = last.filter(|_| catch.is_level).map(|last| last.at);
+    let line = |from: (f64, f64)| {
         let point = |(x, y): (f64, f64)| Point { x, y };
         Element {
-            shape: Shape::Segment(point(last.at), point(catch.at)),
+            shape: Shape::Segment(point(from), point(catch.at)),
             style: Style { color: Color::Accent, line: Line::Dashed, ..Style::default() },
             layer: Layer::Lines,
             tag: Tag(0),
         }
-    });
-    line.into_iter().collect()
+    };
+    last.into_iter().chain(catch.beside.iter().copied()).map(line).collect()
+}
+
+/// The place where something begins.
+fn dot((x, y): (f64, f64)) -> Element {
+    let style = Style { color: Color::Accent, ..Style::default() };
+    Element { shape: Shape::Dot(Point { x, y }), style, layer: Layer::Points, tag: Tag(0) }
 }
 
 /// A text that says what classes a document has, and one thing of one of them.

@@ -25,12 +25,15 @@ pub(crate) struct Catch {
     pub(crate) word: Option<String>,
     /// Whether the place is level with, or right above, the last one.
     pub(crate) is_level: bool,
+    /// The places that it is level with, or right above, of which no rule is made.
+    pub(crate) beside: Vec<(f64, f64)>,
 }
 
 impl Catch {
     /// Nothing but a place.
     pub(crate) fn at(at: (f64, f64)) -> Self {
-        Self { at, joins: None, rules: Vec::new(), word: None, is_level: false }
+        let (rules, beside) = (Vec::new(), Vec::new());
+        Self { at, joins: None, rules, word: None, is_level: false, beside }
     }
 }
 
@@ -90,7 +93,8 @@ impl Sight<'_> {
     }
 }
 
-/// Returns what the pointer finds: what it is nearest to, points before lines, lines before levels.
+/// Returns what the pointer finds: what it is nearest to, points before lines, lines before levels, levels before places
+/// that are merely beside others.
 pub(crate) fn find(sight: &Sight<'_>, pointer: &Pointer) -> Catch {
     if pointer.alone {
         return Catch::at(pointer.at);
@@ -98,7 +102,7 @@ pub(crate) fn find(sight: &Sight<'_>, pointer: &Pointer) -> Catch {
     let found = at_point(sight, pointer).or_else(|| touching(sight, pointer));
     let found = found.or_else(|| at_shape(sight, pointer)).or_else(|| level(sight, pointer));
     let found = found.or_else(|| aligned(sight, pointer));
-    let found = found.unwrap_or_else(|| Catch::at(pointer.at));
+    let found = found.unwrap_or_else(|| beside(sight, pointer, Catch::at(pointer.at), [true; 2]));
     match found.joins {
         // one with what is there, to the bit
         Some(_) => found,
@@ -230,13 +234,58 @@ fn level(sight: &Sight<'_>, pointer: &Pointer) -> Option<Catch> {
     let (dx, dy) = ((pointer.at.0 - last.0).abs(), (pointer.at.1 - last.1).abs());
     let near = 0.6 * pointer.reach;
     let coordinate = |path: &Path, name: &str| path.then(Step::Part(Name::new(name)));
-    let (name, word, at) = match () {
-        () if dy <= near && dx > pointer.reach => ("y", "horizontal", (pointer.at.0, last.1)),
-        () if dx <= near && dy > pointer.reach => ("x", "vertical", (last.0, pointer.at.1)),
+    let (name, word, at, free) = match () {
+        () if dy <= near && dx > pointer.reach => {
+            ("y", "horizontal", (pointer.at.0, last.1), [true, false])
+        }
+        () if dx <= near && dy > pointer.reach => {
+            ("x", "vertical", (last.0, pointer.at.1), [false, true])
+        }
         () => return None,
     };
     let rules = vec![format!("{} = {}", coordinate(before, name), coordinate(&sight.own, name))];
-    Some(Catch { rules, word: Some(word.into()), is_level: true, ..Catch::at(at) })
+    let level = Catch { rules, word: Some(word.into()), is_level: true, ..Catch::at(at) };
+    Some(beside(sight, pointer, level, free))
+}
+
+/// What was found, with those of its coordinates that are free taken from grips that have nearly the same. It is where
+/// the place is drawn, and no rule: the last but one corner of a box, right above the first.
+fn beside(sight: &Sight<'_>, pointer: &Pointer, found: Catch, free: [bool; 2]) -> Catch {
+    if sight.is_reach {
+        return found;
+    }
+    let near = 0.4 * pointer.reach;
+    let mut found = found;
+    let coordinates = |at: (f64, f64)| [at.0, at.1];
+    let mut at = coordinates(found.at);
+    let mut words = Vec::new();
+    for axis in [0, 1].into_iter().filter(|&axis| free[axis]) {
+        let here = coordinates(pointer.at);
+        let grips = sight.picture.grips.iter().map(|g| (coordinates((g.x, g.y)), &g.path));
+        // of those with the nearest coordinate the nearest
+        let least = grips
+            .map(|(grip, path)| {
+                (
+                    (grip[axis] - here[axis]).abs(),
+                    (grip[1 - axis] - here[1 - axis]).abs(),
+                    grip,
+                    path,
+                )
+            })
+            .filter(|(off, far, ..)| *off <= near && *far > pointer.reach)
+            .min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
+        if let Some((_, _, grip, path)) = least {
+            at[axis] = grip[axis];
+            found.beside.push((grip[0], grip[1]));
+            words.push(path);
+        }
+    }
+    found.at = (at[0], at[1]);
+    if let ([first, others @ ..], None) = (words.as_slice(), &found.word) {
+        let and = others.iter().map(|path| format!(" and {path}"));
+        found.word = Some(format!("in line with {first}{}", and.collect::<String>()));
+    }
+    found
 }
 
 /// The lines and circles of the picture by their paths, those whose class answers a message.

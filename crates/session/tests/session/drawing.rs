@@ -56,6 +56,36 @@ fn four_clicks_and_the_first_corner_again_make_a_ring_of_four_lines() {
 }
 
 #[test]
+fn a_bracket_drawn_by_eye_closes_with_an_upright_side() {
+    let mut desk = Desk::of("use geometry\n");
+    desk.session.take_tool(desk.id, "Line").expect("geometry has lines");
+    // before it begins a line shows no way, but where it would begin
+    let moved = desk.session.tool_moved(desk.id, &pointer(-300.0, -193.0)).expect("a tool");
+    assert_eq!(moved.preview.elements.len(), 1);
+    let corners = [(0.0, 0.0), (401.0, -3.0), (398.0, 99.0), (100.0, 102.0), (102.0, 349.0)];
+    for (x, y) in corners {
+        click(&mut desk, &pointer(x, y));
+    }
+    // the last corner but one is level with the one before, and right above the first; only the first is a rule
+    let seen = desk.session.tool_moved(desk.id, &pointer(2.0, 351.0)).expect("a tool");
+    assert_eq!(seen.caught.map(|c| c.word).as_deref(), Some("horizontal"));
+    assert_eq!(seen.preview.elements.len(), moved.preview.elements.len() + 2);
+    click(&mut desk, &pointer(2.0, 351.0));
+    assert_eq!(desk.place("line5.p2"), (0.0, 349.0));
+    let closing = desk.session.tool_moved(desk.id, &pointer(1.0, 1.0)).expect("a tool");
+    assert_eq!(closing.caught.map(|c| c.word).as_deref(), Some("joins line.p1, vertical"));
+    click(&mut desk, &pointer(1.0, 1.0));
+    holds(&desk);
+    // six corners, each side upright or level
+    assert_eq!(desk.session.status(desk.id).freedom, 6);
+    // what begins right below a corner says so; with Shift it does not
+    let below = desk.session.tool_moved(desk.id, &pointer(399.0, -80.0)).expect("a tool");
+    assert!(below.caught.is_some_and(|c| c.word.starts_with("in line with line")));
+    let alone = Pointer { alone: true, ..pointer(399.0, -80.0) };
+    assert_eq!(desk.session.tool_moved(desk.id, &alone).expect("a tool").caught, None);
+}
+
+#[test]
 fn a_tool_goes_by_keys_from_corner_to_corner_and_from_middle_to_middle() {
     let mut desk = Desk::of(
         "use geometry\na: Line { p1 = (0, 0)  p2 = (100, 0) }\nb: Line { p1 = (0, 60)  p2 = (100, 90) }\n",
