@@ -11,6 +11,7 @@
 //!
 //! Reading order: [`sheet`], [`paint`], [`pick`], [`band`], [`marks`]; [`rows`], [`palette`], [`shelves`]; then the
 //! rest, each a page.
+pub mod annotations;
 pub mod band;
 pub mod chart;
 pub mod course;

@@ -340,6 +340,36 @@ pub fn caught(list: &mut DisplayList, found: &Caught) {
     shape(list, &text);
 }
 
+/// Adds an annotation: its lines, and its words on a frame of paper.
+pub(crate) fn note(
+    list: &mut DisplayList,
+    (lines, frame): (&[Vec<Point>], &[Point; 4]),
+    (at, words): (Point, &str),
+    (mark, holds): (Mark, bool),
+) {
+    let hue = match (holds, mark) {
+        (false, _) => Hue::Conflict,
+        (true, Mark::None) => Hue::Faint,
+        (true, Mark::Hovered | Mark::Selected) => Hue::Accent,
+    };
+    let polyline = |points: &[Point], closed| Shape::Polyline { points: points.to_vec(), closed };
+    begin(list, hue as i32, -1, Line::Solid, 1.0, Space::Sheet);
+    lines.iter().for_each(|line| shape(list, &polyline(line, false)));
+    // what is chosen has a frame, so that it is told by more than its colour
+    let rim = if mark == Mark::Selected { hue as i32 } else { -1 };
+    begin(list, rim, Hue::Paper as i32, Line::Solid, 1.0, Space::Sheet);
+    shape(list, &polyline(frame, true));
+    let text = Shape::Text {
+        at,
+        text: String::from(words),
+        anchoring: Anchoring::Center,
+        placement: Placement::OnScreen(crate::annotations::HEIGHT),
+        turn: 0.0,
+    };
+    begin(list, hue as i32, -1, Line::None, 1.0, Space::Screen);
+    shape(list, &text);
+}
+
 /// Those of some grips where some elements have no point.
 fn bare_grips(picture: &PictureView, elements: &[&Element], grips: &[usize]) -> Vec<usize> {
     let dots = elements.iter().filter(|e| matches!(e.shape, Shape::Dot(_)));

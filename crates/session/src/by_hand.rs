@@ -1,6 +1,7 @@
 //! What hands ask of a document that they work on: which values a thing shows, which of them a word in the picture
 //! is, and what a library wants of the sheet.
 
+use crate::annotations;
 use crate::apply;
 use crate::classing;
 use crate::document::Open;
@@ -11,8 +12,8 @@ use crate::outlines;
 use crate::session::{parse_path, thing_at};
 use crate::state::State;
 use crate::view::{
-    BinEntry, ClassItem, ClassPlan, Deed, DocumentId, Offer, Question, Refusal, ValueRow,
-    ValueWithin,
+    Annotation, BinEntry, ClassItem, ClassPlan, Deed, DocumentId, Offer, Question, Refusal,
+    ValueRow, ValueWithin,
 };
 use crate::ways_out;
 use crate::{Session, tools, views, words};
@@ -122,6 +123,12 @@ impl Session {
         let (mut offers, held) = offers::told_apart(open, &beside, found);
         offers.extend(outlines::offers(open, paths));
         (offers, held)
+    }
+
+    /// Returns what the document's own constraints say, as it stands on a drawing.
+    pub fn annotations(&self, id: DocumentId) -> Vec<Annotation> {
+        let open = self.document(id);
+        annotations::annotations(&open.state, open.values())
     }
 
     /// Returns the command that says what is offered, with a value where one goes there.

@@ -212,7 +212,7 @@ struct NumberSaid {
 /// What a constraint says that is an equation with a number alone on its right.
 pub(crate) struct EqualsNumber {
     pub(crate) left: String,
-    value: String,
+    pub(crate) value: String,
     /// Where the number stands in the text.
     pub(crate) span: Span,
 }

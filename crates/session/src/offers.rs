@@ -547,7 +547,7 @@ fn is_unmoved(was: &State, is: &State) -> bool {
 }
 
 /// An angle as a person writes it.
-fn in_degrees(radians: f64) -> String {
+pub(crate) fn in_degrees(radians: f64) -> String {
     let degrees = radians * 180.0 / std::f64::consts::PI;
     format!("{} deg", base::number::rounded(degrees, 6))
 }
@@ -582,7 +582,7 @@ fn says_the_same(label: &str, other: &str) -> bool {
 }
 
 /// A name as words: `isParallelogram` is `parallelogram`, `EqualRadii` is `equal radii`.
-fn words_of(name: &str) -> String {
+pub(crate) fn words_of(name: &str) -> String {
     let mut words = String::new();
     for c in name
         .strip_prefix("is")

@@ -17,8 +17,8 @@ pub use reasons::{
 };
 use serde::{Deserialize, Serialize};
 pub use tools::{
-    Along, Caught, ClassItem, ClassPlan, Deed, ItemKind, Offer, Pointer, Scope, ToolView,
-    TypedLength, ValueWithin,
+    Along, Annotation, Caught, ClassItem, ClassPlan, Deed, ItemKind, Offer, Pointer, Scope, Shows,
+    ToolView, TypedLength, ValueWithin,
 };
 
 /// Which open document.

@@ -74,6 +74,14 @@ fn Open(lab: Lab, wish: Wish) -> impl IntoView {
     on_cleanup(move || {
         keyboard::give_back(before.try_get_value().flatten());
     });
+    // a size is asked for where the thing is; the next thing is another
+    let is_size = matches!(wish, Wish::Dimension(_));
+    let near = lab.annotated.pressed.get_value().filter(|_| is_size);
+    on_cleanup(move || {
+        if is_size && lab.annotated.sizing.try_get_untracked() == Some(true) {
+            lab.select(None);
+        }
+    });
     let wish = StoredValue::new(wish);
     let foreseen = RwSignal::new(None::<String>);
     let typing = StoredValue::new(0_u32);
@@ -161,8 +169,9 @@ fn Open(lab: Lab, wish: Wish) -> impl IntoView {
     });
     let only_read = StoredValue::new(only_read);
     view! {
-        <div class="shade" on:pointerdown=move |_| lab.wish.set(None)>
-            <div role="dialog" aria-modal="true" aria-label=name on:pointerdown=|e| e.stop_propagation()>
+        <div class="shade" class:near=near.is_some() on:pointerdown=move |_| lab.wish.set(None)>
+            <div role="dialog" aria-modal="true" aria-label=name on:pointerdown=|e| e.stop_propagation()
+                style:--x=near.map(|(x, _)| format!("{x}px")) style:--y=near.map(|(_, y)| format!("{y}px"))>
             <form class="asking" on:submit=accept on:keydown=key>
                 <label for="asked">{label}</label>
                 <input id="asked" node_ref=input type="text" prop:value=value spellcheck="false"

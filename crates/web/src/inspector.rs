@@ -7,11 +7,12 @@ use crate::plot::ViewsOf;
 use crate::values::{self, Place};
 use crate::words;
 use leptos::prelude::*;
+use presentation::numbers::to_read;
 use presentation::paths::covers;
 use presentation::rows::shown_rules;
 use presentation::sentences::formula;
 use session::Command;
-use session::view::{RowKind, StructureRow, ValueRow, ValueWithin};
+use session::view::{Offer, RowKind, StructureRow, ValueRow, ValueWithin};
 
 /// At most so many values, and so many constraints, are shown at once; table and tree have the others.
 const MOST: usize = 40;
@@ -75,6 +76,7 @@ pub fn Inspector(
                 <p class="class quiet">{class}</p>
                 {move || law.with(|law| (!law.is_empty()).then(|| view! { <p class="law">{marked(law)}</p> }))}
                 {move || formula.get().map(|formula| view! { <p class="law"><code>{formula}</code></p> })}
+                <Said lab=lab />
                 <Made lab=lab />
                 <Numbers lab=lab />
                 <ViewsOf lab=lab path=Memo::new(move |_| lab.selected.get().unwrap_or_default()) />
@@ -110,6 +112,21 @@ fn inspected(lab: Lab) -> Option<String> {
         }
         Some(String::from(whole))
     })
+}
+
+/// The value that a selected constraint gives; it is typed anew.
+#[component]
+fn Said(lab: Lab) -> impl IntoView {
+    let offer = Memo::new(move |_| lab.selected.get().and_then(|path| lab.typed_by(&path)));
+    let button = move |offer: Offer| {
+        let says =
+            format!("{} {}", offer.label, to_read(offer.value.as_deref().unwrap_or_default()));
+        view! {
+            <p class="law choices"><button class="said-value" title=words::TYPE_VALUE
+                on:click=move |_| lab.take_offer(&offer)>{says}</button></p>
+        }
+    };
+    move || offer.get().map(button)
 }
 
 /// The values of what is selected that is computed: it has none of its own.

@@ -4,6 +4,7 @@
 //! drag only the picture and the values are made anew, and nothing is asked of the server.
 
 use crate::actions::Context;
+use crate::annotated::Annotated;
 use crate::dialog::Wish;
 use crate::dock::{self, Sheet, Tab};
 use crate::drafting::Drafting;
@@ -221,6 +222,8 @@ pub struct Lab {
     pub prototype: RwSignal<Option<Shown>>,
     /// What a person is asked to type.
     pub wish: RwSignal<Option<Wish>>,
+    /// What constraints say, on the drawing.
+    pub annotated: Annotated,
     /// Whether the picture has a grid.
     pub grid: RwSignal<bool>,
     /// What the picture is asked to do with its view.
@@ -373,6 +376,7 @@ impl Lab {
             given_up: StoredValue::new(0),
             prototype: RwSignal::new(None),
             wish: RwSignal::new(None),
+            annotated: Annotated::new(),
             grid: RwSignal::new(theme::keep(GRID_KEY).is_none_or(|kept| kept != "off")),
             zoom: RwSignal::new(None),
             view: RwSignal::new(View::default()),

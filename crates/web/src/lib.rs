@@ -12,6 +12,7 @@
 //! Reading order: [`page`], [`lab`], [`actions`]; the panels [`picture`] (with [`presentation`]),
 //! [`structure`], [`values`], [`text`], [`status`], [`gallery`]; then what they stand on.
 pub mod actions;
+pub mod annotated;
 pub mod bench;
 pub mod bin_panel;
 pub mod by_example;

@@ -3,6 +3,7 @@
 //! Pointer moves are taken at most once a frame; key presses are commands of their own, so that none
 //! is lost.
 
+use crate::annotated;
 use crate::drafting::numbers::StepNumbers;
 use crate::field::Edit;
 use crate::js::{self, Painter};
@@ -55,6 +56,7 @@ pub fn Picture(
     on_cleanup(move || painter.with_value(|p| p.as_ref().map(Painter::stop)).unwrap_or_default());
     follow_size(lab, size);
     follow_card(lab);
+    annotated::follow(lab);
     Effect::new(move |_| zoom_as_asked(lab, size.get()));
     Effect::new(move |_| {
         lab.colors.changes.track();
@@ -166,6 +168,7 @@ fn lists(lab: Lab) -> Lists {
             lab.plotting.plot.with(|plot| loci(&mut list, &plot.drawn_loci()));
             lab.ghosts.with(|drawn| ghosts(&mut list, drawn));
             lab.traced.with(|drawn| ghosts(&mut list, std::slice::from_ref(drawn)));
+            lab.annotate(&mut list, picture);
             guided.with(|drawn| guides(&mut list, drawn, &picture.drawing));
             lab.motion.with(|motion| arrows(&mut list, picture, motion));
             lab.tool_view.with(|tool| {

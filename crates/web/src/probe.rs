@@ -71,7 +71,16 @@ fn state(lab: Lab) -> String {
                 ("py", (top + y - 4.0).into()),
             ]))
         };
-        picture.drawing.elements.iter().filter_map(word).collect()
+        let said = |note: &presentation::annotations::Note| {
+            object(&[
+                ("path", text(&note.path)),
+                ("text", text(&note.words)),
+                ("px", (left + note.at.0).into()),
+                ("py", (top + note.at.1).into()),
+            ])
+        };
+        let drawn = picture.drawing.elements.iter().filter_map(word);
+        lab.annotated.notes.with_value(|notes| drawn.chain(notes.iter().map(said)).collect())
     });
     let status = lab.status.get_untracked();
     let notice = match lab.notice.get_untracked() {

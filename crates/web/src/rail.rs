@@ -29,6 +29,7 @@ fn Button(lab: Lab, action: &'static Action) -> impl IntoView {
     let why = Memo::new(move |_| (action.enabled)(lab).err());
     let held = Memo::new(move |_| match lab.tool.get() {
         Some(class) => action.id == format!("tool-{}", class.to_lowercase()),
+        None if lab.annotated.sizing.get() => action.id == "dimension",
         None => action.id == "select",
     });
     let title = move || {
@@ -67,6 +68,7 @@ impl Lab {
                 self.fits.set_value(false);
                 self.notice.set(None);
                 self.hover(None);
+                self.stop_sizing();
                 self.tool.set(Some(String::from(class)));
                 self.show_tool(aside(view));
             }
@@ -119,6 +121,32 @@ impl Lab {
             && let Some(Ok(view)) = self.tell(|session, id| session.take_tool(id, &class))
         {
             self.show_tool(view);
+        }
+    }
+
+    /// Escape: ends what goes on, the innermost first; then nothing is selected.
+    pub fn escape(self) {
+        if self.band.with_untracked(Option::is_some) {
+            self.band.set(None);
+        } else if self.dragging.with_untracked(Option::is_some) {
+            self.cancel();
+        } else if self.stop_job() || self.stop_sweeping() {
+            // what else there is, another Esc ends
+        } else if self.leave_measure() {
+            // what it is for is still asked
+        } else if self.drafts() {
+            self.draft_end();
+        } else if self.tool.with_untracked(Option::is_some) {
+            self.escape_tool();
+        } else if self.selected.with_untracked(Option::is_none) && self.stop_sizing() {
+            // the hand selects again
+        } else if self.selected.with_untracked(Option::is_none)
+            && self.notice.with_untracked(Option::is_none)
+        {
+            self.leave_class();
+        } else {
+            self.select(None);
+            self.notice.set(None);
         }
     }
 

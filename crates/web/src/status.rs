@@ -47,7 +47,8 @@ pub fn StatusLine(
             true => format!("{hint}; {}", words::TOOL_KEYS),
             false => hint,
         };
-        lab.tool.with(Option::is_some).then(|| typed.unwrap_or(hint))
+        let sizes = lab.annotated.sizing.get().then(|| String::from(words::SIZING));
+        lab.tool.with(Option::is_some).then(|| typed.unwrap_or(hint)).or(sizes)
     });
     let swept = move || {
         let progress = lab.plotting.progress.get();

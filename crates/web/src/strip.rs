@@ -166,12 +166,4 @@ impl Lab {
             Deed::Round(_) | Deed::InLines(_) => self.apply_called(&command, &offer.label),
         })
     }
-
-    /// Asks for the value of the first dimension that the selection can have.
-    pub fn dimension(self) {
-        match untrack(|| self.offers()).into_iter().find(|offer| offer.value.is_some()) {
-            Some(offer) => self.take_offer(&offer),
-            None => self.notice.set(Some(Notice::Said(String::from(words::NO_DIMENSION)))),
-        }
-    }
 }

@@ -1,7 +1,7 @@
 //! How large things are on the screen, and corners that are computed: what a person drags, types and sees of them.
 
 use browser::Visit;
-use browser::hands::{begin, chord, drag, grip, key, keys, middle, point, select, state};
+use browser::hands::{begin, chord, drag, grip, key, keys, middle, point, select, state, word};
 use fantoccini::actions::MOUSE_BUTTON_LEFT;
 use serde_json::Value;
 
@@ -128,4 +128,58 @@ async fn a_panel_that_opens_leaves_what_was_in_sight_in_sight() {
              (document.getElementById('picture').getBoundingClientRect())",
         )
         .await;
+}
+
+/// Types what is asked for, and gives it.
+async fn answer(visit: &Visit, typed: &str) {
+    visit.until("document.activeElement.id === 'asked'").await;
+    keys(visit, typed).await;
+    chord(visit, &[], key::ENTER).await;
+    visit.until("!document.getElementById('asked')").await;
+}
+
+#[tokio::test]
+async fn dimensions_stand_on_the_drawing_and_are_typed_anew_there() {
+    let visit = begin().await;
+    chord(&visit, &[], 'l').await;
+    visit.until("document.querySelector('[data-action=tool-line][aria-pressed=true]')").await;
+    // by eye, and all the same level and upright, the last side included
+    for (x, y) in [(0.3, 0.7), (0.7, 0.702), (0.698, 0.5), (0.301, 0.501), (0.3, 0.7)] {
+        click(&visit, at(&visit, x, y).await).await;
+    }
+    lay_down(&visit).await;
+    assert_eq!(state(&visit).await["status"]["freedom"], 4);
+    // the tool asks for the size of what is clicked, thing after thing
+    chord(&visit, &[], 'd').await;
+    visit.until("document.querySelector('[data-action=dimension][aria-pressed=true]')").await;
+    click(&visit, at(&visit, 0.5, 0.7).await).await;
+    answer(&visit, "80 mm").await;
+    let drawn = state(&visit).await;
+    let (side, end) = (grip(&drawn, "line.p2"), grip(&drawn, "line2.p2"));
+    click(&visit, (side.0, f64::midpoint(side.1, end.1))).await;
+    answer(&visit, "30").await;
+    chord(&visit, &[], key::ESCAPE).await;
+    visit.until("document.querySelector('[data-action=select][aria-pressed=true]')").await;
+    visit.until("window.__thinglab.state().status.freedom === 2").await;
+    let sized = state(&visit).await;
+    let said = |path: &str| {
+        let words = sized["words"].as_array().expect("a list").iter();
+        let mut all = words.filter(|word| word["path"] == path);
+        all.next().map(|word| word["text"].clone()).unwrap_or_default()
+    };
+    assert_eq!((said("constraint5"), said("constraint6")), ("80 mm".into(), "30 mm".into()));
+    visit.picture("dimensions").await;
+    // one is picked where it stands, and typed anew
+    click(&visit, word(&sized, "constraint5")).await;
+    visit.until("window.__thinglab.state().selected === 'constraint5'").await;
+    chord(&visit, &[], 'd').await;
+    answer(&visit, "60").await;
+    visit.until("window.__thinglab.state().text.includes('constraint line.length = 60')").await;
+    let typed = state(&visit).await;
+    let number = |path: &str| {
+        let mut rows = typed["values"].as_array().expect("a list").iter();
+        let row = rows.find(|row| row["path"] == path);
+        row.and_then(|row| row["number"].as_f64()).expect("a number")
+    };
+    assert!((number("line.p2.x") - number("line.p1.x") - 60.0).abs() < 1e-9);
 }

@@ -173,3 +173,35 @@ pub struct ValueWithin {
     /// The path of its row of the values view.
     pub row: String,
 }
+
+/// What a constraint says, as it stands on a drawing.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Annotation {
+    /// The constraint's path.
+    pub path: String,
+    /// Its rule, as it is written.
+    pub says: String,
+    /// What stands on the drawing: `30 mm`, `R 5 mm`, `∥`.
+    pub words: String,
+    /// How it is drawn.
+    pub shows: Shows,
+    /// What it is of, by the paths of the picture.
+    pub of: Vec<String>,
+    /// Whether it holds.
+    pub holds: bool,
+    /// What types another value of a dimension, where it is a number.
+    pub typed: Option<Offer>,
+}
+
+/// How an annotation is drawn.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Shows {
+    /// Beside a line, or the way between two places.
+    Length,
+    /// At the end of a line from a circle's edge.
+    Radius,
+    /// Between two lines.
+    Angle,
+    /// As a sign beside each thing.
+    Relation,
+}

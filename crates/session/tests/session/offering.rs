@@ -1,7 +1,7 @@
 //! What is offered for a selection, and that taking it does what it says.
 
 use crate::desk::{Desk, Library, at};
-use session::view::Offer;
+use session::view::{Annotation, Offer, Shows};
 use session::{Command, Host, Session};
 use std::cell::Cell;
 use std::rc::Rc;
@@ -331,4 +331,46 @@ fn the_document_is_not_opened_once_more_for_a_selection_of_nothing() {
     assert_eq!(read.get(), 0);
     assert_ne!(session.offers_and_held(id, &[at("a")]).0, []);
     assert_ne!(read.get(), 0, "what holds already is found by reading it");
+}
+
+#[test]
+fn what_constraints_say_stands_on_the_drawing_and_is_typed_anew() {
+    let mut desk = Desk::of(
+        "use geometry\nunit mm\n\
+         a: Line { p1 = (0, 0)  p2 = (30, 0) }\nb: Line { p2 = (30, 20) }\nmerge a.p2 = b.p1\n\
+         c: Circle { center = (80, 0)  radius = 5 }\nd: Circle { center = (80, 40)  radius = 5 }\n\
+         constraint a.p1.y = a.p2.y\nconstraint a.length = 3 cm\nconstraint 20 mm = b.length\n\
+         constraint a.perpendicular(to: b)\nconstraint c.radius = 5\nconstraint d.radius = c.radius\n\
+         constraint b.angle(to: a) = -90 deg\nconstraint a.p1.x = 0\nconstraint a.length + b.length = 50 mm\n",
+    );
+    let seen =
+        |one: &Annotation| (one.words.clone(), one.shows, one.of.join(" "), one.typed.is_some());
+    let all = desk.session.annotations(desk.id);
+    let of =
+        |words: &str, shows, of: &str, typed| (String::from(words), shows, String::from(of), typed);
+    // where an end of one is that of another, it goes by its first name; a sum and a coordinate stand nowhere
+    assert_eq!(
+        all.iter().map(seen).collect::<Vec<_>>(),
+        [
+            of("H", Shows::Relation, "a.p1 a.p2", false),
+            of("30 mm", Shows::Length, "a", true),
+            of("20 mm", Shows::Length, "b", false),
+            of("⟂", Shows::Relation, "a b", false),
+            of("R 5 mm", Shows::Radius, "c", true),
+            of("=", Shows::Relation, "d c", false),
+            of("-90 deg", Shows::Angle, "b a", true),
+        ]
+    );
+    assert!(all.iter().all(|one| one.holds));
+    // the same line has another length
+    let typed = all[4].typed.clone().expect("it can be typed anew");
+    let command = desk.session.said(desk.id, &typed, Some("8")).expect("it fits");
+    desk.apply(&command).expect("it can be said");
+    assert!(desk.text().contains("constraint c.radius = 8\n"), "{}", desk.text());
+    assert_eq!(desk.session.annotations(desk.id)[4].words, "R 8 mm");
+    assert!(desk.session.status(desk.id).satisfied);
+    // what is switched off says nothing
+    desk.apply(&Command::Enable { path: at("constraint2"), on: false })
+        .expect("it is switched off");
+    assert_eq!(desk.session.annotations(desk.id).len(), 6);
 }

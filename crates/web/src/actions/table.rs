@@ -507,28 +507,7 @@ pub const ACTIONS: &[Action] = &[
         label: words::DESELECT,
         keys: &["Escape"],
         enabled: |lab| document(lab).map(drop),
-        run: |lab| {
-            if lab.band.with_untracked(Option::is_some) {
-                lab.band.set(None);
-            } else if lab.dragging.with_untracked(Option::is_some) {
-                lab.cancel();
-            } else if lab.stop_job() || lab.stop_sweeping() {
-                // what else there is, another Esc ends
-            } else if lab.leave_measure() {
-                // what it is for is still asked
-            } else if lab.drafts() {
-                lab.draft_end();
-            } else if lab.tool.with_untracked(Option::is_some) {
-                lab.escape_tool();
-            } else if lab.selected.with_untracked(Option::is_none)
-                && lab.notice.with_untracked(Option::is_none)
-            {
-                lab.leave_class();
-            } else {
-                lab.select(None);
-                lab.notice.set(None);
-            }
-        },
+        run: Lab::escape,
     },
     Action {
         id: "fit",
@@ -565,6 +544,15 @@ pub const ACTIONS: &[Action] = &[
         keys: &["G"],
         enabled: |lab| document(lab).map(drop),
         run: Lab::toggle_grid,
+    },
+    Action {
+        id: "annotations",
+        group: Group::View,
+        contexts: &[Context::Sheet],
+        label: words::ANNOTATIONS,
+        keys: &["Shift+D"],
+        enabled: |lab| document(lab).map(drop),
+        run: Lab::toggle_annotations,
     },
     Action {
         id: "go-picture",

@@ -141,6 +141,9 @@ impl Hand {
     }
 
     fn pick_in(self, at: (f64, f64), chosen: Option<&str>) -> Option<String> {
+        if let Some(constraint) = self.lab.note_at(at) {
+            return Some(constraint);
+        }
         let reach = self.reach();
         let view = self.lab.view.get_untracked();
         self.lab.picture.with_untracked(|picture| pick(picture, &view, at, (reach, chosen)))
@@ -148,6 +151,8 @@ impl Hand {
 
     pub(super) fn down(self, e: &PointerEvent) {
         let at = self.at(e);
+        let pressed = (f64::from(e.client_x()), f64::from(e.client_y()));
+        self.lab.annotated.pressed.set_value(Some(pressed));
         if let Some(canvas) = self.canvas.get_untracked() {
             js::capture(&canvas, e.pointer_id());
         }
@@ -191,6 +196,15 @@ impl Hand {
         } else if e.button() == 0 && self.lab.attachers.with_untracked(Option::is_some) {
             self.pick(at).inspect(|path| self.lab.toggle_attacher(path));
             self.set_mode(Mode::Idle);
+        } else if e.button() == 0 && self.lab.annotated.sizing.get_untracked() {
+            let picked = match self.lab.selected.with_untracked(Option::is_some) {
+                true => self.pick_beside(at),
+                false => self.pick_deeper(at),
+            };
+            self.lab.size_picked(picked, e.shift_key());
+            // what is asked for has the keyboard
+            e.prevent_default();
+            self.set_mode(Mode::Idle);
         } else if e.button() == 0 {
             let adding = self.lab.adding.get_untracked();
             let besides = e.ctrl_key() || e.meta_key() || e.shift_key() || adding;
@@ -206,6 +220,8 @@ impl Hand {
                 self.lab.select(picked.clone());
             }
             self.set_mode(match picked {
+                // what a constraint says stands where that puts it
+                Some(_) if self.lab.note_at(at).is_some() => Mode::Idle,
                 Some(path) => Mode::Pressed { path, start: at },
                 // a finger moves the sheet
                 None if e.pointer_type() == "touch" => Mode::Pan { last: at },
@@ -220,6 +236,12 @@ impl Hand {
             return;
         }
         let at = on_canvas(self.canvas, (f64::from(e.client_x()), f64::from(e.client_y())));
+        if let Some(constraint) = self.lab.note_at(at) {
+            if let Some(offer) = untrack(|| self.lab.typed_by(&constraint)) {
+                self.lab.take_offer(&offer);
+            }
+            return;
+        }
         let view = self.lab.view.get_untracked();
         let word = self.lab.picture.with_untracked(|picture| pick_word(picture, &view, at));
         match word {

@@ -2,6 +2,12 @@
 
 /// Nothing is on the sheet yet.
 pub const EMPTY_SHEET: &str = "The sheet is empty. Draw with a tool of the rail, take a part out of the bin, or choose a construction under Draw.";
+/// What the mouse does while things are given sizes.
+pub const SIZING: &str = "Dimension: click a line, a circle or two points; with Shift two lines, for their angle; Esc: done";
+/// What constraints say, on the drawing.
+pub const ANNOTATIONS: &str = "Show or hide dimensions and signs";
+/// A value that a constraint gives.
+pub const TYPE_VALUE: &str = "Type another value (D)";
 /// A dimension that only reads.
 pub const ONLY_READ: &str = "Only read it";
 /// What that does.

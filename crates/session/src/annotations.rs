@@ -1,0 +1,194 @@
+//! Annotations: what the constraints of a document say, as a draughtsman writes it on the drawing.
+//!
+//! In: a state and its values. Out: for each constraint that the document itself says of things, a dimension (`30 mm`,
+//! `R 5 mm`, `45 deg`) or a sign (`∥`, `⟂`, `H`), with the paths of what it is of. Where these lie only the picture
+//! knows; so nothing here is made anew while something is dragged.
+
+use crate::by_hand::class_at;
+use crate::classing::{self, EqualsNumber};
+use crate::offers::{in_degrees, words_of};
+use crate::session::thing_at;
+use crate::state::State;
+use crate::view::{Annotation, Offer, Shows};
+use crate::words;
+use eval::{Answer, Evaluator};
+use kernel::{Argument, BinaryOperator, ConstraintInstance, DOCUMENT, Path, Step, Term, Values};
+use std::collections::BTreeMap;
+use syntax::ast::{AstNode, Member};
+
+/// Returns what the document's own constraints say that can stand on a drawing, in the order of the text.
+pub(crate) fn annotations(state: &State, values: &Values) -> Vec<Annotation> {
+    let structure = &state.structure;
+    let evaluator = state.evaluator(values);
+    let own = (0u32..).zip(structure.constraints.iter().copied());
+    let on: Vec<(u32, ConstraintInstance)> = own
+        .filter(|(_, instance)| instance.owner == DOCUMENT)
+        .filter(|(_, instance)| evaluator.is_on(*instance).unwrap_or(false))
+        .collect();
+    if on.is_empty() {
+        return Vec::new();
+    }
+    let numbers = numbers(state);
+    on.into_iter().filter_map(|one| annotation(state, &evaluator, &numbers, one)).collect()
+}
+
+/// The constraints of the text that give something a number, by where they end.
+fn numbers(state: &State) -> BTreeMap<u32, EqualsNumber> {
+    let file = syntax::parse(base::FileId(0), &state.text).file();
+    let said = file.members().filter_map(|member| match member {
+        Member::Constraint(constraint) => {
+            let end = u32::from(constraint.syntax().text_range().end());
+            Some((end, classing::equals_number(state, &constraint)?))
+        }
+        _ => None,
+    });
+    said.collect()
+}
+
+/// What a rule comes to on a drawing.
+struct Reading {
+    shows: Shows,
+    words: String,
+    /// What it is of, by path as it is written.
+    of: Vec<Path>,
+    /// What a dimension is called: `length`.
+    measure: Option<String>,
+}
+
+fn annotation<'a>(
+    state: &'a State,
+    evaluator: &Evaluator<'a>,
+    numbers: &BTreeMap<u32, EqualsNumber>,
+    (index, instance): (u32, ConstraintInstance),
+) -> Option<Annotation> {
+    let document = &state.lowered.document;
+    let written = &document.classes[instance.class].constraints[instance.index as usize];
+    let reading = read(state, evaluator, &written.rule)?;
+    let of = reading.of.iter().map(|path| pictured(state, path)).collect::<Option<_>>()?;
+    let typed = reading.measure.and_then(|label| {
+        let said = numbers.get(&state.lowered.own_span(written.origin)?.end)?;
+        let (members, value) =
+            (format!("constraint {} = {{}}", said.left), Some(said.value.clone()));
+        Some(Offer { label, members, value, ..Offer::default() })
+    });
+    Some(Annotation {
+        path: words::constraint_path(state, instance),
+        says: words::rule_alone(state, index),
+        words: reading.words,
+        shows: reading.shows,
+        of,
+        holds: evaluator.test(instance).is_ok_and(|verdict| verdict.holds),
+        typed,
+    })
+}
+
+/// The path that the picture has of what is at a path: the first one of a thing that is merged.
+fn pictured(state: &State, path: &Path) -> Option<String> {
+    let structure = &state.structure;
+    Some(match thing_at(state, path) {
+        Some(thing) => structure.path(&state.lowered.document, structure.merged[thing]).to_string(),
+        None => class_at(state, path).map(|_| path.to_string())?,
+    })
+}
+
+/// Reads a rule as a draughtsman would write it.
+fn read<'a>(state: &'a State, evaluator: &Evaluator<'a>, rule: &'a Term) -> Option<Reading> {
+    let relation = |words: &str, of: Vec<Path>| {
+        Some(Reading { shows: Shows::Relation, words: words.into(), of, measure: None })
+    };
+    match rule {
+        Term::Binary(BinaryOperator::Equal, left, right) => {
+            if let (Some(a), Some(b)) = (left.path(), right.path()) {
+                return equality(state, &a, &b).and_then(|(words, of)| relation(words, of));
+            }
+            dimension(evaluator, left, right).or_else(|| dimension(evaluator, right, left))
+        }
+        Term::Send { to, name, arguments, search: None } => {
+            let mut of = vec![to.path()?];
+            of.extend(
+                arguments
+                    .iter()
+                    .map(|argument| argument.value.path())
+                    .collect::<Option<Vec<_>>>()?,
+            );
+            relation(&sign(name), of)
+        }
+        _ => None,
+    }
+}
+
+/// The end of a path, and what is before it.
+fn parted(path: &Path) -> Option<(Path, &str)> {
+    match path.0.split_last()? {
+        (Step::Part(name), whole) => Some((Path(whole.to_vec()), name)),
+        _ => None,
+    }
+}
+
+/// The sign of an equation of two paths, and what it is of.
+fn equality(state: &State, a: &Path, b: &Path) -> Option<(&'static str, Vec<Path>)> {
+    let is_place = |path: &Path| {
+        class_at(state, path).is_some_and(|class| state.lowered.document.is_place(class))
+    };
+    let ((one, left), (other, right)) = (parted(a)?, parted(b)?);
+    let places = is_place(&one) && is_place(&other);
+    Some(match (left, right) {
+        ("x", "x") if places => ("V", vec![one, other]),
+        ("y", "y") if places => ("H", vec![one, other]),
+        ("length", "length") | ("radius", "radius") => ("=", vec![one, other]),
+        (_, "midpoint") if is_place(a) => ("M", vec![a.clone(), other]),
+        ("midpoint", _) if is_place(b) => ("M", vec![b.clone(), one]),
+        ("center", "center") => ("◎", vec![one, other]),
+        _ => return None,
+    })
+}
+
+/// A rule that gives a length, a distance, a radius or an angle a value.
+fn dimension<'a>(
+    evaluator: &Evaluator<'a>,
+    measured: &'a Term,
+    value: &'a Term,
+) -> Option<Reading> {
+    let Term::Send { to, name, arguments, search: None } = measured else { return None };
+    let mut of = vec![to.path()?];
+    let other = |argument: &Argument| argument.value.path();
+    let (shows, before) = match (&**name, arguments.as_slice()) {
+        ("length" | "width" | "height" | "side", []) => (Shows::Length, ""),
+        ("radius", []) => (Shows::Radius, "R "),
+        ("diameter", []) => (Shows::Radius, "Ø "),
+        ("direction", []) => (Shows::Relation, "∠ "),
+        ("distance", [to]) => {
+            of.push(other(to)?);
+            (Shows::Length, "")
+        }
+        ("angle", [to]) => {
+            of.push(other(to)?);
+            (Shows::Angle, "")
+        }
+        _ => return None,
+    };
+    let Ok(Answer::Number(x, dimension)) = evaluator.evaluate(value, DOCUMENT) else { return None };
+    let quantity = kernel::Quantity { dimension, ..kernel::Quantity::default() };
+    let is_angle = matches!(shows, Shows::Angle) || &**name == "direction";
+    let shown = if is_angle {
+        in_degrees(x)
+    } else {
+        let shown = kernel::show_quantity(x, quantity, evaluator.document);
+        words::with_unit(shown.text, &shown.unit)
+    };
+    Some(Reading { shows, words: format!("{before}{shown}"), of, measure: Some(name.to_string()) })
+}
+
+/// The sign of a relation by the name of the message that says it; where there is none, its words.
+fn sign(name: &str) -> String {
+    match name {
+        "parallel" => "∥".into(),
+        "perpendicular" => "⟂".into(),
+        "passes" => "on".into(),
+        "concentric" => "◎".into(),
+        "isHorizontal" => "H".into(),
+        "isVertical" => "V".into(),
+        "tangent" => "T".into(),
+        _ => words_of(name),
+    }
+}
