@@ -232,7 +232,7 @@ impl Desk {
         let (dx, dy) = direction(p, q);
         let taken = (wide / dx.abs()).min(high / dy.abs());
         let fits = hypot(q.0 - p.0, q.1 - p.1) >= 2.0 * (taken + LEFT);
-        let beyond = if fits { 0.0 } else { wide * out.0.abs() + high * out.1.abs() };
+        let beyond = if fits { 0.0 } else { wide * out.0.abs() + high * out.1.abs() + ROOM };
         (along(between(p, q), out, beyond), lines)
     }
 
@@ -279,24 +279,28 @@ fn angle((a, b): (Pixels, Pixels), (c, d): (Pixels, Pixels)) -> (Pixels, Vec<Vec
     }
     let far = ((c.0 - a.0) * vy - (c.1 - a.1) * vx) / cross;
     let corner = along(a, (ux, uy), far);
-    // towards where the lines are
-    let towards = |(p, q): (Pixels, Pixels)| {
-        let away = |end: Pixels| hypot(end.0 - corner.0, end.1 - corner.1);
-        let end = if away(p) > away(q) { p } else { q };
-        atan2(end.1 - corner.1, end.0 - corner.0)
-    };
-    let (from, to) = (towards((a, b)), towards((c, d)));
+    // from where the first line goes on to where the other goes
+    let (from, to) = (atan2(uy, ux), atan2(vy, vx));
     let mut sweep = to - from;
     if sweep > PI {
         sweep -= TAU;
     } else if sweep < -PI {
         sweep += TAU;
     }
+    /// An arc has so many corners.
+    const PARTS: u32 = 16;
     let on = |turn: f64, radius: f64| along(corner, (cos(turn), sin(turn)), radius);
-    const PARTS: u32 = 12;
     let part = |n: u32| on(from + sweep * f64::from(n) / f64::from(PARTS), ARC);
-    let arc = (0..=PARTS).map(part).collect();
-    (on(from + sweep / 2.0, 1.9 * ARC), vec![arc])
+    // where a line does not reach the arc it is continued
+    let leader = |(p, q): (Pixels, Pixels), turn: f64| {
+        let end = on(turn, ARC + 6.0);
+        let past = |r: Pixels| (r.0 - corner.0) * cos(turn) + (r.1 - corner.1) * sin(turn);
+        let reaches = past(p).max(past(q)) >= ARC && past(p).min(past(q)) <= ARC;
+        (!reaches).then(|| vec![corner, end])
+    };
+    let mut lines = vec![(0..=PARTS).map(part).collect()];
+    lines.extend(leader((a, b), from).into_iter().chain(leader((c, d), to)));
+    (on(from + sweep / 2.0, 1.9 * ARC), lines)
 }
 
 /// Adds notes to what is painted, marked where their constraints are.
@@ -376,7 +380,7 @@ mod tests {
         let all = made(&[annotation("c1", Shows::Length, words, &["a"])]);
         let [note] = all.as_slice() else { panic!("one note: {all:?}") };
         // what stands alone has it above
-        assert_eq!(note.at, (300.0, 264.0));
+        assert_eq!(note.at, (300.0, 260.0));
     }
 
     #[test]
@@ -387,11 +391,12 @@ mod tests {
         ]);
         let [first, second, angle] = all.as_slice() else { panic!("three notes: {all:?}") };
         assert_eq!((first.at, second.at), ((300.0, 286.0), (386.0, 240.0)));
-        // from the corner at (400, 300) halfway between left and up
+        // from the corner at (400, 300), halfway between where the first goes on and up
         let far = 1.9 * 26.0 * std::f64::consts::FRAC_1_SQRT_2;
-        assert!(
-            (angle.at.0 - (400.0 - far)).abs() < 1e-9 && (angle.at.1 - (300.0 - far)).abs() < 1e-9
-        );
+        let off = (angle.at.0 - (400.0 + far), angle.at.1 - (300.0 - far));
+        assert!(off.0.abs() < 1e-9 && off.1.abs() < 1e-9, "{angle:?}");
+        // the arc, and the first line continued
+        assert_eq!(angle.lines.len(), 2);
     }
 
     #[test]

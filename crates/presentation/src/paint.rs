@@ -355,9 +355,10 @@ pub(crate) fn note(
     let polyline = |points: &[Point], closed| Shape::Polyline { points: points.to_vec(), closed };
     begin(list, hue as i32, -1, Line::Solid, 1.0, Space::Sheet);
     lines.iter().for_each(|line| shape(list, &polyline(line, false)));
-    // what is chosen has a frame, so that it is told by more than its colour
+    // what is chosen has a frame, so that it is told by more than its colour; only its own lines lie behind words
     let rim = if mark == Mark::Selected { hue as i32 } else { -1 };
-    begin(list, rim, Hue::Paper as i32, Line::Solid, 1.0, Space::Sheet);
+    let paper = if lines.is_empty() { -1 } else { Hue::Paper as i32 };
+    begin(list, rim, paper, Line::Solid, 1.0, Space::Sheet);
     shape(list, &polyline(frame, true));
     let text = Shape::Text {
         at,

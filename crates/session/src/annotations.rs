@@ -6,7 +6,7 @@
 
 use crate::by_hand::class_at;
 use crate::classing::{self, EqualsNumber};
-use crate::offers::{in_degrees, words_of};
+use crate::offers::words_of;
 use crate::session::thing_at;
 use crate::state::State;
 use crate::view::{Annotation, Offer, Shows};
@@ -14,7 +14,11 @@ use crate::words;
 use eval::{Answer, Evaluator};
 use kernel::{Argument, BinaryOperator, ConstraintInstance, DOCUMENT, Path, Step, Term, Values};
 use std::collections::BTreeMap;
+use std::f64::consts::PI;
 use syntax::ast::{AstNode, Member};
+
+/// So many digits of an angle are shown, as of other numbers.
+const DIGITS: usize = 6;
 
 /// Returns what the document's own constraints say that can stand on a drawing, in the order of the text.
 pub(crate) fn annotations(state: &State, values: &Values) -> Vec<Annotation> {
@@ -171,7 +175,7 @@ fn dimension<'a>(
     let quantity = kernel::Quantity { dimension, ..kernel::Quantity::default() };
     let is_angle = matches!(shows, Shows::Angle) || &**name == "direction";
     let shown = if is_angle {
-        in_degrees(x)
+        format!("{}°", base::number::significant(x * 180.0 / PI, DIGITS))
     } else {
         let shown = kernel::show_quantity(x, quantity, evaluator.document);
         words::with_unit(shown.text, &shown.unit)

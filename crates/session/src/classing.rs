@@ -13,7 +13,7 @@ use crate::state::State;
 use crate::view::{ClassItem, ClassPlan, ItemKind, Refusal, Scope};
 use crate::words;
 use base::{Name, Severity, Span};
-use kernel::{Command, DOCUMENT, Path, Step};
+use kernel::{BinaryOperator, Command, DOCUMENT, Path, Step, Term};
 use plan::Plans;
 use std::collections::BTreeSet;
 use syntax::ast::{AstNode, Constraint, Member};
@@ -235,21 +235,23 @@ pub(crate) fn equals_number(state: &State, constraint: &Constraint) -> Option<Eq
 /// The number on the right of a constraint's equation, where there is nothing else.
 fn number_said(state: &State, member: &Member) -> Option<NumberSaid> {
     let Member::Constraint(constraint) = member else { return None };
-    let EqualsNumber { left, value, span } = equals_number(state, constraint)?;
-    let path = parse_path(&left)?;
-    let name = match path.0.last()? {
-        Step::Part(name) => name.to_string(),
-        _ => return None,
-    };
+    let EqualsNumber { value, span, .. } = equals_number(state, constraint)?;
+    let whole = constraint.syntax().text_range();
+    let document = &state.lowered.document;
+    let said = document.classes[state.structure.things[DOCUMENT].class].constraints.iter();
+    let mut said = said.filter(|c| {
+        state.lowered.own_span(c.origin).is_some_and(|span| span.end == u32::from(whole.end()))
+    });
+    let Term::Binary(BinaryOperator::Equal, measured, _) = &said.next()?.rule else { return None };
+    let Term::Send { name, .. } = &**measured else { return None };
     let evaluator = state.evaluator(&state.values);
-    let term = kernel::Term::at(kernel::Term::Me, &path);
-    let Ok(eval::Answer::Number(_, dimension)) = evaluator.evaluate(&term, DOCUMENT) else {
+    let Ok(eval::Answer::Number(_, dimension)) = evaluator.evaluate(measured, DOCUMENT) else {
         return None;
     };
     let class = String::from(dimension.named().unwrap_or("Real"));
-    let whole = u32::from(constraint.syntax().text_range().start());
-    let span = Span::new(span.start - whole, span.end - whole);
-    Some(NumberSaid { name, class, value, span })
+    let start = u32::from(whole.start());
+    let span = Span::new(span.start - start, span.end - start);
+    Some(NumberSaid { name: name.to_string(), class, value, span })
 }
 
 /// What is written of a class and of its one thing.

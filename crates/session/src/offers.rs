@@ -237,17 +237,7 @@ impl Offerer<'_> {
             let [a, b] = self.things else { return None };
             let both = self.is_place(a.class) && self.is_place(b.class);
             let now = self.number(&asked(a, "distance", "to", b)).filter(|_| both)?;
-            let members = if self.is_computed() {
-                format!("constraint {}.distance(to: {}) = {{}}", a.path, b.path)
-            } else {
-                // it is drawn as what it is
-                let class = document.class_named("Distance")?;
-                let name = recognise::free_name(self.state, &document.classes[class].name);
-                let (a, b) = (&a.path, &b.path);
-                format!(
-                    "{name}: Distance {{ value = {{}} }}\nmerge {a} = {name}.from\nmerge {b} = {name}.to"
-                )
-            };
+            let members = format!("constraint {}.distance(to: {}) = {{}}", a.path, b.path);
             let value = Some(self.written(now));
             Some(Offer { label: "distance".into(), members, value, ..Offer::default() })
         };

@@ -190,7 +190,13 @@ impl Tool {
             is_reach: matches!(stage, Stage::Reach { .. }),
             classes: RefCell::default(),
         };
-        catch::find(&sight, pointer)
+        let found = catch::find(&sight, pointer);
+        match (stage, last) {
+            (Stage::Reach { .. }, Some(last)) if found.rules.is_empty() => {
+                Catch { at: reached(last, found.at, pointer.at), ..found }
+            }
+            _ => found,
+        }
     }
 
     /// The place that a length or an angle tells that was typed.
@@ -238,7 +244,7 @@ impl Tool {
     fn follow(&mut self, at: (f64, f64), host: &dyn Host) {
         let to = match (self.stages.get(self.set.len()), self.set.last()) {
             (Some(Stage::Reach { .. }), Some(last)) => {
-                (hypot(at.0 - last.at.0, at.1 - last.at.1), 0.0)
+                (catch::short(hypot(at.0 - last.at.0, at.1 - last.at.1)), 0.0)
             }
             _ => (at.0 + self.offset.0, at.1 + self.offset.1),
         };
@@ -411,6 +417,16 @@ fn within_half_turns(degrees: f64) -> f64 {
     // twelve digits are more than anybody types, and the rest is rounding
     let within = base::number::significant(degrees - 360.0 * turns, 12);
     if turns == 0.0 { degrees } else { within.parse().unwrap_or(degrees) }
+}
+
+/// The place so far from another as a pointer tells: its distance has no more decimals than the pointer's place.
+fn reached(from: (f64, f64), to: (f64, f64), pointer: (f64, f64)) -> (f64, f64) {
+    let decimals = |x: f64| shortest(x).split_once('.').map_or(0, |(_, after)| after.len());
+    let (dx, dy) = (to.0 - from.0, to.1 - from.1);
+    let far = hypot(dx, dy);
+    let most = decimals(pointer.0).max(decimals(pointer.1));
+    let round = base::number::rounded(far, most).parse().unwrap_or(far);
+    if far > 0.0 { (from.0 + round / far * dx, from.1 + round / far * dy) } else { to }
 }
 
 /// A typed length in the units of the sheet. One that has no unit yet takes over the unit that is typed.

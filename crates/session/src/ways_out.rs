@@ -215,13 +215,6 @@ fn reference(state: &State, members: &str) -> Option<String> {
         state.lowered.document.class_named(class)?;
         Some(recognise::free_name(state, &Name::new(class)))
     };
-    if let Some((name, rest)) = members.split_once(": Distance {") {
-        let class = "ReferenceDistance";
-        let new = named(class)?;
-        let (_, merges) = rest.split_once('}')?;
-        let merges = merges.replace(&format!("{name}."), &format!("{new}."));
-        return Some(format!("{new}: {class}{merges}"));
-    }
     let rule = members.strip_prefix("constraint ")?;
     let (left, _) = rule.split_once(" = ")?;
     // what is stored becomes one with the dimension's parts, what is computed is read

@@ -167,7 +167,7 @@ impl Visit {
         let Some(folder) = env::var_os("THINGLAB_BOOK") else { return };
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").join(folder);
         self.client.set_window_size(1000, 760).await.expect("a small window");
-        self.script("document.querySelector('.corner button:nth-child(2)').click()").await;
+        self.script("document.querySelector('.corner button:nth-of-type(2)').click()").await;
         tokio::time::sleep(Duration::from_millis(600)).await;
         let centre = self.client.find(Locator::Css(".centre")).await.expect("the picture's panel");
         let image = centre.screenshot().await.expect("the browser takes a picture");

@@ -168,7 +168,8 @@ async fn dimensions_stand_on_the_drawing_and_are_typed_anew_there() {
         all.next().map(|word| word["text"].clone()).unwrap_or_default()
     };
     assert_eq!((said("constraint5"), said("constraint6")), ("80 mm".into(), "30 mm".into()));
-    visit.picture("dimensions").await;
+    visit.book_picture("dimensions").await;
+    let sized = state(&visit).await;
     // one is picked where it stands, and typed anew
     click(&visit, word(&sized, "constraint5")).await;
     visit.until("window.__thinglab.state().selected === 'constraint5'").await;

@@ -111,7 +111,7 @@ pub(crate) fn find(sight: &Sight<'_>, pointer: &Pointer) -> Catch {
 }
 
 /// A coordinate without the digits that only rounding has made.
-fn short(x: f64) -> f64 {
+pub(super) fn short(x: f64) -> f64 {
     rounded(x, 9).parse().unwrap_or(x)
 }
 

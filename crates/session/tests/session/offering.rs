@@ -89,8 +89,15 @@ fn a_dimension_begins_with_what_is_measured_and_takes_another_value() {
     take(&mut desk, &["p", "q"], "distance", Some("100"));
     let (p, q) = (desk.place("p"), desk.place("q"));
     assert!((base::number::hypot(q.0 - p.0, q.1 - p.1) - 100.0).abs() < 1e-9);
-    // it is a thing of its own, whose value can be typed
-    desk.type_in("distance.value", "20").expect("it can be set");
+    // it is typed anew where it stands on the drawing
+    let said = desk.session.annotations(desk.id).pop().expect("it stands there");
+    assert_eq!((said.words.as_str(), said.of.join(" ").as_str()), ("100", "p q"));
+    let typed = said.typed.expect("it can be typed anew");
+    let command = desk.session.said(desk.id, &typed, Some("20")).expect("it fits");
+    desk.apply(&command).expect("it can be said");
+    let (p, q) = (desk.place("p"), desk.place("q"));
+    assert!((base::number::hypot(q.0 - p.0, q.1 - p.1) - 20.0).abs() < 1e-9);
+    assert!(desk.text().ends_with("constraint p.distance(to: q) = 20\n"), "{}", desk.text());
 }
 
 #[test]
@@ -358,7 +365,7 @@ fn what_constraints_say_stands_on_the_drawing_and_is_typed_anew() {
             of("⟂", Shows::Relation, "a b", false),
             of("R 5 mm", Shows::Radius, "c", true),
             of("=", Shows::Relation, "d c", false),
-            of("-90 deg", Shows::Angle, "b a", true),
+            of("-90°", Shows::Angle, "b a", true),
         ]
     );
     assert!(all.iter().all(|one| one.holds));
