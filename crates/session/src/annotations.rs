@@ -1,38 +1,47 @@
 //! Annotations: what the constraints of a document say, as a draughtsman writes it on the drawing.
 //!
-//! In: a state and its values. Out: for each constraint that the document itself says of things, a dimension (`30 mm`,
+//! In: an open document. Out: for each constraint that the document itself says of things, a dimension (`30 mm`,
 //! `R 5 mm`, `45 deg`) or a sign (`∥`, `⟂`, `H`), with the paths of what it is of. Where these lie only the picture
 //! knows; so nothing here is made anew while something is dragged.
 
 use crate::by_hand::class_at;
 use crate::classing::{self, EqualsNumber};
+use crate::document::Open;
 use crate::offers::words_of;
 use crate::session::thing_at;
 use crate::state::State;
 use crate::view::{Annotation, Offer, Shows};
 use crate::words;
 use eval::{Answer, Evaluator};
-use kernel::{Argument, BinaryOperator, ConstraintInstance, DOCUMENT, Path, Step, Term, Values};
+use kernel::{BinaryOperator, ConstraintInstance, DOCUMENT, Path, Step, Term, ThingId};
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 use syntax::ast::{AstNode, Member};
 
+/// Of a document with more constraints of its own nothing stands on the drawing: nobody could read it.
+const MOST: usize = 1000;
 /// So many digits of an angle are shown, as of other numbers.
 const DIGITS: usize = 6;
 
-/// Returns what the document's own constraints say that can stand on a drawing, in the order of the text.
-pub(crate) fn annotations(state: &State, values: &Values) -> Vec<Annotation> {
+/// Returns what the document's own constraints say that can stand on a drawing, in the order of the text; in the pane of
+/// a class those of its prototype.
+pub(crate) fn annotations(open: &Open) -> Vec<Annotation> {
+    let state = &open.state;
     let structure = &state.structure;
-    let evaluator = state.evaluator(values);
+    let evaluator = state.evaluator(open.values());
+    let prototype = open.pane.as_ref();
+    let prototype = prototype.and_then(|pane| thing_at(state, &pane.part(&Path::default())));
+    let owner = prototype.unwrap_or(DOCUMENT);
     let own = (0u32..).zip(structure.constraints.iter().copied());
     let on: Vec<(u32, ConstraintInstance)> = own
-        .filter(|(_, instance)| instance.owner == DOCUMENT)
+        .filter(|(_, instance)| instance.owner == owner)
         .filter(|(_, instance)| evaluator.is_on(*instance).unwrap_or(false))
         .collect();
-    if on.is_empty() {
+    if on.is_empty() || on.len() > MOST {
         return Vec::new();
     }
-    let numbers = numbers(state);
+    // what is typed in a pane is of the class: the text stands elsewhere
+    let numbers = if prototype.is_none() { numbers(state) } else { BTreeMap::new() };
     on.into_iter().filter_map(|one| annotation(state, &evaluator, &numbers, one)).collect()
 }
 
@@ -67,7 +76,8 @@ fn annotation<'a>(
 ) -> Option<Annotation> {
     let document = &state.lowered.document;
     let written = &document.classes[instance.class].constraints[instance.index as usize];
-    let reading = read(state, evaluator, &written.rule)?;
+    let reader = Reader { state, evaluator, owner: instance.owner };
+    let reading = reader.read(&written.rule)?;
     let of = reading.of.iter().map(|path| pictured(state, path)).collect::<Option<_>>()?;
     let typed = reading.measure.and_then(|label| {
         let said = numbers.get(&state.lowered.own_span(written.origin)?.end)?;
@@ -95,29 +105,99 @@ fn pictured(state: &State, path: &Path) -> Option<String> {
     })
 }
 
-/// Reads a rule as a draughtsman would write it.
-fn read<'a>(state: &'a State, evaluator: &Evaluator<'a>, rule: &'a Term) -> Option<Reading> {
-    let relation = |words: &str, of: Vec<Path>| {
-        Some(Reading { shows: Shows::Relation, words: words.into(), of, measure: None })
-    };
-    match rule {
-        Term::Binary(BinaryOperator::Equal, left, right) => {
-            if let (Some(a), Some(b)) = (left.path(), right.path()) {
-                return equality(state, &a, &b).and_then(|(words, of)| relation(words, of));
+/// Reads what a thing's rules say.
+struct Reader<'a, 'e> {
+    state: &'a State,
+    evaluator: &'e Evaluator<'a>,
+    owner: ThingId,
+}
+
+impl<'a> Reader<'a, '_> {
+    /// Reads a rule as a draughtsman would write it.
+    fn read(&self, rule: &'a Term) -> Option<Reading> {
+        match rule {
+            Term::Binary(BinaryOperator::Equal, left, right) => match (left.path(), right.path()) {
+                (Some(a), Some(b)) => self.equality(&a, &b),
+                _ => self.dimension(left, right).or_else(|| self.dimension(right, left)),
+            },
+            Term::Send { to, name, arguments, search: None } => {
+                let to = std::iter::once(&**to);
+                let all = to.chain(arguments.iter().map(|argument| &argument.value));
+                let of = all.map(|term| self.at(term)).collect::<Option<_>>()?;
+                Some(Reading::relation(&sign(name), of))
             }
-            dimension(evaluator, left, right).or_else(|| dimension(evaluator, right, left))
+            _ => None,
         }
-        Term::Send { to, name, arguments, search: None } => {
-            let mut of = vec![to.path()?];
-            of.extend(
-                arguments
-                    .iter()
-                    .map(|argument| argument.value.path())
-                    .collect::<Option<Vec<_>>>()?,
-            );
-            relation(&sign(name), of)
-        }
-        _ => None,
+    }
+
+    /// The path from the document of what a term reads.
+    fn at(&self, term: &Term) -> Option<Path> {
+        term.path().map(|path| self.from_document(&path))
+    }
+
+    fn from_document(&self, path: &Path) -> Path {
+        self.state.structure.path(&self.state.lowered.document, self.owner).join(path)
+    }
+
+    /// The sign of an equation of two paths, and what it is of.
+    fn equality(&self, a: &Path, b: &Path) -> Option<Reading> {
+        let state = self.state;
+        let is_place = |path: &Path| {
+            class_at(state, path).is_some_and(|class| state.lowered.document.is_place(class))
+        };
+        let (a, b) = (self.from_document(a), self.from_document(b));
+        let ((one, left), (other, right)) = (parted(&a)?, parted(&b)?);
+        let places = is_place(&one) && is_place(&other);
+        let (words, of) = match (left, right) {
+            ("x", "x") if places => ("V", vec![one, other]),
+            ("y", "y") if places => ("H", vec![one, other]),
+            ("length", "length") | ("radius", "radius") => ("=", vec![one, other]),
+            (_, "midpoint") if is_place(&a) => ("M", vec![a.clone(), other]),
+            ("midpoint", _) if is_place(&b) => ("M", vec![b.clone(), one]),
+            ("center", "center") => ("◎", vec![one, other]),
+            _ => return None,
+        };
+        Some(Reading::relation(words, of))
+    }
+
+    /// A rule that gives a length, a distance, a radius or an angle a value.
+    fn dimension(&self, measured: &'a Term, value: &'a Term) -> Option<Reading> {
+        let Term::Send { to, name, arguments, search: None } = measured else { return None };
+        let mut of = vec![self.at(to)?];
+        let (shows, before) = match (&**name, arguments.as_slice()) {
+            ("length" | "width" | "height" | "side", []) => (Shows::Length, ""),
+            ("radius", []) => (Shows::Radius, "R "),
+            ("diameter", []) => (Shows::Radius, "Ø "),
+            ("direction", []) => (Shows::Relation, "∠ "),
+            ("distance", [to]) => {
+                of.push(self.at(&to.value)?);
+                (Shows::Length, "")
+            }
+            ("angle", [to]) => {
+                of.push(self.at(&to.value)?);
+                (Shows::Angle, "")
+            }
+            _ => return None,
+        };
+        let Ok(Answer::Number(x, dimension)) = self.evaluator.evaluate(value, self.owner) else {
+            return None;
+        };
+        let quantity = kernel::Quantity { dimension, ..kernel::Quantity::default() };
+        let is_angle = matches!(shows, Shows::Angle) || &**name == "direction";
+        let shown = if is_angle {
+            format!("{}°", base::number::significant(x * 180.0 / PI, DIGITS))
+        } else {
+            let shown = kernel::show_quantity(x, quantity, &self.state.lowered.document);
+            words::with_unit(shown.text, &shown.unit)
+        };
+        let measure = Some(name.to_string());
+        Some(Reading { shows, words: format!("{before}{shown}"), of, measure })
+    }
+}
+
+impl Reading {
+    fn relation(words: &str, of: Vec<Path>) -> Self {
+        Self { shows: Shows::Relation, words: words.into(), of, measure: None }
     }
 }
 
@@ -127,60 +207,6 @@ fn parted(path: &Path) -> Option<(Path, &str)> {
         (Step::Part(name), whole) => Some((Path(whole.to_vec()), name)),
         _ => None,
     }
-}
-
-/// The sign of an equation of two paths, and what it is of.
-fn equality(state: &State, a: &Path, b: &Path) -> Option<(&'static str, Vec<Path>)> {
-    let is_place = |path: &Path| {
-        class_at(state, path).is_some_and(|class| state.lowered.document.is_place(class))
-    };
-    let ((one, left), (other, right)) = (parted(a)?, parted(b)?);
-    let places = is_place(&one) && is_place(&other);
-    Some(match (left, right) {
-        ("x", "x") if places => ("V", vec![one, other]),
-        ("y", "y") if places => ("H", vec![one, other]),
-        ("length", "length") | ("radius", "radius") => ("=", vec![one, other]),
-        (_, "midpoint") if is_place(a) => ("M", vec![a.clone(), other]),
-        ("midpoint", _) if is_place(b) => ("M", vec![b.clone(), one]),
-        ("center", "center") => ("◎", vec![one, other]),
-        _ => return None,
-    })
-}
-
-/// A rule that gives a length, a distance, a radius or an angle a value.
-fn dimension<'a>(
-    evaluator: &Evaluator<'a>,
-    measured: &'a Term,
-    value: &'a Term,
-) -> Option<Reading> {
-    let Term::Send { to, name, arguments, search: None } = measured else { return None };
-    let mut of = vec![to.path()?];
-    let other = |argument: &Argument| argument.value.path();
-    let (shows, before) = match (&**name, arguments.as_slice()) {
-        ("length" | "width" | "height" | "side", []) => (Shows::Length, ""),
-        ("radius", []) => (Shows::Radius, "R "),
-        ("diameter", []) => (Shows::Radius, "Ø "),
-        ("direction", []) => (Shows::Relation, "∠ "),
-        ("distance", [to]) => {
-            of.push(other(to)?);
-            (Shows::Length, "")
-        }
-        ("angle", [to]) => {
-            of.push(other(to)?);
-            (Shows::Angle, "")
-        }
-        _ => return None,
-    };
-    let Ok(Answer::Number(x, dimension)) = evaluator.evaluate(value, DOCUMENT) else { return None };
-    let quantity = kernel::Quantity { dimension, ..kernel::Quantity::default() };
-    let is_angle = matches!(shows, Shows::Angle) || &**name == "direction";
-    let shown = if is_angle {
-        format!("{}°", base::number::significant(x * 180.0 / PI, DIGITS))
-    } else {
-        let shown = kernel::show_quantity(x, quantity, evaluator.document);
-        words::with_unit(shown.text, &shown.unit)
-    };
-    Some(Reading { shows, words: format!("{before}{shown}"), of, measure: Some(name.to_string()) })
 }
 
 /// The sign of a relation by the name of the message that says it; where there is none, its words.

@@ -127,8 +127,7 @@ impl Session {
 
     /// Returns what the document's own constraints say, as it stands on a drawing.
     pub fn annotations(&self, id: DocumentId) -> Vec<Annotation> {
-        let open = self.document(id);
-        annotations::annotations(&open.state, open.values())
+        annotations::annotations(self.document(id))
     }
 
     /// Returns the command that says what is offered, with a value where one goes there.

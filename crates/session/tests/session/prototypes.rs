@@ -86,6 +86,11 @@ fn what_is_said_typed_and_deleted_in_the_pane_is_of_the_class() {
     desk.session.apply(shown, &level).expect("it can be said");
     assert!(desk.text().contains("    constraint line.p1.y = line.p2.y\n"), "{}", desk.text());
     assert_eq!(desk.session.status(desk.id).freedom, 6);
+    // it stands on the drawing of the class, and on none of the document
+    let said = desk.session.annotations(shown);
+    let said = said.iter().map(|one| (one.words.as_str(), one.of.join(" "))).collect::<Vec<_>>();
+    assert_eq!(said, [("H", String::from("strut.line.p1 strut.line.p2"))]);
+    assert_eq!(desk.session.annotations(desk.id), []);
     desk.session.set_typed(shown, "strut.line.p2.x", "150").expect("it can be typed");
     assert_eq!(place(&desk, desk.id, "a.line.p2"), (150.0, 0.0));
     let whole = desk.session.apply(shown, &Command::Delete(at("strut"))).map_err(|r| r.message);
