@@ -120,7 +120,9 @@ impl Lowerer<'_> {
                     break;
                 }
                 let Some(ty) = above.class() else { continue };
-                let Some(class) = self.class_of_type(file, &ty) else { continue };
+                let Some(class) = self.class_of_type(&Scope::of(file, self.object), &ty) else {
+                    continue;
+                };
                 if self.document.classes[class].kind != ClassKind::Composite {
                     let what = &self.document.classes[class].name;
                     let message = format!("{what} has no parts to inherit: it is a kind of value");
@@ -222,23 +224,24 @@ impl Lowerer<'_> {
     }
 
     /// Returns the class that a type names; reports what it does not find.
-    pub(crate) fn class_of_type(&mut self, file: FileId, ty: &ast::Type) -> Option<ClassId> {
+    pub(crate) fn class_of_type(&mut self, scope: &Scope, ty: &ast::Type) -> Option<ClassId> {
+        let file = scope.file;
         match ty.shape() {
             TypeShape::Named(words) => self.class_of_words(file, &words),
             TypeShape::List { element, .. } => {
-                let element = self.class_of_element(file, &element?)?;
+                let element = self.class_of_element(scope, &element?)?;
                 Some(self.class_made_of("List of", ClassKind::List(element), element))
             }
             TypeShape::Set(element) => {
-                let element = self.class_of_type(file, &element?)?;
+                let element = self.class_of_type(scope, &element?)?;
                 Some(self.class_made_of("Set of", ClassKind::Set(element), element))
             }
             TypeShape::Path(to) => {
-                let to = self.class_of_type(file, &to?)?;
+                let to = self.class_of_type(scope, &to?)?;
                 Some(self.reference_to(to))
             }
             TypeShape::Placed(master) => {
-                let master = self.class_of_type(file, &master?)?;
+                let master = self.class_of_type(scope, &master?)?;
                 self.placed_class(file, ty.span(), master)
             }
         }
@@ -329,9 +332,9 @@ impl Lowerer<'_> {
     }
 
     /// Returns the class of a list's elements; of lists in it, one that says how long they are.
-    pub(crate) fn class_of_element(&mut self, file: FileId, ty: &ast::Type) -> Option<ClassId> {
-        let class = self.class_of_type(file, ty)?;
-        let count = self.declared_count(&Scope::of(file, self.object), ty);
+    pub(crate) fn class_of_element(&mut self, scope: &Scope, ty: &ast::Type) -> Option<ClassId> {
+        let class = self.class_of_type(scope, ty)?;
+        let count = self.declared_count(scope, ty);
         match (self.document.classes[class].kind.clone(), count) {
             (ClassKind::List(element), Some(Count::Fixed(n))) => Some(self.counted(element, n)),
             _ => Some(class),
@@ -387,7 +390,9 @@ impl Lowerer<'_> {
             None => {
                 let message =
                     "a list's count is a whole number, known as the text stands".to_string();
-                self.error("not-a-count", scope.file, count.span(), message);
+                let place = Place { file: scope.file, span: count.span() };
+                let d = Diagnostic::error("not-a-count", place, message);
+                self.report(d.hint("write a number, or a name that has one: `n: Integer = 3`"));
                 Some(Count::Fixed(0))
             }
         }

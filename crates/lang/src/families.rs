@@ -65,7 +65,7 @@ fn lower_family(
     family: &ast::Family,
 ) -> Option<Family> {
     let of = family.program()?;
-    let program = l.class_of_type(file, &of)?;
+    let program = l.class_of_type(&Scope::of(file, l.object), &of)?;
     if l.document.program(program).is_none() {
         let message = format!("{} is no program", l.document.classes[program].name);
         let d = Diagnostic::error("not-a-program", Place { file, span: of.span() }, message);
@@ -127,7 +127,7 @@ fn row_class(l: &mut Lowerer<'_>, file: FileId, family: &Family, members: &[Memb
     let row = l.add_unnamed_class(&family.name, family.program, origin);
     let scope = Scope::of(file, row);
     for column in columns {
-        let Some(class) = column.class().and_then(|ty| l.class_of_type(file, &ty)) else {
+        let Some(class) = column.class().and_then(|ty| l.class_of_type(&scope, &ty)) else {
             continue;
         };
         let origin = l.origin(file, syntax::span_of(column.syntax()));

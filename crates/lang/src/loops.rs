@@ -278,7 +278,7 @@ impl Lowerer<'_> {
         let prefix = of_turn(scope, name.clone()).0;
         let whole = part.value().and_then(ast::Value::expr);
         let whole = whole.map(|value| (None, value));
-        let element = part.class().and_then(|ty| self.class_of_element(scope.file, &ty));
+        let element = part.class().and_then(|ty| self.class_of_element(scope, &ty));
         let is_of_turns = |b: &ast::Body| element.is_some_and(|e| self.is_of_turns(e, each, b));
         let body = part.body().filter(is_of_turns);
         let members = body.iter().flat_map(ast::Body::members).collect::<Vec<_>>();

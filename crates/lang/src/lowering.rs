@@ -109,7 +109,10 @@ impl Lowerer<'_> {
         self.read(load, "", text);
         let before = self.before.map(|before| before.document.scale);
         let known = self.counting.take();
-        let counting = known.unwrap_or_else(|| scale::of(&self.files[OWN].parse, before));
+        let used = || self.files.iter().filter(|(id, file)| *id != OWN && !file.name.is_empty());
+        let counting = known.unwrap_or_else(|| {
+            scale::of(&self.files[OWN].parse, used().map(|(_, file)| file), before)
+        });
         self.document.scale = counting.scale;
         self.document.writes_lengths = counting.writes_lengths;
         self.document.usual = counting.usual;

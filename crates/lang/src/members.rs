@@ -317,7 +317,7 @@ impl Lowerer<'_> {
         if let Some(definition) = part.definition() {
             return self.declare_virtual(scope, &[], part, &ty, &definition);
         }
-        let Some(class) = self.class_of_type(scope.file, &ty) else {
+        let Some(class) = self.class_of_type(scope, &ty) else {
             return self.broken.extend(part.names().map(|w| (scope.class(), w.name())));
         };
         let count = self.declared_count(scope, &ty);
@@ -371,7 +371,7 @@ impl Lowerer<'_> {
     /// Declares a part that names another thing.
     fn declare_reference(&mut self, scope: &Scope, reference: &ast::Ref) {
         let (Some(word), Some(ty)) = (reference.name(), reference.class()) else { return };
-        let Some(to) = self.class_of_type(scope.file, &ty) else {
+        let Some(to) = self.class_of_type(scope, &ty) else {
             self.broken.insert((scope.class(), word.name()));
             return;
         };
@@ -518,7 +518,7 @@ impl Lowerer<'_> {
         ty: &ast::Type,
         answer: &Expr,
     ) {
-        let class = self.class_of_type(scope.file, ty);
+        let class = self.class_of_type(scope, ty);
         for word in part.names() {
             if !self.is_new(scope, &word) {
                 continue;
@@ -559,7 +559,7 @@ impl Lowerer<'_> {
             return;
         }
         let (parameters, inner) = self.parameters_of(scope, message);
-        let class = message.class().and_then(|ty| self.class_of_type(scope.file, &ty));
+        let class = message.class().and_then(|ty| self.class_of_type(scope, &ty));
         if let Some(class) = class {
             let kind = Kind::of_class(&self.document, class).listed(loops.len());
             self.message_kinds.insert((scope.class(), name.name()), Some(kind));
@@ -590,7 +590,7 @@ impl Lowerer<'_> {
         let mut inner = scope.clone();
         for p in message.params().into_iter().flat_map(|p| p.params()) {
             let (Some(name), Some(label)) = (p.name(), p.label()) else { continue };
-            let class = p.class().and_then(|ty| self.class_of_type(scope.file, &ty));
+            let class = p.class().and_then(|ty| self.class_of_type(scope, &ty));
             let kind = class.map_or(Kind::Unknown, |c| Kind::of_class(&self.document, c));
             inner = inner.with_local(name.name(), kind);
             parameters.push(Parameter { label: label.name(), name: name.name(), class });

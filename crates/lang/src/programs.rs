@@ -85,7 +85,7 @@ impl Lowerer<'_> {
 
     fn declare_parameter(&mut self, scope: &Scope, param: &ast::Param) {
         let (Some(word), Some(ty)) = (param.name(), param.class()) else { return };
-        let Some(class) = self.class_of_type(scope.file, &ty) else {
+        let Some(class) = self.class_of_type(scope, &ty) else {
             self.broken.insert((scope.class(), word.name()));
             return;
         };

@@ -56,7 +56,7 @@ impl Lowerer<'_> {
     /// Declares the body that every part of a kind gets in the things of a class.
     pub(crate) fn declare_modify(&mut self, scope: &Scope, modify: &ast::Modify) {
         let Some(ty) = modify.class() else { return };
-        let Some(class) = self.class_of_type(scope.file, &ty) else { return };
+        let Some(class) = self.class_of_type(scope, &ty) else { return };
         if self.document.classes[class].kind != ClassKind::Composite {
             let what = &self.document.classes[class].name;
             let message = format!("{what} has no parts or messages to modify");

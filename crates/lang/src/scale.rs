@@ -1,15 +1,18 @@
 //! The scale of a text: its base units are such that the quantities which it writes are of everyday size.
 //!
-//! In: the numbers with units that a text states, checks and tolerances apart. Out: powers of two for the base
-//! quantities. A text whose numbers are of everyday size in SI stays in SI.
+//! In: the numbers with units that a text states, and the constants of other texts that it reads, checks and tolerances
+//! apart. Out: powers of two for the base quantities. A text whose numbers are of everyday size in SI stays in SI.
 
+use crate::files::File;
 use base::Name;
 use expr::dimension::Dimension;
 use kernel::builtin::{FUNCTIONS, NUMBER_MESSAGES, find};
 use kernel::quantity::{is_of_si, is_of_the_sheet, sharing};
 use kernel::{Quantity, Scale, Usual};
 use std::collections::BTreeMap;
-use syntax::ast::{Arg, Assign, AstNode, Expr, NumberExpr, Param, Part, Type, Word};
+use syntax::ast::{
+    Arg, Assign, AstNode, Expr, FieldExpr, Member, NumberExpr, Param, Part, Type, Value, Word,
+};
 use syntax::{Parse, SyntaxKind, SyntaxNode, WalkEvent};
 
 /// Numbers between these, in units of SI, are of everyday size.
@@ -40,11 +43,15 @@ pub(crate) struct Counting {
     pub(crate) usual: BTreeMap<(Dimension, Option<Name>), Usual>,
 }
 
-/// Returns how a text counts; the scale is that of the text `before` where it is near.
+/// Returns how a text counts that uses others; the scale is that of the text `before` where it is near.
 ///
 /// It is the one in which the logarithms of its numbers are nearest to zero, in the sense of least squares. Lengths
 /// are scaled only where the text writes some with a unit and names no unit of its sheet.
-pub(crate) fn of(parse: &Parse, before: Option<Scale>) -> Counting {
+pub(crate) fn of<'a>(
+    parse: &Parse,
+    used: impl Iterator<Item = &'a File>,
+    before: Option<Scale>,
+) -> Counting {
     let stated = stated(parse);
     let quantities: Vec<(f64, Dimension)> = stated.iter().filter_map(quantity).collect();
     let has_unit = parse.outline().any(|(kind, _)| kind == SyntaxKind::UnitLine);
@@ -54,7 +61,10 @@ pub(crate) fn of(parse: &Parse, before: Option<Scale>) -> Counting {
             || (any(names_a_length) || stated.iter().any(spells_a_length))
                 && !has_bare_places(parse, &stated));
     let usual = usual(parse, &stated);
-    let best = best(quantities, has_unit);
+    let keeps_length = has_unit || !any(|d| d == Dimension::LENGTH);
+    let read = constants_read(parse, used);
+    let all = quantities.into_iter().chain(read.iter().filter_map(quantity)).collect();
+    let best = best(all, keeps_length);
     let is_near = |scale: &Scale| scale.0.iter().zip(best.0).all(|(a, b)| a.abs_diff(b) <= NEAR);
     let before = before.filter(|scale| *scale != Scale::default()).filter(is_near);
     Counting { scale: before.unwrap_or(best), writes_lengths, usual }
@@ -243,12 +253,11 @@ fn is_of_function(arg: &SyntaxNode) -> bool {
     }
 }
 
-fn best(mut quantities: Vec<(f64, Dimension)>, has_unit: bool) -> Scale {
+fn best(mut quantities: Vec<(f64, Dimension)>, keeps_length: bool) -> Scale {
     quantities.retain(|(x, _)| *x != 0.0);
     if quantities.iter().all(|(x, _)| EVERYDAY.contains(x)) {
         return Scale::default();
     }
-    let keeps_length = has_unit || !quantities.iter().any(|q| q.1 == Dimension::LENGTH);
     let mut normal = [[0.0; BASES + 1]; BASES];
     for (i, row) in normal.iter_mut().enumerate() {
         row[i] = if i == 0 && keeps_length { 1.0 / PLAINNESS } else { PLAINNESS };
@@ -271,6 +280,11 @@ fn best(mut quantities: Vec<(f64, Dimension)>, has_unit: bool) -> Scale {
 
 /// Returns the numbers that a text states, checks and tolerances apart.
 pub(crate) fn stated(parse: &Parse) -> Vec<NumberExpr> {
+    said(parse)
+}
+
+/// Returns what a text says of one kind, checks and tolerances apart.
+fn said<N: AstNode>(parse: &Parse) -> Vec<N> {
     let mut found = Vec::new();
     let root = parse.syntax();
     let mut walk = root.preorder();
@@ -280,13 +294,50 @@ pub(crate) fn stated(parse: &Parse) -> Vec<NumberExpr> {
             SyntaxKind::Check | SyntaxKind::Lesson | SyntaxKind::Within | SyntaxKind::UnitLine => {
                 walk.skip_subtree();
             }
-            SyntaxKind::NumberExpr => {
-                found.extend(NumberExpr::cast(node));
-            }
-            _ => {}
+            _ => found.extend(N::cast(node)),
         }
     }
     found
+}
+
+/// Returns the numbers of the constants of other texts that a text reads: of `constants.h`, or of a part of one,
+/// `materials.copper.resistivity`.
+fn constants_read<'a>(parse: &Parse, used: impl Iterator<Item = &'a File>) -> Vec<NumberExpr> {
+    let texts: BTreeMap<&str, &File> =
+        used.filter_map(|file| Some((file.name.rsplit('.').next()?, file))).collect();
+    if texts.is_empty() {
+        return Vec::new();
+    }
+    let numbers = said::<FieldExpr>(parse).into_iter().flat_map(|field| {
+        let Some(Expr::Name(text)) = field.receiver() else { return Vec::new() };
+        let file = text.name().and_then(|word| texts.get(word.text()));
+        let value = file.zip(field.name()).and_then(|(file, word)| constant(file, word.text()));
+        let part = field.syntax().parent().and_then(FieldExpr::cast).and_then(|of| of.name());
+        value.map_or_else(Vec::new, |value| numbers_of(&value, part.as_ref()))
+    });
+    numbers.collect()
+}
+
+/// Returns the value of a constant at the top of a text.
+fn constant(file: &File, name: &str) -> Option<Expr> {
+    let parts =
+        file.members_of(&[SyntaxKind::Part]).into_iter().filter_map(|member| match member {
+            Member::Part(part) if part.is_constant() => Some(part),
+            _ => None,
+        });
+    let mut named = parts.filter(|part| part.names().any(|word| word.text() == name));
+    named.next()?.value().and_then(Value::expr)
+}
+
+/// Returns the numbers of a value, those of one part of it where that is asked.
+fn numbers_of(value: &Expr, part: Option<&Word>) -> Vec<NumberExpr> {
+    let numbers = value.syntax().descendants().filter_map(NumberExpr::cast);
+    let is_of_part = |number: &NumberExpr| {
+        let arg = number.syntax().ancestors().find_map(Arg::cast);
+        let label = arg.and_then(|arg| arg.label());
+        part.is_none_or(|part| label.is_some_and(|label| label.text() == part.text()))
+    };
+    numbers.filter(is_of_part).collect()
 }
 
 /// Returns the size of a number with a unit, and what it measures.

@@ -128,7 +128,7 @@ impl Lowerer<'_> {
             return self
                 .report(d.label(before, "here").hint("give one of them another name or label"));
         }
-        let answers = message.class().and_then(|ty| self.class_of_type(scope.file, &ty));
+        let answers = message.class().and_then(|ty| self.class_of_type(scope, &ty));
         if let Some(class) = answers {
             let kind = Kind::of_class(&self.document, class);
             self.message_kinds.insert((scope.class(), name.clone()), Some(kind));

@@ -105,7 +105,7 @@ impl Lowerer<'_> {
             }
             Expr::Is(is) => {
                 let (of, _) = self.expr(scope, &is.operand()?)?;
-                let class = self.class_of_type(scope.file, &is.class()?)?;
+                let class = self.class_of_type(scope, &is.class()?)?;
                 Some((Term::IsA(Box::new(of), class), Kind::Bool))
             }
             Expr::Copy(copy) => {
@@ -113,7 +113,7 @@ impl Lowerer<'_> {
                 Some((Term::Copy(Box::new(of)), kind))
             }
             Expr::All(all) => {
-                let class = self.class_of_type(scope.file, &all.class()?)?;
+                let class = self.class_of_type(scope, &all.class()?)?;
                 let element = Kind::of_class(&self.document, class);
                 Some((Term::All(class), Kind::List(Box::new(element))))
             }

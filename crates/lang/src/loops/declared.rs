@@ -110,7 +110,7 @@ impl<'l> Lowerer<'l> {
             Member::Message(message) => self.declare_message(scope, loops, message),
             Member::Ref(reference) => {
                 let (Some(word), Some(ty)) = (reference.name(), reference.class()) else { return };
-                let Some(to) = self.class_of_type(scope.file, &ty) else {
+                let Some(to) = self.class_of_type(scope, &ty) else {
                     self.broken.insert((scope.class(), word.name()));
                     return;
                 };
@@ -126,7 +126,7 @@ impl<'l> Lowerer<'l> {
     fn declare_list(&mut self, repeated: &Repeated, part: &ast::Part, shape: &Shape) {
         let Repeated { scope, loops, .. } = repeated;
         let Some(ty) = part.class() else { return };
-        let Some(element) = self.class_of_element(scope.file, &ty) else {
+        let Some(element) = self.class_of_element(scope, &ty) else {
             return self.broken.extend(part.names().map(|w| (scope.class(), w.name())));
         };
         let range = part.domain().and_then(|d| self.domain(scope, &d, element));
