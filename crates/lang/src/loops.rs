@@ -13,7 +13,7 @@ use base::{Diagnostic, Name, Place};
 pub(crate) use declared::Repeated;
 use declared::{declared_names, is_declaration};
 use kernel::{ClassId, Path, Step};
-use listed::Listed;
+use listed::{Listed, zipped};
 use std::rc::Rc;
 use syntax::ast::{self, AstNode, Expr, Member};
 
@@ -148,6 +148,9 @@ impl Lowerer<'_> {
                 return self.written_rows(scope, each, &written);
             }
         }
+        if let Some((one, other)) = zipped(&range).filter(|_| named == 2) {
+            return self.zipped_rows(scope, &one, &other);
+        }
         if named != together as usize {
             let message = format!("{named} names for {together} at a time");
             self.refuse_names(scope, each, message);
@@ -172,7 +175,17 @@ impl Lowerer<'_> {
             let d = Diagnostic::error("not-a-path", place, message);
             let counted = matches!(list, Expr::Number(_));
             let number = list.syntax().text();
+            let range = match &list {
+                Expr::Call(call) if call.name().is_some_and(|word| word.text() == "range") => {
+                    call.args().and_then(|args| args.args().last()?.value())
+                }
+                _ => None,
+            };
             self.report_whole(match counted {
+                _ if let Some(end) = range => {
+                    let end = end.syntax().text();
+                    d.hint(format!("write `0..<{end}` for the numbers below {end}"))
+                }
                 true => d.hint(format!("write `0..<{number}` for the numbers below {number}")),
                 false => d.hint("declare the list as a part, or write `for a in [b, c]`"),
             });

@@ -9,7 +9,7 @@ use crate::lower::Lowerer;
 use crate::members::Definition;
 use crate::scope::{Constant, Scope};
 use base::{Diagnostic, Place};
-use kernel::{BinaryOperator, ClassKind, Primitive, Term, UnaryOperator};
+use kernel::{BinaryOperator, ClassKind, Primitive, Step, Term, UnaryOperator};
 use std::rc::Rc;
 use syntax::ast::{self, AstNode, Expr};
 
@@ -58,12 +58,48 @@ impl Lowerer<'_> {
         Some((listed.elements.len() as u32, Over::Written(rows)))
     }
 
+    /// Finds what a loop over pairs of two lists goes through, as long as both last: `for a, b in xs.zip(ys)`.
+    pub(super) fn zipped_rows(
+        &mut self,
+        scope: &Scope,
+        one: &Expr,
+        other: &Expr,
+    ) -> Option<(u32, Over)> {
+        let (one, other) = (self.members_of_list(scope, one)?, self.members_of_list(scope, other)?);
+        let rows: Vec<Vec<Written>> = one.into_iter().zip(other).map(|(a, b)| vec![a, b]).collect();
+        Some((rows.len() as u32, Over::Written(rows)))
+    }
+
+    /// Returns the elements of a list: those that are written out, or the parts of one that is a part.
+    fn members_of_list(&mut self, scope: &Scope, list: &Expr) -> Option<Vec<Written>> {
+        let is_here = matches!(list, Expr::List(_) | Expr::Tuple(_));
+        let written = self.listed(scope, list);
+        if let Some(listed) = written.filter(|w| is_here || self.are_constants(scope, w)) {
+            let there = listed.scope.as_ref().unwrap_or(scope);
+            return listed.elements.iter().map(|e| self.written(there, e)).collect();
+        }
+        let (path, class) = self.path(scope, list)?;
+        let place = Place { file: scope.file, span: list.span() };
+        let Some((element, count)) =
+            class.and_then(|class| self.element(class)).zip(self.length_at(scope, &path))
+        else {
+            let message =
+                format!("{path} is no list whose elements are counted where it is declared");
+            let d = Diagnostic::error("not-a-count", place, message);
+            self.report(d.hint("declare it as `List of 3 C`, or with its elements, `= [a, b]`"));
+            return None;
+        };
+        let nth = |at| Written::Thing { path: path.then(Step::Index(at)), class: Some(element) };
+        Some((0..count).map(nth).collect())
+    }
+
     /// Reports a loop with other names than there are values in a turn.
     pub(super) fn refuse_names(&mut self, scope: &Scope, each: &ast::For, message: String) {
         let place = Place { file: scope.file, span: each.span() };
         let d = Diagnostic::error("wrong-arity", place, message);
         self.report(d.hint(
-            "`for a in list`, `for a, b in list.neighbours`, `for a, b in [(0, 1), (1, 2)]`, `for i in 0..3`",
+            "`for a in list`, `for a, b in list.neighbours`, `for a, b in xs.zip(ys)`, `for a, b in [(0, 1), (1, 2)]`, \
+             `for i in 0..3`",
         ));
     }
 
@@ -170,6 +206,13 @@ impl Definition {
         let written = || elements(&self.answer).filter(|_| self.loops.is_empty());
         self.elements.get_or_init(|| written().map(Rc::from)).clone()
     }
+}
+
+/// Returns the two lists of `xs.zip(ys)`.
+pub(super) fn zipped(range: &Expr) -> Option<(Expr, Expr)> {
+    let Expr::Field(field) = range else { return None };
+    let other = field.args().filter(|_| field.name().is_some_and(|w| w.text() == "zip"))?;
+    Some((field.receiver()?, other.args().next()?.value()?))
 }
 
 /// Returns true for a term that is worth the same whatever the values are, written with operators and functions alone.
