@@ -277,30 +277,21 @@ fn can_be_bound(document: &Document, class: ClassId) -> bool {
 
 /// Returns true for the classes of real and whole numbers, and of things and lists that are made of such alone.
 fn is_of_numbers(document: &Document, class: ClassId) -> bool {
-    let is_number =
-        |p: Primitive| p.is_number() && !matches!(p, Primitive::Bool | Primitive::Choice(_));
     is_made_of(document, class, is_number, |_| true)
 }
 
-/// Returns true for the classes of things that have numbers and others beside them, all by name.
+/// Returns true for the classes of things that have numbers and others beside them, at whatever depth, all by name.
 fn is_mixed(document: &Document, class: ClassId) -> bool {
-    let fields = document.layout(class);
-    let is_primitive = |class: ClassId, wanted: fn(Primitive) -> bool| match document.classes[class]
-        .kind
-    {
-        ClassKind::Primitive(p) => wanted(p),
-        ClassKind::Composite | ClassKind::List(_) | ClassKind::Set(_) | ClassKind::Reference(_) => {
-            false
-        }
-    };
-    let has =
-        |wanted| fields.iter().any(|&field| is_primitive(document.field_class(field), wanted));
+    let is_other = |p: Primitive| !is_number(p);
     document.classes[class].kind == ClassKind::Composite
         && can_be_bound(document, class)
-        && has(|p| p.is_number() && !matches!(p, Primitive::Bool | Primitive::Choice(_)))
-        && has(|p| {
-            matches!(p, Primitive::Text | Primitive::Bool | Primitive::Choice(_) | Primitive::Color)
-        })
+        && !is_of_numbers(document, class)
+        && !is_made_of(document, class, is_other, |_| true)
+}
+
+/// Returns true for real and whole numbers; not for truth values and options, which are kept as such.
+fn is_number(p: Primitive) -> bool {
+    p.is_number() && !matches!(p, Primitive::Bool | Primitive::Choice(_))
 }
 
 /// Returns true for a class that is made of such primitives and such classes of things alone, a class with parts of its
