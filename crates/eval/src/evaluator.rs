@@ -25,6 +25,9 @@ pub const DEEPEST_MESSAGES: u32 = 200;
 const DEEPEST_TERMS: u32 = 1000;
 /// How many terms one question may evaluate: what a mistyped recursion may cost.
 const MOST_TERMS: u64 = 10_000_000;
+/// From so many terms on a question remembers what messages answer: those that speak of each other twice are asked
+/// for once.
+const LONG: u64 = 100_000;
 /// How many terms the rule of a constraint may evaluate: one that opens into more than a million is not
 /// solved anyway.
 const MOST_TERMS_OF_RULE: u64 = 2_000_000;
@@ -55,6 +58,10 @@ pub struct Evaluator<'a> {
     pub(crate) fuel: Cell<u64>,
     /// How much fuel a question gets: half as much after each that ran out, so that all of them together end soon.
     pub(crate) most: Cell<u64>,
+    /// Whether the question at hand may remember what messages answer: what tests a rule looks at each comparison.
+    pub(crate) may_remember: Cell<bool>,
+    /// What messages without arguments answered, by the thing and where the message is, and what they read.
+    pub(crate) remembered: RefCell<BTreeMap<(ThingId, usize), (Answer<'a>, BTreeSet<SlotId>)>>,
     /// What went wrong in parts whose siblings went on without them.
     pub(crate) faults: RefCell<Vec<Fault>>,
     /// The slots read since someone began to listen.
@@ -117,6 +124,8 @@ impl<'a> Evaluator<'a> {
             terms: Cell::new(0),
             fuel: Cell::new(MOST_TERMS),
             most: Cell::new(MOST_TERMS),
+            may_remember: Cell::new(true),
+            remembered: RefCell::default(),
             faults: RefCell::new(Vec::new()),
             reads: RefCell::new(None),
             nudged: Cell::new(None),
@@ -194,12 +203,23 @@ impl<'a> Evaluator<'a> {
         self.messages.set(0);
         self.terms.set(0);
         self.fuel.set(self.most.get());
+        self.may_remember.set(true);
     }
 
     /// Begins the test of a constraint.
     pub(crate) fn begin_rule(&self) {
         self.begin();
         self.fuel.set(MOST_TERMS_OF_RULE.min(self.most.get()));
+        self.may_remember.set(false);
+    }
+
+    /// Returns true where a question has taken long, and is asked of the state as it is.
+    pub(crate) fn remembers(&self) -> bool {
+        self.may_remember.get()
+            && self.most.get().saturating_sub(self.fuel.get()) > LONG
+            && self.nudged.get().is_none()
+            && self.recording.borrow().is_none()
+            && self.drawing.borrow().is_empty()
     }
 
     /// Computes the value of a term.

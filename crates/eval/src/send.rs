@@ -113,8 +113,38 @@ impl<'a> Evaluator<'a> {
         }
     }
 
-    /// Computes what a message answers.
+    /// Computes what a message answers, or remembers it.
     fn answer(
+        &self,
+        to: &Answer<'a>,
+        message: &'a Message,
+        arguments: Vec<Given<'a>>,
+        nearest: ThingId,
+    ) -> Result<Answer<'a>> {
+        let Answer::Thing(thing) = to else { return self.compute(to, message, arguments, nearest) };
+        if !arguments.is_empty() || !self.remembers() {
+            return self.compute(to, message, arguments, nearest);
+        }
+        let key = (*thing, std::ptr::from_ref(message).addr());
+        if let Some((answer, read)) = self.remembered.borrow().get(&key) {
+            if let Some(reads) = &mut *self.reads.borrow_mut() {
+                reads.extend(read);
+            }
+            return Ok(answer.clone());
+        }
+        let (answer, read) = self.listening(|| self.compute(to, message, arguments, nearest));
+        let is_value = matches!(
+            answer,
+            Ok(Answer::Number(..) | Answer::Bool(_) | Answer::Option(..) | Answer::Text(_))
+        );
+        if let (Ok(value), true) = (&answer, is_value) {
+            self.remembered.borrow_mut().insert(key, (value.clone(), read));
+        }
+        answer
+    }
+
+    /// Computes what a message answers.
+    fn compute(
         &self,
         to: &Answer<'a>,
         message: &'a Message,
