@@ -107,7 +107,12 @@ pub struct Shown {
 pub fn show_quantity(x: f64, quantity: Quantity<'_>, document: &Document) -> Shown {
     let spelling = spelling_for(x, quantity, document);
     let shown = in_unit(x, quantity.dimension, &spelling, document);
-    Shown { text: significant(shown, DIGITS), unit: spelling, exact: shortest(shown) }
+    let text = significant(shown, DIGITS);
+    // six digits tell many a number: 60 degrees, whose radians are 59.99999999999999
+    let read = units::read_quantity(&text, &spelling);
+    let is_told = read.is_some_and(|(si, of)| from_si(document, si, of) == x);
+    let exact = if is_told { text.clone() } else { shortest(shown) };
+    Shown { text, unit: spelling, exact }
 }
 
 /// Returns a number of base units in a unit; without one, as a bare number of it is written.

@@ -15,6 +15,7 @@ mod host;
 pub mod view;
 
 mod advice;
+mod angles;
 mod annotations;
 mod apply;
 mod by_hand;

@@ -1,5 +1,6 @@
 //! Words: how values, paths and reasons are put to people.
 
+use crate::angles;
 use crate::document::Open;
 use crate::state::State;
 use crate::view::{Freedom, Refusal};
@@ -173,8 +174,8 @@ fn round(count: u64) -> String {
 /// Returns a number as an engineer writes the sides of a constraint's rule, in their unit.
 pub(crate) fn amount(state: &State, source: Source, x: f64) -> String {
     let Shown { text, unit, .. } = match measure(state, source) {
-        Some(dimension) => {
-            let quantity = Quantity { dimension, ..Quantity::default() };
+        Some((dimension, class)) => {
+            let quantity = Quantity { dimension, class, ..Quantity::default() };
             kernel::show_quantity(x, quantity, &state.lowered.document)
         }
         None => plain(base::number::significant(x, 6)),
@@ -182,12 +183,13 @@ pub(crate) fn amount(state: &State, source: Source, x: f64) -> String {
     with_unit(text, &unit)
 }
 
-/// Returns what the sides of a constraint's rule measure, where it compares two numbers.
-pub(crate) fn measure(state: &State, source: Source) -> Option<Dimension> {
-    let (instance, left, _) = sides_of(state, source)?;
+/// Returns what the sides of a constraint's rule measure, where it compares two numbers, and the class of angles.
+pub(crate) fn measure(state: &State, source: Source) -> Option<(Dimension, &'static str)> {
+    let (instance, left, right) = sides_of(state, source)?;
     let evaluator = state.evaluator(&state.values);
+    let class = angles::class_of_sides(state, &evaluator, instance.owner, [left, right]);
     match evaluator.evaluate(left, instance.owner).ok()? {
-        eval::Answer::Number(_, dimension) => Some(dimension),
+        eval::Answer::Number(_, dimension) => Some((dimension, class)),
         _ => None,
     }
 }
@@ -222,11 +224,12 @@ pub(crate) fn sides_in_words(state: &State, source: Source, values: &Values) -> 
     let written_left = part.unwrap_or(written_left);
     let written_right = written_right.split(" within ").next().unwrap_or(written_right);
     let evaluator = state.evaluator(values);
+    let class = angles::class_of_sides(state, &evaluator, instance.owner, [left, right]);
     let said = |term, written: &str| {
         let answer = evaluator.evaluate(term, instance.owner).ok()?;
         let value = match &answer {
             eval::Answer::Text(text) => format!("\"{text}\""),
-            answer => views::values::in_words(&state.lowered.document, answer)?,
+            answer => views::values::in_words_as(&state.lowered.document, answer, class)?,
         };
         // a number needs no saying what it is
         let number = written.trim_start_matches(['-', ' ']);

@@ -249,11 +249,52 @@ pub(crate) fn contradiction(open: &Open, c: &Contradiction) -> ContradictionView
     };
     let (mut repairs, mut choices) = (Vec::new(), Vec::new());
     for r in &c.repairs {
+        let r = &rounded(open, c, r);
         let Some(label) = repair(r) else { continue };
         choices.extend(mending(open, r).map(|command| Choice { label: label.clone(), command }));
         repairs.push(label);
     }
     ContradictionView { constraints, anchors, decided, message, repairs, choices }
+}
+
+/// How many digits a number of a repair has at first.
+const DIGITS: usize = 6;
+/// As many digits tell any number.
+const ALL_DIGITS: usize = 17;
+
+/// Returns a repair with as few digits in its numbers, in the units in which they are shown, as it needs.
+fn rounded(open: &Open, c: &Contradiction, repair: &Repair) -> Repair {
+    let numbers = match *repair {
+        Repair::Change { slot, to } => vec![(slot, to)],
+        Repair::Move { ref to } if to.len() <= FEW => to.clone(),
+        _ => return repair.clone(),
+    };
+    let with = |digits: usize| -> Vec<(SlotId, f64)> {
+        numbers.iter().map(|&(slot, to)| (slot, with_digits(open, slot, to, digits))).collect()
+    };
+    let holds = |numbers: &Vec<(SlotId, f64)>| {
+        let values = left(open, numbers);
+        c.constraints.iter().all(|&s| words::shortfall(&open.state, s, &values).is_none())
+    };
+    let Some(numbers) = (DIGITS..ALL_DIGITS).map(with).find(holds) else { return repair.clone() };
+    match (repair, numbers.as_slice()) {
+        (Repair::Change { .. }, &[(slot, to)]) => Repair::Change { slot, to },
+        _ => Repair::Move { to: numbers },
+    }
+}
+
+/// Returns the number that is shown with so many digits for one of a slot.
+fn with_digits(open: &Open, slot: SlotId, to: f64, digits: usize) -> f64 {
+    let state = &open.state;
+    let Primitive::Real(dimension) = state.structure.slots[slot].primitive else { return to };
+    let document = &state.lowered.document;
+    let unit = words::show_slot(state, slot, &left(open, &[(slot, to)])).unit;
+    let shown = kernel::in_unit(to, dimension, &unit, document);
+    let written = base::number::significant(shown, digits);
+    match expr::units::read_quantity(&written, &unit) {
+        Some((si, dimension)) => kernel::quantity::from_si(document, si, dimension),
+        None => written.parse().map_or(to, |x| kernel::quantity::from_bare(document, x, dimension)),
+    }
 }
 
 /// Returns the command that mends a contradiction as a repair says; nothing where none can say it.

@@ -256,8 +256,9 @@ fn mechanism(open: &mut Open, state: &State) -> Option<(Diagnostic, Vec<Source>)
     };
     let required = open.status.unmet.iter().filter(|u| u.level == Level::Required);
     let unmet = required.map(|u| u.source);
-    let unbalanced: Vec<Source> =
-        unmet.filter(|&s| words::measure(state, s).is_some_and(is_load)).collect();
+    let unbalanced: Vec<Source> = unmet
+        .filter(|&s| words::measure(state, s).is_some_and(|(measured, _)| is_load(measured)))
+        .collect();
     let gave_way: Vec<SlotId> =
         state.yielded().filter(|&s| measures(s).is_some_and(is_load)).collect();
     let mut loaded = words::read_by(state, &unbalanced);

@@ -247,7 +247,16 @@ fn show_answer<'d>(
 
 /// Returns an answer with its unit, as a person reads it; nothing where it is no value.
 pub(crate) fn in_words(document: &Document, answer: &Answer<'_>) -> Option<String> {
-    let (Cell { words: Shown { text, unit, .. }, .. }, _) = show_answer(document, answer, "")?;
+    in_words_as(document, answer, "")
+}
+
+/// Returns the same of an answer that is of a class.
+pub(crate) fn in_words_as<'d>(
+    document: &'d Document,
+    answer: &Answer<'d>,
+    class: &'d str,
+) -> Option<String> {
+    let (Cell { words: Shown { text, unit, .. }, .. }, _) = show_answer(document, answer, class)?;
     Some(words::with_unit(text, &unit))
 }
 

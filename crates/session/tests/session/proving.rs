@@ -121,4 +121,17 @@ fn a_repair_tells_texts_in_quotes_and_nothing_of_a_written_number() {
         repairs("x: Real\nconstraint root: sqrt(x) = -1\n"),
         ["delete root or switch it off; then sqrt(x) is 0"]
     );
+    // in degrees, and with no more digits than hold
+    assert_eq!(
+        repairs(
+            "a: Angle = 30 deg\nb: Angle = 45 deg\nanchor a\nanchor b\nconstraint right: a + b = 90 deg\n"
+        ),
+        [
+            "delete right or switch it off; then a + b is 75 deg",
+            "let go of a",
+            "let go of b",
+            "set a to 45 deg",
+            "set b to 60 deg"
+        ]
+    );
 }
