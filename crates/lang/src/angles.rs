@@ -8,7 +8,7 @@ use crate::kinds::Kind;
 use crate::lower::{Lowerer, OWN};
 use crate::scope::Scope;
 use base::{Diagnostic, Place};
-use syntax::ast::{AstNode, BinaryOp, CallExpr, Expr, UnaryOp};
+use syntax::ast::{AstNode, BinaryOp, CallExpr, Expr, Part, Type, TypeShape, UnaryOp, Value};
 
 /// A whole turn, in radians.
 const TURN: f64 = std::f64::consts::TAU;
@@ -53,6 +53,26 @@ impl Lowerer<'_> {
             word.text()
         );
         self.report(d.hint(hint).fix(format!("write {degrees}"), [(place, degrees)]));
+    }
+
+    /// Warns of `f: Frequency = 80 rpm`: turns are counted as angles, and 80 1/min was perhaps meant.
+    pub(crate) fn warn_of_turns(&mut self, scope: &Scope, part: &Part, class: &Type) {
+        let TypeShape::Named(words) = class.shape() else { return };
+        let is_frequency = words.last().is_some_and(|word| word.text() == "Frequency");
+        let Some(Expr::Number(number)) = part.value().and_then(Value::expr) else { return };
+        let is_of_turns = number.unit().is_some_and(|unit| unit.text() == "rpm");
+        if !is_frequency || !is_of_turns || scope.file != OWN || self.silent > 0 {
+            return;
+        }
+        let place = Place { file: scope.file, span: number.span() };
+        let Some(digits) = number.digits() else { return };
+        let (rpm, often) = (number.syntax().text().to_string(), format!("{} 1/min", digits.text()));
+        let message = format!("{rpm} is an angular velocity: so many turns of 2π in a minute");
+        let d = Diagnostic::warning("turns-as-frequency", place, message);
+        let hint = format!(
+            "how often something comes is `{often}`; how fast something turns is an `AngularVelocity`"
+        );
+        self.report(d.hint(hint).fix(format!("write {often}"), [(place, often)]));
     }
 
     /// Returns true for an expression whose value is an angle.

@@ -263,7 +263,12 @@ impl Lowerer<'_> {
             if let Some(near) = near.or_else(|| called_otherwise(word.text())) {
                 d = d.meant(near);
             } else {
-                d = d.hint("declare it, or `use` the library that has it");
+                let is_list =
+                    ["list", "array", "vector"].iter().any(|w| word.text().eq_ignore_ascii_case(w));
+                d = d.hint(match is_list {
+                    true => "a list is written `List of Real`, `List of 3 Real`",
+                    false => "declare it, or `use` the library that has it",
+                });
             }
             self.report(d);
         }

@@ -359,6 +359,12 @@ pub(crate) fn called_otherwise(word: &str) -> Option<&'static str> {
         "sum" | "total" => "a sum is `a + b`, of a list `[a, b].sum`",
         "ceiling" => "write `ceil(x)`",
         "trunc" | "int" => "write `floor(x)` or `round(x)`",
+        "str" | "String" | "toString" | "repr" => {
+            "a number as a text is `x.text`, or stands in one: `\"{x}\"`"
+        }
+        "equal" | "Equal" => "equal is `=`: `constraint a.length = b.length`",
+        "coincident" | "Coincident" => "two points become one by `merge a = b`",
+        "integrate" | "integral" => "sum steps: `(0..<n).map(i => …).sum * h`",
         "PI" | "Pi" | "π" => "write `pi`",
         "this" | "self" | "me" => "a part is named by itself: `width`",
         "null" | "nil" | "none" | "None" => "what nothing is said of is zero, false or empty",
@@ -491,6 +497,12 @@ pub(crate) fn further_out(name: &Name, depth: usize) -> String {
     )
 }
 
+/// Returns `m^2` for `m2`.
+fn squared(word: &str) -> Option<String> {
+    let of = word.strip_suffix(['2', '3', '4'])?;
+    Some(format!("{of}^{}", &word[of.len()..]))
+}
+
 /// Says that a word is no unit, and which one is meant.
 pub(crate) fn unknown_unit(place: Place, spelling: &str) -> Diagnostic {
     let message = format!("{spelling} is no unit that is known here");
@@ -503,6 +515,15 @@ pub(crate) fn unknown_unit(place: Place, spelling: &str) -> Diagnostic {
             return d.hint("a rule under a condition is `constraint if x > 3 { y = 1 }`");
         }
         "elif" | "elseif" => return d.hint("write `else if`"),
+        "x" | "X" => {
+            return d.hint("a product has its sign: `3 * 10^8`; a power of ten is `3e8`, too");
+        }
+        "degC" | "celsius" | "Celsius" | "degF" | "fahrenheit" | "Fahrenheit" => {
+            return d.hint("temperatures are in kelvin: 20 °C and 68 °F are `293.15 K`");
+        }
+        "EUR" | "USD" | "GBP" | "CHF" | "euro" | "euros" | "dollar" | "dollars" => {
+            return d.hint("money is a plain number without its unit: `price: Real = 3.50`");
+        }
         _ => {}
     }
     // a unit after it or an operator's words: each of its factors by itself
@@ -513,7 +534,7 @@ pub(crate) fn unknown_unit(place: Place, spelling: &str) -> Diagnostic {
             let written = format!("* {spelling}");
             d.hint(format!("a product has its sign: `* {spelling}`")).fix(fix, [(place, written)])
         }
-        [] if let Some(power) = raised(spelling).filter(|u| expr::units::unit(u).is_some()) => d
+        [] if let Some(power) = raised(spelling).or_else(|| squared(spelling)).filter(|u| expr::units::unit(u).is_some()) => d
             .hint(format!("the unit is `{power}`"))
             .fix(format!("write {power}"), [(place, power)]),
         [] => d.hint(

@@ -32,7 +32,9 @@ use crate::views::{PlotOf, Toolbox};
 use crate::visible::Visible;
 use base::{Diagnostic, FileId, IdVec, Mixer, Name, Place, Severity, Span};
 use indexmap::IndexMap;
-use kernel::{ClassId, Document, Fault, OriginId, PartRef, Path, Scale, Search, Vertical};
+use kernel::{
+    ClassId, Document, Fault, FaultKind, OriginId, PartRef, Path, Scale, Search, Vertical,
+};
 use std::collections::{BTreeMap, BTreeSet};
 use std::hash::BuildHasherDefault;
 use std::rc::Rc;
@@ -500,11 +502,22 @@ impl Lowered {
         let mut instead: BTreeMap<ClassId, String> = BTreeMap::new();
         let diagnostic = |f: &Fault| {
             let d = Diagnostic::error(f.kind.code(), self.place(f.origin), f.message.clone());
-            let Some(class) = f.class else { return d };
+            let Some(class) = f.class else {
+                return match f.kind {
+                    FaultKind::EndlessParts => d.hint(
+                        "a part that only names another thing is a path: `next: Path to Person`",
+                    ),
+                    _ => d,
+                };
+            };
             let hint = instead.entry(class);
             d.hint(&**hint.or_insert_with(|| instead_of_abstract(&self.document, class)))
         };
-        faults.iter().map(diagnostic).collect()
+        // a ring of classes is told once, however many parts lead around it
+        let mut endless: BTreeSet<String> = BTreeSet::new();
+        let is_new =
+            |f: &&Fault| f.kind != FaultKind::EndlessParts || endless.insert(f.message.clone());
+        faults.iter().filter(is_new).map(diagnostic).collect()
     }
     /// Returns where a member stands; one that is read as it was before, where it stood.
     pub fn place(&self, origin: OriginId) -> Place {

@@ -320,6 +320,7 @@ impl Lowerer<'_> {
         let Some(class) = self.class_of_type(scope, &ty) else {
             return self.broken.extend(part.names().map(|w| (scope.class(), w.name())));
         };
+        self.warn_of_turns(scope, part, &ty);
         let count = self.declared_count(scope, &ty);
         let body = part.body();
         let of_elements = body.clone().filter(|_| matches!(ty.shape(), TypeShape::List { .. }));

@@ -88,6 +88,7 @@ fn outside_brackets(p: &mut Parser<'_>, f: impl FnOnce(&mut Parser<'_>)) {
 
 /// The members or statements up to a `}` or the end.
 fn elements(p: &mut Parser<'_>, scope: Scope) {
+    let outside = std::mem::replace(&mut p.in_check, scope == Scope::Check);
     list(p, |p| {
         if !(p.at(IfKw) && !p.names_itself(1) && statements::conditional(p, scope)
             || statements::statement(p, scope)
@@ -97,6 +98,7 @@ fn elements(p: &mut Parser<'_>, scope: Scope) {
             members::unknown(p);
         }
     });
+    p.in_check = outside;
 }
 
 /// Elements up to a `}` or the end; `;` may stand between; one that takes nothing is an error.

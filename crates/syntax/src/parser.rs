@@ -55,6 +55,8 @@ pub(crate) struct Parser<'t> {
     pub(crate) unclosed: u32,
     /// Inside the bindings of a `let`, where `in` is not an operator.
     pub(crate) in_bindings: bool,
+    /// Among the statements of a check.
+    pub(crate) in_check: bool,
     /// How far the line is indented that opens a brace which nothing closes: what begins a line no further in stands
     /// behind it.
     pub(crate) unclosed_body: Option<usize>,
@@ -93,6 +95,7 @@ impl<'t> Parser<'t> {
             brackets: 0,
             unclosed: 0,
             in_bindings: false,
+            in_check: false,
             unclosed_body: None,
         }
     }
@@ -590,8 +593,12 @@ fn token_fault(file: FileId, text: &str, span: Span, fault: Fault) -> Diagnostic
     let place = Place { file, span };
     match fault {
         Fault::UnterminatedText => {
+            let is_inch = line_before(text, span).ends_with(|c: char| c.is_ascii_digit());
             Diagnostic::error("unterminated-text", place, "found the end of the line in a text")
-                .hint("a text ends on its line: close it with `\"`")
+                .hint(match is_inch {
+                    true => "inches are `3 inch`; a text ends on its line with a second `\"`",
+                    false => "a text ends on its line: close it with `\"`",
+                })
         }
         Fault::UnterminatedValue => {
             let place = Place { file, span: Span::new(span.start, span.start + 1) };
@@ -627,6 +634,16 @@ fn token_fault(file: FileId, text: &str, span: Span, fault: Fault) -> Diagnostic
             };
             let d = Diagnostic::error("unknown-character", place, message);
             let hint = match all.chars().next() {
+                Some('`') => {
+                    "a text stands between straight double quotes, a value in it in braces: `\"x = {x}\"`"
+                }
+                Some('$') if text[span.range().end..].starts_with('{') => {
+                    "a value in a text stands in braces alone: `\"x = {x}\"`"
+                }
+                Some('\\') => latex(&text[span.range().end..]),
+                Some('&') if line_before(text, span).trim_end().ends_with('"') => {
+                    "texts are joined by `+`, or have the values in them: `\"{a}{b}\"`"
+                }
                 Some('\'' | '“' | '”' | '„' | '«' | '»' | '‘' | '’') => {
                     "a text stands between straight double quotes: `\"hello\"`"
                 }
@@ -675,11 +692,28 @@ fn token_fault(file: FileId, text: &str, span: Span, fault: Fault) -> Diagnostic
                 Some('€' | '£' | '¥') => MONEY,
                 Some('∞') => "a number is finite: leave out the bound that is none",
                 Some('$') if dollars(text, span) => MONEY,
-                Some('$' | '@' | '\\' | '`') => "names are made of letters, digits and `_`",
+                Some('$' | '@') => "names are made of letters, digits and `_`",
                 _ => return d,
             };
             d.hint(hint)
         }
+    }
+}
+
+/// Says what is written for a command of LaTeX, whose word stands here.
+fn latex(rest: &str) -> &'static str {
+    let end = rest.find(|c: char| !c.is_ascii_alphabetic()).unwrap_or(rest.len());
+    match &rest[..end] {
+        "frac" | "dfrac" | "tfrac" => "a quotient is `a / b`",
+        "sqrt" => "write `sqrt(x)`",
+        "cdot" | "times" => "write `*`",
+        "leq" | "le" => "write `<=`",
+        "geq" | "ge" => "write `>=`",
+        "neq" | "ne" => "write `!=`",
+        "pi" => "write `pi`",
+        "sum" => "a sum is `(1..n).map(i => …).sum`",
+        "left" | "right" => "brackets stand by themselves: `(`, `)`",
+        _ => "words stand by themselves: leave `\\` out",
     }
 }
 

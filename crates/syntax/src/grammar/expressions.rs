@@ -210,8 +210,15 @@ fn bump_operator(p: &mut Parser<'_>) {
         Ident => p.bump_keyword(),
         EqEq => {
             let hint = Some("write `=`: there is no assignment to tell it from".into());
-            p.report("double-equals", "found `==`, wanted `=`".into(), hint);
+            let is_third = p.nth(1) == Eq && p.is_adjacent(1);
+            let found = if is_third { "===" } else { "==" };
+            p.report("double-equals", format!("found `{found}`, wanted `=`"), hint);
             p.bump();
+            if is_third {
+                p.start(Error);
+                p.bump();
+                p.finish();
+            }
         }
         _ => p.bump(),
     }
@@ -311,7 +318,10 @@ fn primary(p: &mut Parser<'_>, start: Checkpoint) -> u32 {
             p.finish();
         }
         Ident => return named(p),
-        _ => p.expected("expected-expression", "an expression"),
+        _ => {
+            let hint = mistakes::calls::no_operand(p);
+            p.expected_hint("expected-expression", "an expression", hint);
+        }
     }
     1
 }

@@ -6,9 +6,9 @@ use super::types::{class_name, domain, dotted_name, parameters, paths};
 use super::{Scope, body, mistakes, programs, statements};
 use crate::kind::SyntaxKind::{
     self, Anchor, Arrow, Assign, Attachers, Choice, Class, Colon, ColonEq, Comma, Dot, Eq, Erase,
-    FatArrow, Greater, GreaterEq, Handle, Ident, IfKw, Insert, LBrace, LBracket, LParen, Less,
-    LessEq, Merge, Message, Minus, Modify, NotEq, Part, Plus, Ref, Replace, Side, Slash, Star,
-    Stay, Superclass, Text, Toolbox, UnitLine, Use, View, Without, YLine,
+    Error, FatArrow, Greater, GreaterEq, Handle, Ident, IfKw, Insert, LBrace, LBracket, LParen,
+    Less, LessEq, Merge, Message, Minus, Modify, NotEq, Part, Plus, RParen, Ref, Replace, Side,
+    Slash, Star, Stay, Superclass, Text, Toolbox, UnitLine, Use, View, Without, YLine,
 };
 use crate::parser::Parser;
 
@@ -169,11 +169,12 @@ pub(super) fn into(p: &mut Parser<'_>, word: &'static str, rest: impl FnOnce(&mu
 fn named(p: &mut Parser<'_>) -> bool {
     match p.nth(1) {
         Colon | Comma => part(p),
-        LParen if mistakes::called_member(p) => p.skip_line(),
+        LParen if mistakes::calls::called_member(p) => p.skip_line(),
         FatArrow | LParen => {
             p.start_documented(Message);
             if !message(p) {
-                p.expected("expected-value", "`=>` and what the message answers");
+                let hint = p.at(Eq).then(|| "write `=>`: what `=` gives is a value".to_string());
+                p.expected_hint("expected-value", "`=>` and what the message answers", hint);
             }
             p.finish();
         }
@@ -187,7 +188,12 @@ fn named(p: &mut Parser<'_>) -> bool {
             p.finish();
             let message = "found `:=` among members, wanted `=`".into();
             let written = p.text_between(start, p.pos() - 1).replacen(":=", "=", 1);
-            let hint = format!("write `{written}`; `:=` stands in the methods of a constraint");
+            let hint = match p.in_check {
+                true => {
+                    format!("what a check changes is set: `set {}`", written.replacen("=", "to", 1))
+                }
+                false => format!("write `{written}`; `:=` stands in the methods of a constraint"),
+            };
             p.report_since(start, "assignment-outside-method", message, &hint);
         }
         _ => return false,
@@ -222,14 +228,22 @@ fn rest_of_part(p: &mut Parser<'_>) {
     while p.eat(Comma) {
         p.expect(Ident, "expected-name", "a part's name");
     }
-    if p.expect(Colon, "expected-class", "`:` and the parts' class") {
+    if p.at(Eq) && !p.begins_line(0) {
+        let hint = "each has a value of its own: `a = 1`, and then `b = 2`".to_string();
+        p.expected_hint("expected-class", "`:` and the parts' class", Some(hint));
+    } else if p.expect(Colon, "expected-class", "`:` and the parts' class") {
         if named_constraint(p) {
             return;
         }
         class_name(p);
         domain(p);
     }
-    if p.eat(Eq) {
+    if mistakes::value_by_assignment(p) {
+        p.start(Error);
+        p.bump();
+        p.finish();
+        value(p);
+    } else if p.eat(Eq) {
         value(p);
     } else if p.eat(FatArrow) {
         expression(p);
@@ -279,9 +293,17 @@ fn assigned(p: &mut Parser<'_>) {
     if mistakes::body_of_path(p, first) {
         return;
     }
-    if p.expect(Eq, "expected-value", "`=` and a value") {
-        value(p);
+    if p.at(Eq) {
+        p.bump();
+        return value(p);
     }
+    let hint = (p.behind(1) == RParen).then(|| {
+        format!(
+            "what is asked is the value of something: `name => {}`",
+            p.quoted(first, p.pos() - 1)
+        )
+    });
+    p.expected_hint("expected-value", "`=` and a value", hint);
 }
 
 /// What a part or a step is: an expression, or a block of steps.
@@ -486,7 +508,7 @@ pub(super) fn unknown(p: &mut Parser<'_>) {
         return p.bump();
     }
     if mistakes::elsewhere::strange_unit(p) {
-        p.start(SyntaxKind::Error);
+        p.start(Error);
         p.bump();
         return p.finish();
     }

@@ -1,12 +1,13 @@
 //! Mistakes that beginners make, each told as a teacher would: what it is, and what to write instead.
 
+pub(super) mod calls;
 pub(super) mod elsewhere;
 
 use super::members::is_keyword;
 use crate::kind::SyntaxKind::{
-    Arrow, Colon, Comma, Dot, Ellipsis, Eof, Eq, EqEq, FatArrow, Greater, GreaterEq, Ident, LBrace,
-    LBracket, LParen, Less, LessEq, LetKw, Minus, NotEq, Number, Plus, RBrace, RBracket, RParen,
-    Slash, Star, Text, Unit,
+    Arrow, Colon, ColonEq, Comma, Dot, Ellipsis, Eof, Eq, EqEq, FatArrow, Greater, GreaterEq,
+    Ident, LBrace, LBracket, LParen, Less, LessEq, LetKw, Minus, NotEq, NotKw, Number, Plus,
+    RBrace, RBracket, RParen, Slash, Star, Text, TextOpen, Unit,
 };
 use crate::parser::Parser;
 use crate::units::{follows_operand, unit_length};
@@ -44,6 +45,7 @@ pub(super) fn of_member(p: &mut Parser<'_>) -> bool {
         || anchored_value(p)
         || several_values(p)
         || time_of_day(p)
+        || prefixed_text(p)
 }
 
 /// `1,000,000`, `1 000 000`
@@ -100,6 +102,25 @@ fn several_values(p: &mut Parser<'_>) -> bool {
     is_one
 }
 
+/// `f"x = {x}"`
+fn prefixed_text(p: &mut Parser<'_>) -> bool {
+    let is_one = matches!(p.current(), Text | TextOpen)
+        && p.is_adjacent(0)
+        && p.behind(1) == Ident
+        && matches!(p.text_between(p.pos() - 1, p.pos() - 1), "f" | "r" | "b" | "u");
+    if is_one {
+        let at = p.pos();
+        let prefix = p.text_between(at - 1, at - 1);
+        let said = (
+            "expected-member",
+            format!("found `{prefix}` before a text"),
+            format!("a text has its values in braces by itself: leave `{prefix}` out"),
+        );
+        p.report_mistake((at - 1, at - 1), said, Some((p.span_at(at - 1), String::new())));
+    }
+    is_one
+}
+
 /// `8:30`
 fn time_of_day(p: &mut Parser<'_>) -> bool {
     let is_one = p.at(Colon) && p.behind(1) == Number && p.nth(1) == Number && p.is_adjacent(1);
@@ -139,37 +160,6 @@ fn increment(p: &mut Parser<'_>) -> bool {
         p.report_mistake((first, last), said, None);
     }
     found.is_some()
-}
-
-/// `f(x) = x^2`, `print(x)`: returns true where the call or definition was reported.
-pub(super) fn called_member(p: &mut Parser<'_>) -> bool {
-    let is_one = p.nth(1) == LParen
-        && matches!(p.nth(2), Ident | Text)
-        && p.nth(3) == RParen
-        && !p.begins_line(1);
-    let is_defined = p.nth(2) == Ident && matches!(p.nth(4), Eq | FatArrow) && !p.begins_line(4);
-    let ends = p.begins_line(4) || p.nth(4) == Eof;
-    if !is_one || !is_defined && !ends {
-        return false;
-    }
-    let (first, last) = (p.pos(), p.line_end());
-    let (name, of) = (p.word(0), p.word(2));
-    let said = match is_defined {
-        true => (
-            "expected-class",
-            format!("found `{name}({of})`, wanted the parameter's class"),
-            format!("write `{name}({of}: Real) => {}`", p.text_between(first + 5, last)),
-        ),
-        false => (
-            "expected-member",
-            format!("found `{name}({of})`, wanted {MEMBER}"),
-            format!(
-                "nothing is called for what it does: `thinglab run` shows what `{of}` is; a rule is `constraint …`"
-            ),
-        ),
-    };
-    p.report_mistake((first, last), said, None);
-    true
 }
 
 /// `3,5`
@@ -286,8 +276,17 @@ fn declared_elsewhere(p: &mut Parser<'_>) -> bool {
         let has_value = p.nth(2) == Eq && !p.begins_line(2);
         let value = if has_value { p.text_between(at + 3, p.line_end()) } else { "" };
         let is_plain = !value.contains(|c: char| c.is_alphabetic() || c == '(');
+        // `(x) => 2 * x`
+        let is_function = (p.nth(3), p.nth(4), p.nth(5), p.nth(6))
+            == (LParen, Ident, RParen, FatArrow)
+            && has_value;
         let hint = match value {
             "" => format!("a part is declared with its class: `{name}: Real`"),
+            _ if is_function => format!(
+                "what is computed is a message: `{name}({}: Real) => {}`",
+                p.word(4),
+                p.quoted_line(at + 7)
+            ),
             value if is_plain => {
                 format!("a part is declared with its class: `{name}: Real = {value}`")
             }
@@ -417,11 +416,19 @@ fn class_and_brackets(p: &mut Parser<'_>) -> bool {
         let start = p.span_at(at).start;
         (said, Some((Span::new(start, start), format!(" = {class}"))))
     } else {
-        let count = if p.nth(1) == RBracket { String::new() } else { format!("{} ", p.word(1)) };
+        let inner = if p.nth(1) == RBracket { "" } else { p.word(1) };
+        let is_list = ["list", "array", "vector"].iter().any(|w| class.eq_ignore_ascii_case(w));
+        let of = match (is_list, inner.starts_with(char::is_uppercase)) {
+            (true, true) => inner.to_string(),
+            // `List[3] of Real`
+            (true, false) if p.at_word(3, "of") => format!("{inner} {}", p.word(4)),
+            (true, false) => format!("{inner} Real"),
+            (false, _) => format!("{inner} {class}"),
+        };
         let said = (
             "expected-member",
             format!("found `[` after the class {class}, wanted {MEMBER}"),
-            format!("a list is written `{name}: List of {count}{class}`"),
+            format!("a list is written `{name}: List of {}`", of.trim_start()),
         );
         (said, None)
     };
@@ -542,7 +549,11 @@ pub(super) fn constant_without_class(p: &mut Parser<'_>) {
 
 /// `anchor x = 3`
 fn anchored_value(p: &mut Parser<'_>) -> bool {
-    let is_one = p.at(Eq) && !p.begins_line(0) && p.behind(1) == Ident && p.behind(2) == Ident;
+    let is_one = p.at(Eq)
+        && !p.begins_line(0)
+        && p.behind(1) == Ident
+        && p.behind(2) == Ident
+        && matches!(p.text_between(p.pos() - 2, p.pos() - 2), "anchor" | "stay");
     if is_one {
         let at = p.pos();
         let (name, value) = (p.text_between(at - 1, at - 1), p.word(1));
@@ -553,6 +564,21 @@ fn anchored_value(p: &mut Parser<'_>) -> bool {
             format!("give the value by itself: `{name} = {value}`, and then `{word} {name}`"),
         );
         p.report_mistake((at, at), said, None);
+    }
+    is_one
+}
+
+/// `x: Real := 3`: returns true where it was reported.
+pub(super) fn value_by_assignment(p: &mut Parser<'_>) -> bool {
+    let is_one = p.at(ColonEq) && !p.begins_line(0);
+    if is_one {
+        let at = p.pos();
+        let said = (
+            "assignment-outside-method",
+            "found `:=` after a class, wanted `=`".to_string(),
+            "a value is given with `=`; `:=` stands in the methods of a constraint".to_string(),
+        );
+        p.report_mistake((at, at), said, Some((p.span_at(at), "=".into())));
     }
     is_one
 }
@@ -659,6 +685,13 @@ pub(super) fn value_for_class(p: &Parser<'_>) -> Option<String> {
             let class = if p.word(1) == "of" { p.word(2) } else { p.word(1) };
             Some(format!("a list is written `{name}: List of {value} {class}`"))
         }
+        Number if p.nth(1) == Unit => {
+            let (value, unit) = (format!("{value} {}", p.word(1)), expr::units::unit(p.word(1)));
+            let class = unit.and_then(|unit| unit.dimension.named()).unwrap_or("Real");
+            Some(format!(
+                "write `{name} = {value}` for a value, `{name}: {class} = {value}` for a new part"
+            ))
+        }
         Number => Some(format!(
             "write `{name} = {value}` for a value, `{name}: Real = {value}` for a new part"
         )),
@@ -667,6 +700,14 @@ pub(super) fn value_for_class(p: &Parser<'_>) -> Option<String> {
         )),
         LBracket if p.nth(1) == Ident && p.nth(2) == RBracket => {
             Some(format!("a list is written `{name}: List of {}`", p.word(1)))
+        }
+        LParen if (p.nth(1), p.nth(2), p.nth(3)) == (Ident, RParen, FatArrow) => Some(format!(
+            "what is computed of something is a message: `{name}({}: Real) => {}`",
+            p.word(1),
+            p.quoted_line(p.pos() + 4)
+        )),
+        NotKw if p.behind(1) == Ident => {
+            Some("unlike is `!=`, no thing of a class `not (x is C)`".into())
         }
         LParen | LBracket | Minus => {
             Some(format!("a class follows `:`; a value is given with `=`: `{name} = …`"))

@@ -32,6 +32,14 @@ pub(super) fn constraint(p: &mut Parser<'_>) {
 
 /// A rule: an expression, or `if c { rules } else { rules }`.
 pub(super) fn rule(p: &mut Parser<'_>) {
+    let mut line = 1..=p.line_end() - p.pos();
+    if p.at(LBrace) && !line.any(|n| p.nth(n) == ColonEq) {
+        let hint = "each rule has its own word: `constraint x = 3`".to_string();
+        p.expected_hint("expected-expression", "an expression", Some(hint));
+        p.start(Error);
+        rule_block(p);
+        return p.finish();
+    }
     if !p.at(IfKw) {
         let start = p.checkpoint();
         expression(p);

@@ -4,7 +4,7 @@ use super::MEMBER;
 use crate::kind::SyntaxKind;
 use crate::kind::SyntaxKind::{
     Caret, Colon, Comma, Eof, Eq, Greater, GreaterEq, Ident, LBrace, LParen, Less, LessEq, Minus,
-    NotEq, Number, Plus, RBrace, RParen, Semicolon, Slash, Star, Text, Unit,
+    NotEq, NotKw, Number, Plus, RBrace, RParen, Semicolon, Slash, Star, Text, Unit,
 };
 use crate::parser::Parser;
 use crate::units::follows_operand;
@@ -81,6 +81,10 @@ fn word(p: &Parser<'_>) -> Option<String> {
         "override" | "virtual" | "new" if is_named => {
             format!("what a class says again counts: leave `{}` out", p.word(0))
         }
+        "from" if is_named => format!("a library is brought by its name: `use {next}`"),
+        "subject" if next == "to" => {
+            format!("what is to hold is a rule: `constraint {}`", p.quoted_line(p.pos() + 2))
+        }
         "soft" | "hard" | "optional" if next == "constraint" => {
             "a strength is weak, medium or strong: `weak constraint x = 0`".into()
         }
@@ -107,6 +111,9 @@ fn sign(p: &Parser<'_>) -> Option<String> {
             let name = before(1).trim_matches('"');
             format!("the name of a constraint has no quotes: `constraint {name}: …`")
         }
+        Colon if p.behind(1) == Number && p.nth(1) == Number && !p.is_adjacent(1) => {
+            "a proportion is an equation of quotients: `constraint a / b = 2 / 3`".into()
+        }
         LParen if of == "class" && p.behind(1) == Ident && p.nth(1) == Ident => {
             let (class, inner) = (before(1), p.word(1));
             match p.nth(2) {
@@ -119,7 +126,7 @@ fn sign(p: &Parser<'_>) -> Option<String> {
         LParen if before(1) == "super" => {
             "the answer of the superclasses has a name: `super.picture`".into()
         }
-        Text if matches!(p.behind(1), Number | Unit | Text) => {
+        Text if matches!(p.behind(1), Number | Unit | Text) && p.word(0).len() > 1 => {
             format!(
                 "what the lab says of it stands before it: `/// {}`",
                 p.word(0).trim_matches('"')
@@ -131,6 +138,29 @@ fn sign(p: &Parser<'_>) -> Option<String> {
         }
         Ident if matches!(p.word(0), "weak" | "medium" | "strong" | "required") => {
             format!("a strength stands before its rule: `{} constraint …`", p.word(0))
+        }
+        Ident if p.word(0) == "to" && matches!(of, "set" | "move") => {
+            format!("several are {of} with commas between: `{of} x to 3, y to 4`")
+        }
+        Ident if p.word(0) == "where" => {
+            "what a value speaks of is named before it: `let a = 3 in 2 * a`".into()
+        }
+        NotKw if p.at_word(1, "in") || p.word(1) == "in" => {
+            "it is denied as a whole: `not (x in [1, 2])`".into()
+        }
+        Less if of == "class" && p.behind(1) == Ident => {
+            format!("write `class {} is {}`", before(1), p.word(1))
+        }
+        Eq if of == "class" && p.nth(1) == LBrace => {
+            format!("a body follows its class: `class {} {{ … }}`", before(1))
+        }
+        // `List of Bolt 3`
+        Number if p.behind(1) == Ident && p.behind(2) == Ident && before(2) == "of" => {
+            format!(
+                "how many there are stands before the class: `List of {} {}`",
+                p.word(0),
+                before(1)
+            )
         }
         Ident if p.word(0) == "between" => "write `1 <= x <= 3`".into(),
         Ident if p.word(0) == "per" && p.behind(1) == Unit => {
@@ -190,12 +220,16 @@ pub(in crate::grammar) fn strange_number(p: &mut Parser<'_>) -> Option<usize> {
     if !p.at(Ident) || !p.is_adjacent(0) {
         return None;
     }
-    let ((length, number), at) = (power_of_ten(p).or_else(|| resistance(p))?, p.pos());
+    let found = underscored(p).or_else(|| power_of_ten(p)).or_else(|| resistance(p));
+    let ((length, number), at) = (found?, p.pos());
     let (digits, last) = (p.text_between(at - 1, at - 1), at + length - 1);
     let said = (
         "implied-product",
         format!("found `{}` right after `{digits}`, wanted one number", p.word(0)),
         match length {
+            1 if p.word(0).starts_with('_') => {
+                format!("the digits of a number stand together: write `{number}`")
+            }
             1 | 2 => format!("a number has its point and its unit: `{number}`"),
             _ => format!("write `{number}`"),
         },
@@ -216,6 +250,13 @@ fn power_of_ten(p: &Parser<'_>) -> Option<(usize, String)> {
     let is_plain = digits.chars().all(|c| c.is_ascii_digit() || c == '.');
     let (length, minus) = (3 + sign, if sign == 1 { "-" } else { "" });
     is_plain.then(|| (length, format!("{digits}e{minus}{power}")))
+}
+
+/// `1_000_000`: how many tokens it has behind its number, and how it is written.
+fn underscored(p: &Parser<'_>) -> Option<(usize, String)> {
+    let (digits, rest) = (p.text_between(p.pos() - 1, p.pos() - 1), p.word(0));
+    let is_one = rest.starts_with('_') && rest.chars().all(|c| c.is_ascii_digit() || c == '_');
+    is_one.then(|| (1, format!("{digits}{}", rest.replace('_', ""))))
 }
 
 /// `4k7`, `4k7 ohm`: how many tokens it has behind its number, and how it is written.

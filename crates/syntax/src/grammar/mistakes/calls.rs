@@ -1,0 +1,104 @@
+//! Calls where a member begins: `cube([10, 20, 30])`, `connect(a, b)`, `print(x)`. Nothing is called for what it does.
+
+use super::MEMBER;
+use crate::kind::SyntaxKind::{
+    AndKw, Colon, Eof, Eq, FatArrow, Greater, GreaterEq, Ident, LBrace, LParen, Less, LessEq,
+    RParen, Text,
+};
+use crate::parser::Parser;
+
+/// `f(x) = x^2`, `print(x)`: returns true where the call or definition was reported.
+pub(in crate::grammar) fn called_member(p: &mut Parser<'_>) -> bool {
+    let is_one = p.nth(1) == LParen
+        && matches!(p.nth(2), Ident | Text)
+        && p.nth(3) == RParen
+        && !p.begins_line(1);
+    let is_defined = p.nth(2) == Ident && matches!(p.nth(4), Eq | FatArrow) && !p.begins_line(4);
+    let ends = p.begins_line(4) || p.nth(4) == Eof;
+    if !is_one || !is_defined && !ends {
+        return calls(p);
+    }
+    let (first, last) = (p.pos(), p.line_end());
+    let (name, of) = (p.word(0), p.word(2));
+    let said = match is_defined {
+        true => (
+            "expected-class",
+            format!("found `{name}({of})`, wanted the parameter's class"),
+            format!("write `{name}({of}: Real) => {}`", p.text_between(first + 5, last)),
+        ),
+        false => (
+            "expected-member",
+            format!("found `{name}({of})`, wanted {MEMBER}"),
+            format!(
+                "nothing is called for what it does: `thinglab run` shows what `{of}` is; a rule is `constraint …`"
+            ),
+        ),
+    };
+    p.report_mistake((first, last), said, None);
+    true
+}
+
+/// `cube([10, 20, 30])`, `connect(r1.b, r2.a)`, `minimize (x - 3)^2`: what no parameters stand in the brackets of.
+/// Returns true where it was reported.
+fn calls(p: &mut Parser<'_>) -> bool {
+    let is_definition = matches!(p.after_bracket(1), Eq | FatArrow | Colon | Eof);
+    let declares = p.nth(2) == Ident
+        && (p.nth(3) == Colon || p.nth(3) == Ident && p.nth(4) == Colon || p.nth(3) == RParen);
+    let is_one = p.nth(1) == LParen
+        && p.begins_line(0)
+        && !p.begins_line(1)
+        && !declares
+        && (!is_definition || is_last(p));
+    if !is_one {
+        return false;
+    }
+    let (first, last) = (p.pos(), p.line_end());
+    let name = p.word(0);
+    let said = ("expected-member", format!("found `{name}(…)`, wanted {MEMBER}"), meant(p));
+    p.report_mistake((first, last), said, None);
+    true
+}
+
+/// Returns true where nothing follows the brackets in the whole text.
+fn is_last(p: &Parser<'_>) -> bool {
+    let last = p.line_end();
+    p.text_between(last, last) == ")" && p.after_bracket(1) == Eof
+}
+
+/// Says what is written for a call of this word.
+fn meant(p: &Parser<'_>) -> String {
+    // `(a.b, c.d)`
+    let within = p.text_between(p.pos() + 2, p.line_end());
+    let inner = within.trim_end_matches(';').trim_end_matches(')');
+    match p.word(0).to_lowercase().as_str() {
+        "connect" | "join" | "link" | "attach" | "coincident" => match inner.split_once(", ") {
+            Some((a, b)) if !b.contains(',') => format!("two become one by `merge {a} = {b}`"),
+            _ => "two become one by `merge a = b`".into(),
+        },
+        "minimize" | "minimise" | "maximize" | "maximise" => {
+            "nothing is minimized: what is wished is a soft rule, `weak constraint x = 0`".into()
+        }
+        "assert" => "what is to be true in a check is expected: `expect x = 3`".into(),
+        "print" | "echo" | "alert" => {
+            "nothing is called for what it does: `thinglab run` shows all values".into()
+        }
+        "translate" | "rotate" | "scale" | "mirror" => {
+            "a thing says itself where it is: `c: Circle { center = (1, 2) }`; a set of steps is `moved`, `turned`, `scaled`".into()
+        }
+        _ => "a thing is declared with a name and its class, `c: Circle { … }`; a rule begins with `constraint`".into(),
+    }
+}
+
+/// Says what is written where an operand is wanted and a sign of other languages stands.
+pub(in crate::grammar) fn no_operand(p: &Parser<'_>) -> Option<String> {
+    match (p.behind(1), p.current()) {
+        (Eq, Eq) => Some("one `=` is enough".into()),
+        (AndKw, Less | LessEq | Greater | GreaterEq) => {
+            Some("comparisons stand in a chain: `0 < x < 3`".into())
+        }
+        (FatArrow, LBrace) => {
+            Some("what is answered stands behind `=>` without braces and without `return`".into())
+        }
+        _ => None,
+    }
+}
