@@ -25,6 +25,9 @@ pub const DEEPEST_MESSAGES: u32 = 200;
 const DEEPEST_TERMS: u32 = 1000;
 /// How many terms one question may evaluate: what a mistyped recursion may cost.
 const MOST_TERMS: u64 = 10_000_000;
+/// What a message answered, and the slots that were read for it.
+type Remembered<'a> = (Answer<'a>, BTreeSet<SlotId>);
+
 /// From so many terms on a question remembers what messages answer: those that speak of each other twice are asked
 /// for once.
 const LONG: u64 = 100_000;
@@ -61,7 +64,7 @@ pub struct Evaluator<'a> {
     /// Whether the question at hand may remember what messages answer: what tests a rule looks at each comparison.
     pub(crate) may_remember: Cell<bool>,
     /// What messages without arguments answered, by the thing and where the message is, and what they read.
-    pub(crate) remembered: RefCell<BTreeMap<(ThingId, usize), (Answer<'a>, BTreeSet<SlotId>)>>,
+    pub(crate) remembered: RefCell<BTreeMap<(ThingId, usize), Remembered<'a>>>,
     /// What went wrong in parts whose siblings went on without them.
     pub(crate) faults: RefCell<Vec<Fault>>,
     /// The slots read since someone began to listen.

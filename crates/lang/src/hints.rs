@@ -15,7 +15,7 @@ use syntax::ast::{self, AstNode, BinaryOp, Expr, UnaryOp};
 /// How many names a hint lists.
 const MOST_LISTED: usize = 12;
 /// How many messages of other classes a hint shows.
-const MOST_SHOWN: usize = 3;
+pub(crate) const MOST_SHOWN: usize = 3;
 
 impl Lowerer<'_> {
     /// Says of an unknown word that was to be a text, that texts stand in quotes.
@@ -289,7 +289,8 @@ impl Lowerer<'_> {
     pub(crate) fn asked_elsewhere(&self, scope: &Scope, word: &ast::Word) -> Option<String> {
         let asked = |class: &str, m: &Message| {
             let receiver = class.to_lowercase();
-            format!("a {class}: `{}`", written(&receiver, m))
+            let article = if class.starts_with(['A', 'E', 'I', 'O', 'U']) { "an" } else { "a" };
+            format!("{article} {class}: `{}`", written(&receiver, m))
         };
         let of =
             self.messages_by(scope, word, |m| !m.is_of_class() && m.name == *word.text(), asked);

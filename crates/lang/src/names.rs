@@ -1,5 +1,6 @@
 //! Names: what a word means where it stands, and the nearest that could have been meant.
 
+use crate::hints::MOST_SHOWN;
 use crate::kinds::Kind;
 use crate::lower::{Lowered, Lowerer, OWN};
 use crate::members::{Definition, FOR, FOR_AS_VALUE};
@@ -262,12 +263,30 @@ impl Lowerer<'_> {
         if let Some(things) = self.library_with(scope, &name) {
             return Some(format!("`{things}` has it: write `{things}.{text}`"));
         }
+        if let Some(hint) = self.part_of_things(scope, &name) {
+            return Some(hint);
+        }
         let (top, _) = self.top_of(scope.file).filter(|(top, _)| !scope.classes.contains(top))?;
         let is_known = self.class_of_part(top, &name).is_some()
             || self.find_message(top, &name, None).is_some();
         is_known.then(|| {
             format!("a class sees its own parts and constants alone: `owner.{text}` asks what its things are part of")
         })
+    }
+
+    /// Says which of the things around a place have a part of this name: `belt.total`.
+    fn part_of_things(&self, scope: &Scope, name: &Name) -> Option<String> {
+        let fields = scope.classes.iter().flat_map(|&class| self.document.layout(class));
+        let having = fields.filter_map(|field| {
+            let of = self.document.field_class(field);
+            let is_thing = self.document.classes[of].kind == ClassKind::Composite;
+            let part = (is_thing && self.class_of_part(of, name).is_some())
+                .then(|| self.document.field_name(field))?;
+            Some(format!("`{part}.{name}`"))
+        });
+        let having: Vec<String> = having.take(MOST_SHOWN).collect();
+        (!having.is_empty())
+            .then(|| format!("it is a part of others here: {}", having.join(" or ")))
     }
 
     /// Returns true if the text goes on with a sign behind a place, on its line.

@@ -36,10 +36,7 @@ fn is_angle<'a>(state: &State, evaluator: &Evaluator<'a>, owner: ThingId, term: 
         }
         Term::Binary(BinaryOperator::Divide, a, b) => is_number(b) && of(a),
         Term::Send { to, name, .. } => {
-            let receiver = match evaluator.evaluate(to, owner) {
-                Ok(Answer::Thing(thing)) => thing,
-                _ => return false,
-            };
+            let Ok(Answer::Thing(receiver)) = evaluator.evaluate(to, owner) else { return false };
             let structure = &state.structure;
             if let Ok(part) = structure.follow(receiver, &Path(vec![Step::Part(name.clone())])) {
                 return words::class_name(state, part) == ANGLE;

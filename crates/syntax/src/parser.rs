@@ -633,71 +633,75 @@ fn token_fault(file: FileId, text: &str, span: Span, fault: Fault) -> Diagnostic
                 None => format!("found `{first}{more}`, which begins nothing"),
             };
             let d = Diagnostic::error("unknown-character", place, message);
-            let hint = match all.chars().next() {
-                Some('`') => {
-                    "a text stands between straight double quotes, a value in it in braces: `\"x = {x}\"`"
-                }
-                Some('$') if text[span.range().end..].starts_with('{') => {
-                    "a value in a text stands in braces alone: `\"x = {x}\"`"
-                }
-                Some('\\') => latex(&text[span.range().end..]),
-                Some('&') if line_before(text, span).trim_end().ends_with('"') => {
-                    "texts are joined by `+`, or have the values in them: `\"{a}{b}\"`"
-                }
-                Some('\'' | '“' | '”' | '„' | '«' | '»' | '‘' | '’') => {
-                    "a text stands between straight double quotes: `\"hello\"`"
-                }
-                Some(c) if is_unseen(c) => "delete it, and type the line anew",
-                Some('&') => "write `and`",
-                Some('|') if line_before(text, span).trim_start().starts_with("choice ") => {
-                    "options are names with commas between them: `choice Fit { loose, close }`"
-                }
-                Some('|') => "write `or`; a size is `abs(x)`, a relation `l.parallel(to: m)`",
-                Some('∥' | '⊥') => {
-                    "a relation is asked of a thing: `l.parallel(to: m)`, `l.perpendicular(to: m)`"
-                }
-                Some('!')
-                    if line_before(text, span)
-                        .ends_with(|c: char| c.is_alphanumeric() || c == ')') =>
-                {
-                    "a factorial is a product: `(1..5).product`"
-                }
-                Some('!') => "write `not`",
-                Some('%') => "the remainder is `x mod 3`; right after a number `%` is percent",
-                Some('#') if is_colour(text, span) => "a colour is a text: `\"#ff8000\"`",
-                Some('#') => "a comment begins with `//`",
-                Some('×' | '·' | '∙') => "write `*`",
-                Some('÷') => "write `/`",
-                Some('−' | '–') => "write `-`",
-                Some('≤') => "write `<=`",
-                Some('≥') => "write `>=`",
-                Some('≠') => "write `!=`",
-                Some('≈' | '≃' | '≅' | '±' | '~') => {
-                    "what is nearly equal is `a = b within 0.1`"
-                }
-                Some('∈') => "write `in`",
-                Some('½') => "write `0.5`",
-                Some('¼') => "write `0.25`",
-                Some('¾') => "write `0.75`",
-                Some('?') => "a value is chosen by `if c then a else b`",
-                Some('√') => "write `sqrt(x)`",
-                Some('°') if follows(text, span, "°C") => {
-                    "temperatures are in kelvin: 20 °C is `293.15 K`, and a step of 1 °C is `1 K`"
-                }
-                Some('°') if follows(text, span, "°F") => {
-                    "temperatures are in kelvin: 68 °F is `293.15 K`, and a step of 9 °F is `5 K`"
-                }
-                Some('²') => "write `^2`",
-                Some('³') => "write `^3`",
-                Some('€' | '£' | '¥') => MONEY,
-                Some('∞') => "a number is finite: leave out the bound that is none",
-                Some('$') if dollars(text, span) => MONEY,
-                Some('$' | '@') => "names are made of letters, digits and `_`",
-                _ => return d,
-            };
-            d.hint(hint)
+            match meant_by(text, span) {
+                Some(hint) => d.hint(hint),
+                None => d,
+            }
         }
     }
+}
+
+/// Says what is written for a character that begins nothing.
+fn meant_by(text: &str, span: Span) -> Option<&'static str> {
+    Some(match text[span.range()].chars().next() {
+        Some('`') => {
+            "a text stands between straight double quotes, a value in it in braces: `\"x = {x}\"`"
+        }
+        Some('$') if text[span.range().end..].starts_with('{') => {
+            "a value in a text stands in braces alone: `\"x = {x}\"`"
+        }
+        Some('\\') => latex(&text[span.range().end..]),
+        Some('&') if line_before(text, span).trim_end().ends_with('"') => {
+            "texts are joined by `+`, or have the values in them: `\"{a}{b}\"`"
+        }
+        Some('\'' | '“' | '”' | '„' | '«' | '»' | '‘' | '’') => {
+            "a text stands between straight double quotes: `\"hello\"`"
+        }
+        Some(c) if is_unseen(c) => "delete it, and type the line anew",
+        Some('&') => "write `and`",
+        Some('|') if line_before(text, span).trim_start().starts_with("choice ") => {
+            "options are names with commas between them: `choice Fit { loose, close }`"
+        }
+        Some('|') => "write `or`; a size is `abs(x)`, a relation `l.parallel(to: m)`",
+        Some('∥' | '⊥') => {
+            "a relation is asked of a thing: `l.parallel(to: m)`, `l.perpendicular(to: m)`"
+        }
+        Some('!')
+            if line_before(text, span).ends_with(|c: char| c.is_alphanumeric() || c == ')') =>
+        {
+            "a factorial is a product: `(1..5).product`"
+        }
+        Some('!') => "write `not`",
+        Some('%') => "the remainder is `x mod 3`; right after a number `%` is percent",
+        Some('#') if is_colour(text, span) => "a colour is a text: `\"#ff8000\"`",
+        Some('#') => "a comment begins with `//`",
+        Some('×' | '·' | '∙') => "write `*`",
+        Some('÷') => "write `/`",
+        Some('−' | '–') => "write `-`",
+        Some('≤') => "write `<=`",
+        Some('≥') => "write `>=`",
+        Some('≠') => "write `!=`",
+        Some('≈' | '≃' | '≅' | '±' | '~') => "what is nearly equal is `a = b within 0.1`",
+        Some('∈') => "write `in`",
+        Some('½') => "write `0.5`",
+        Some('¼') => "write `0.25`",
+        Some('¾') => "write `0.75`",
+        Some('?') => "a value is chosen by `if c then a else b`",
+        Some('√') => "write `sqrt(x)`",
+        Some('°') if follows(text, span, "°C") => {
+            "temperatures are in kelvin: 20 °C is `293.15 K`, and a step of 1 °C is `1 K`"
+        }
+        Some('°') if follows(text, span, "°F") => {
+            "temperatures are in kelvin: 68 °F is `293.15 K`, and a step of 9 °F is `5 K`"
+        }
+        Some('²') => "write `^2`",
+        Some('³') => "write `^3`",
+        Some('€' | '£' | '¥') => MONEY,
+        Some('∞') => "a number is finite: leave out the bound that is none",
+        Some('$') if dollars(text, span) => MONEY,
+        Some('$' | '@') => "names are made of letters, digits and `_`",
+        _ => return None,
+    })
 }
 
 /// Says what is written for a command of LaTeX, whose word stands here.
