@@ -4,6 +4,8 @@
 //! constants, depends on the classes alone. Where these are as they were, and the part's node is the
 //! one that it was, its part and given values are copied from what the text meant before.
 
+pub(crate) mod used;
+
 use crate::counts::has_named_count;
 use crate::files::File;
 use crate::lower::{Lowered, Lowerer, OWN};

@@ -11,6 +11,7 @@ use crate::families::Family;
 use crate::files::{File, name_of};
 use crate::hints::instead_of_abstract;
 use crate::kept::Added;
+use crate::kept::used::Used;
 use crate::kin::Kin;
 use crate::kinds::Kind;
 use crate::lessons::Lesson;
@@ -74,6 +75,8 @@ pub struct Lowered {
     pub(crate) effective_parse: Parse,
     /// What each member at the top of the effective text added, where that may be kept.
     pub(crate) added: Vec<Option<Added>>,
+    /// What the next text may take over of the texts that are used.
+    pub(crate) used: Option<Rc<Used>>,
     /// Where the effective text differs from the text.
     pub(crate) patches: Vec<Patch>,
     /// Every part that a class declares, by its name: its index among the class's parts.
@@ -206,6 +209,10 @@ pub(crate) struct Lowerer<'l> {
     pub(crate) changed: Vec<Changed>,
     /// What each member at the top of the text added, where that may be kept.
     pub(crate) added: Vec<Option<Added>>,
+    /// What the earlier text meant, where used texts say what they said in it.
+    pub(crate) used: Option<(&'l Lowered, Rc<Used>)>,
+    /// What the next text may take over of used texts.
+    pub(crate) next_used: Option<Rc<Used>>,
     pub(crate) files: IdVec<FileId, File>,
     /// The names of the texts and the tables that were asked for in vain.
     pub(crate) missing: BTreeSet<String>,
@@ -309,6 +316,8 @@ impl<'l> Lowerer<'l> {
             before,
             changed: Vec::new(),
             added: Vec::new(),
+            used: None,
+            next_used: None,
             files: IdVec::new(),
             missing: BTreeSet::new(),
             reading: Vec::new(),
@@ -397,6 +406,7 @@ impl<'l> Lowerer<'l> {
             missing: self.missing,
             parts: self.parts,
             added: self.added,
+            used: self.next_used,
             names: Rc::new(Names {
                 visible: self.visible,
                 object: self.object,

@@ -135,6 +135,7 @@ impl Lowerer<'_> {
                     return Stage::Own(own);
                 }
                 self.declare_for_counts();
+                self.begin_used();
                 self.begin_members();
                 let waiting = self.begin_pending();
                 Stage::Pending { of: waiting.members.len(), waiting: vec![waiting] }
@@ -147,6 +148,7 @@ impl Lowerer<'_> {
                 Stage::Ends
             }
             Stage::Ends => {
+                self.next_used = self.keepable_of_used();
                 let checks = checks::lower(self);
                 let lessons = crate::lessons::lower(self);
                 let (views, toolboxes) = (views::lower(self), views::toolboxes(self));

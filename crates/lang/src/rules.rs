@@ -103,6 +103,7 @@ impl Lowerer<'_> {
             Pending::Absolute { scope, path, target } => {
                 self.define_absolute(&scope, path, &target);
             }
+            Pending::Answer { scope, index, .. } if self.keep_answer(&scope, index) => {}
             Pending::Answer { scope, index, definition } => {
                 self.define_answer(&scope, index, &definition);
             }
@@ -455,6 +456,9 @@ impl Lowerer<'_> {
     }
 
     fn define_constraint(&mut self, scope: &Scope, c: &ast::Constraint, origin: OriginId) {
+        if self.keep_constraint(scope, c, origin) {
+            return;
+        }
         let Some(rule) = c.rule() else { return };
         if self.rule_sets(scope, &rule) {
             return;

@@ -74,3 +74,57 @@ fn what_is_kept_is_what_lowering_anew_gives() {
     }
     assert!(kept > 500, "{kept} parts could be kept");
 }
+
+/// What a document with a library may say: steps and classes that speak of its classes, and what makes these others.
+const DRAWN: [&str; 18] = [
+    "c => Circle(center: Point(0, 1), radius: 2)",
+    "d => Circle.concentric(with: Circle(center: (1, 2), radius: 3), radius: 4)",
+    "p: Point = (3, 4)",
+    "l: Line { p1 = (0, 0) }",
+    "constraint p.x = 3",
+    "program Ring(size: Length = 4) { a = Circle(center: Point(0, 0), radius: size)  b = Circle.concentric(with: a, radius: size / 2) }",
+    "program Ring(size: Length = 4) { a = Circle(center: Point(0, 0), radius: size) }",
+    "program Ring(size: Length = 4) { a = Axis.horizontal(y: size)\nrepeat 2 times { b = Circle(center: Point(0, 0), radius: 1) } }",
+    "ring: Ring { size = 3 }",
+    "modify Line { kind => 3 }",
+    "class Held is Line { without level\nconstraint level: p1.y = p2.y }",
+    "h: Held",
+    "all_points: List of 3 Point",
+    "class Kite { sides: List of 2 Line\nmodify Point { x = 1 } }",
+    "k: Kite",
+    "unit mm",
+    "y down",
+    "use circuits",
+];
+
+#[test]
+fn what_a_library_says_is_what_it_says_anew() {
+    let library = |name: &str| match name {
+        "geometry" => Some(include_str!("../../../../library/geometry.thing").to_string()),
+        "circuits" => Some(include_str!("../../../../library/circuits.thing").to_string()),
+        _ => None,
+    };
+    let mut dice = Dice::new(31);
+    let mut compared = 0;
+    for _ in 0..6 {
+        let mut lines: Vec<&str> = (0..4).map(|_| DRAWN[dice.below(DRAWN.len())]).collect();
+        let mut before: Option<Lowered> = None;
+        for _ in 0..6 {
+            let text = format!("use geometry\n{}\n", lines.join("\n"));
+            let now = lower(&text, &library, before.as_ref());
+            let anew = lower(&text, &library, None);
+            assert_eq!(now.diagnostics, anew.diagnostics, "{text}");
+            if anew.diagnostics.is_empty() {
+                assert_eq!(told(&now), told(&anew), "{text}");
+                compared += 1;
+            }
+            before = Some(now);
+            let (at, line) = (dice.below(lines.len()), DRAWN[dice.below(DRAWN.len())]);
+            match dice.below(2) {
+                0 => lines[at] = line,
+                _ => lines.insert(at, line),
+            }
+        }
+    }
+    assert!(compared > 8, "{compared} of them have nothing wrong");
+}

@@ -48,10 +48,11 @@ impl Recording {
             self.before = self.blocks.get(kept).and_then(|block| block.before.clone());
             self.blocks.truncate(kept);
         }
+        let Some(before) = self.before.take() else { return };
         let home = Home::of(Some(self));
         let body = text::block(source, &self.program, &text::address_of(&home));
         let steps = body.map(|body| text::steps_of(&body)).unwrap_or_default();
-        self.before = self.before.take().filter(|b| steps.iter().any(|step| step.segment == *b));
+        self.before = steps.iter().any(|step| step.segment == before).then_some(before);
     }
 
     /// The block that is demonstrated now.
