@@ -118,7 +118,7 @@ pub(crate) fn run(arguments: &Arguments, form: Form) -> Result<Report, OpenError
         .map(|row| format!("{:016x}", mixed(source, &format!("{row:?}"))))
         .collect();
     let before = arguments.out.as_deref().map(manifest).unwrap_or_default();
-    let files = names(&rows.rows);
+    let files = session::file_names(&rows.rows);
     let is_done = |at: usize| {
         let line = before.get(&hashes[at])?;
         let (out, written) = (arguments.out.as_ref()?, line["files"].as_array()?);
@@ -307,26 +307,6 @@ fn report(
         Form::Json => format!("{json}\n"),
     };
     Report { text, aside: String::new(), good: drawn == lines.len() }
-}
-
-/// Returns a name of a file for each row, none twice.
-fn names(rows: &[FamilyRow]) -> Vec<String> {
-    let mut taken: BTreeMap<String, u32> = BTreeMap::new();
-    let plain = |c: char| if c.is_alphanumeric() || ".-_".contains(c) { c } else { '-' };
-    let name = |row: &FamilyRow| {
-        let name: String = row.name.chars().map(plain).collect();
-        let words: Vec<&str> = name.split('-').filter(|word| !word.is_empty()).collect();
-        let name = words.join("-");
-        let name = match name.trim_matches('.') {
-            "" => "row".to_string(),
-            // what a file system takes for one name is one
-            name => name.to_lowercase(),
-        };
-        let times = taken.entry(name.clone()).or_default();
-        *times += 1;
-        if *times == 1 { name } else { format!("{name}_{times}") }
-    };
-    rows.iter().map(name).collect()
 }
 
 /// Reads what an earlier run said of its rows, by their hashes.

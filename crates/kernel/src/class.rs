@@ -283,6 +283,8 @@ pub struct Message {
     pub is_default: bool,
     /// True if superclasses' answers are combined where the class has none of its own.
     pub is_combining: bool,
+    /// True if what it makes takes the place of what it is sent to, where it is a step.
+    pub is_replacing: bool,
     /// Where it was written.
     pub origin: OriginId,
 }

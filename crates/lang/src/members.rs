@@ -539,6 +539,7 @@ impl Lowerer<'_> {
                 is_asked: false,
                 is_default: false,
                 is_combining: false,
+                is_replacing: false,
                 origin,
             };
             self.add_message(scope, loops, &word, answer, message);
@@ -576,6 +577,7 @@ impl Lowerer<'_> {
             is_asked: message.params().is_some(),
             is_default: message.is_default(),
             is_combining: message.is_combining(),
+            is_replacing: message.is_replacing(),
             origin,
         };
         self.add_message(&inner, loops, &name, &answer, declared);

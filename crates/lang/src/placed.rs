@@ -322,6 +322,7 @@ impl Lowerer<'_> {
             is_asked: false,
             is_default: false,
             is_combining: false,
+            is_replacing: false,
             origin,
         });
         index

@@ -135,6 +135,7 @@ impl Lowerer<'_> {
             is_asked: false,
             is_default: false,
             is_combining: false,
+            is_replacing: false,
             origin,
         };
         let messages = &mut self.document.classes[class].messages;

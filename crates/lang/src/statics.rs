@@ -143,6 +143,7 @@ impl Lowerer<'_> {
             is_asked: true,
             is_default: false,
             is_combining: false,
+            is_replacing: false,
             origin: self.origin(scope.file, span),
         };
         match (message.is_builtin(), message.definition()) {

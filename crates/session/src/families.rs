@@ -52,6 +52,26 @@ pub(crate) fn tables(state: &State) -> BTreeSet<String> {
     read.map(|file| file.name.clone()).chain(missing.cloned()).chain(of_families).collect()
 }
 
+/// Returns a name of a file for each row, without its ending, none twice.
+pub fn file_names(rows: &[FamilyRow]) -> Vec<String> {
+    let mut taken: BTreeMap<String, u32> = BTreeMap::new();
+    let plain = |c: char| if c.is_alphanumeric() || ".-_".contains(c) { c } else { '-' };
+    let name = |row: &FamilyRow| {
+        let name: String = row.name.chars().map(plain).collect();
+        let words: Vec<&str> = name.split('-').filter(|word| !word.is_empty()).collect();
+        let name = words.join("-");
+        let name = match name.trim_matches('.') {
+            "" => "row".to_string(),
+            // what a file system takes for one name is one
+            name => name.to_lowercase(),
+        };
+        let times = taken.entry(name.clone()).or_default();
+        *times += 1;
+        if *times == 1 { name } else { format!("{name}_{times}") }
+    };
+    rows.iter().map(name).collect()
+}
+
 /// Finds a program by its name, or by that of a family.
 fn find<'s>(state: &'s State, name: &str) -> Result<(ClassId, Option<&'s Family>), Refusal> {
     let document = &state.lowered.document;

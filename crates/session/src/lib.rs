@@ -63,6 +63,7 @@ mod words;
 mod write_back;
 mod yielding;
 
+pub use families::file_names;
 pub use host::{Host, used_as};
 pub use kernel::{Command, Literal, Path, Step};
 pub use lang::tables::is_name as is_table_name;

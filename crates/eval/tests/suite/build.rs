@@ -145,6 +145,7 @@ impl Build {
             is_asked: false,
             is_default: false,
             is_combining: false,
+            is_replacing: false,
             origin: self.origin(),
         };
         self.document.classes[class].messages.push(message);

@@ -117,6 +117,7 @@ impl Builder {
             is_asked: false,
             is_default: false,
             is_combining: false,
+            is_replacing: false,
             origin: OriginId(0),
         });
     }

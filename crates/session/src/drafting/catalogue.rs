@@ -10,6 +10,7 @@ use crate::recognise;
 use crate::state::State;
 use base::{Name, Span};
 use kernel::{Class, ClassId, ClassKind, Document, Message, Primitive, Term};
+use std::collections::BTreeSet;
 use syntax::ast::{AstNode, Expr, span_without_doc};
 
 /// A construction, as a tool.
@@ -224,11 +225,13 @@ impl Slot {
             ClassKind::Primitive(Primitive::Choice(of)) => document.classes[of].options.as_slice(),
             _ => &[],
         };
+        // a circle covers its disc
+        let discs = document.class_named("Circle").filter(|_| *found.name == *"Planar");
         Self {
             name: name.into(),
             label,
             class: found.name.clone(),
-            also: Vec::new(),
+            also: discs.map(|c| document.classes[c].name.clone()).into_iter().collect(),
             kind,
             options: options.iter().map(Name::to_string).collect(),
             asks: None,
@@ -261,7 +264,8 @@ impl Slot {
             (_, "Round") => "circle or arc".into(),
             (SlotKind::Set, _) => "figure".into(),
             (SlotKind::Edges, _) => "line or arc".into(),
-            (_, "Planar" | "Outlined") => "contour, surface or region".into(),
+            (_, "Planar") => "contour, surface, region or circle".into(),
+            (_, "Outlined") => "contour, surface or region".into(),
             (_, class) => class.to_lowercase(),
         }
     }
@@ -272,28 +276,16 @@ impl Slot {
     }
 }
 
-/// Messages whose answer takes the place of what they are sent to.
-const IN_PLACE: [&str; 3] = ["trimmed", "begun", "extended"];
-
 impl Tool {
-    /// Whether what it makes takes the place of its first operand, which is erased: where the library's lines and arcs
-    /// answer so, never by a message of the document's own that is called the same.
+    /// Whether what it makes takes the place of its first operand, which is erased: the class of that declares so.
     pub(crate) fn is_in_place(&self, state: &State, home: &Home, of: &str) -> bool {
         let Call::Message(word) = &self.call else { return false };
-        if !IN_PLACE.contains(&word.as_str()) {
-            return false;
-        }
         let mut found = false;
         outcome::try_all(state, home, &[of.to_string()], &mut |_, evaluator, answer| {
-            let document = evaluator.document;
             let class = answer.ok().and_then(|answer| evaluator.class_of(&answer));
-            let declared = class.and_then(|c| document.find_message(c, &Name::new(word), None));
-            found = declared.is_some_and(|(class, message)| {
-                let mut curves = ["Straight", "Round"].into_iter();
-                let is_curve = curves
-                    .any(|c| document.class_named(c).is_some_and(|c| document.is_a(class, c)));
-                is_curve && state.lowered.own_span(message.origin).is_none()
-            });
+            let name = Name::new(word);
+            let declared = class.and_then(|c| evaluator.document.find_message(c, &name, None));
+            found = declared.is_some_and(|(_, message)| message.is_replacing);
         });
         found
     }
@@ -361,6 +353,7 @@ impl Tool {
 pub(crate) fn tools(state: &State, home: &Home) -> Vec<Tool> {
     let document = &state.lowered.document;
     let is_last = |id: ClassId, class: &Class| document.class_named(&class.name) == Some(id);
+    let served = serving(state);
     let mut all: Vec<Tool> = Vec::new();
     for (id, class) in document.classes.iter() {
         if !recognise::is_candidate(state, id, class) || !is_last(id, class) {
@@ -368,7 +361,7 @@ pub(crate) fn tools(state: &State, home: &Home) -> Vec<Tool> {
         }
         let is_program = document.program(id).is_some();
         let is_drawn = compound::is_drawn(document, id);
-        if is_program || is_drawn && !matches!(home, Home::Document) {
+        if is_program && !served.contains(&id) || is_drawn && !matches!(home, Home::Document) {
             let is_placed = is_program && matches!(home, Home::Document);
             let mut tool = constructor(document, id, is_program);
             if let (Some(tool), true) = (&mut tool, is_program) {
@@ -413,6 +406,26 @@ pub(crate) fn tools(state: &State, home: &Home) -> Vec<Tool> {
     };
     all.sort_by_cached_key(|tool| !own(tool));
     all
+}
+
+/// The programs of used texts by which constructions of these draw: hands have those.
+pub(crate) fn serving(state: &State) -> BTreeSet<ClassId> {
+    let document = &state.lowered.document;
+    let is_own = |origin| state.lowered.own_span(origin).is_some();
+    let messages = document.classes.iter().flat_map(|(_, class)| &class.messages);
+    let constructions = messages.filter(|m| m.is_of_class() && !is_own(m.origin));
+    let mut made = BTreeSet::new();
+    let mut left: Vec<&Term> = constructions.map(|m| &m.answer).collect();
+    while let Some(term) = left.pop() {
+        if let Term::Make { class, .. } = term {
+            made.insert(*class);
+        }
+        left.extend(term.operands());
+    }
+    made.retain(|class| {
+        document.program(*class).is_some() && !is_own(document.classes[*class].origin)
+    });
+    made
 }
 
 /// The messages that a class has of abstract ones, which have no things that they could be sent to.
@@ -462,17 +475,18 @@ fn join(known: &mut Tool, other: Tool) {
 
 /// Lets copies take figures that are made of others, where these answer to them.
 fn take_compounds(document: &Document, all: &mut [Tool]) {
-    let compounds =
-        || document.classes.iter().filter(|(id, _)| compound::of(document, *id).is_some());
+    let compounds = document.classes.iter();
+    let compounds = compounds.filter(|(id, _)| compound::of(document, *id).is_some());
+    let compounds = compounds.collect::<Vec<_>>();
     for tool in all {
         let Call::Message(word) = &tool.call else { continue };
         let Some((slot, rest)) = tool.slots.split_first_mut() else { continue };
-        let answers = |(id, _): &(ClassId, &Class)| {
+        let answers = |(id, _): &&(ClassId, &Class)| {
             let labels = rest.len();
             let found = document.find_message(*id, &Name::new(word), None);
             found.is_some_and(|(_, message)| message.parameters.len() == labels)
         };
-        let taken = compounds().filter(answers).map(|(_, class)| class.name.clone());
+        let taken = compounds.iter().filter(answers).map(|(_, class)| class.name.clone());
         if slot.kind == SlotKind::Set {
             slot.also.extend(taken);
         }

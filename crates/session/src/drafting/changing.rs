@@ -194,7 +194,7 @@ pub(crate) fn give(
         Some((pointer, level)) => {
             let all = scene::scene(&open.state, &home_now);
             let nothing = || words::refuse(remove::why_nothing(open, &step, pointer));
-            let picked = match scene::nearest(all.iter(), pointer) {
+            let picked = match scene::nearest_instead(all.iter(), &says, pointer) {
                 Some(found) => found.at_level(level, false),
                 None if is_place && !remove::lies_there(open, pointer) => typed::place(pointer),
                 None => return Err(nothing()),

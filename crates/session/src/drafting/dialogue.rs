@@ -180,6 +180,8 @@ impl Dialogue {
                     let is_whole = |class| slot.takes(state, class);
                     found.at_level(level, found.side_of.is_some_and(is_whole))
                 }
+                // what several cover together is what each of them covers
+                SlotKind::Curve if *slot.class == *"Planar" => found.at_level(level, false),
                 // where a rectangle is wanted, any side of it is meant as all of it
                 SlotKind::Curve if !slot.takes(state, found.class) => found.at_level(0, true),
                 SlotKind::Point | SlotKind::Curve | SlotKind::Edges => found.text.clone(),

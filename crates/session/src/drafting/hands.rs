@@ -316,7 +316,8 @@ impl Session {
             }
             None => {
                 let home = changing::home(open).or_else(|| remove::home(open)).unwrap_or(home);
-                let found = object_at(&state, &home, (pointer, level));
+                let was = of_turn_before(blocks::prompt(open).as_ref());
+                let found = object_at(&state, &home, &was, (pointer, level));
                 let mut hover = found_hover(&state, &home, found);
                 let asked = repeat::asked_drawing(open, &beside);
                 hover.ghost.elements.extend(asked.elements);
@@ -579,14 +580,23 @@ fn found_hover(state: &State, home: &Home, found: Result<scene::Found, Refusal>)
     }
 }
 
-/// What lies under a pointer of what is drawn, or what that is in.
+/// What the object that is asked about was in the first turn; nothing where none is.
+fn of_turn_before(prompt: Option<&Prompt>) -> String {
+    match prompt.map(|prompt| &prompt.wants) {
+        Some(Wants::Recurrence(question)) => question.first.clone(),
+        _ => String::new(),
+    }
+}
+
+/// What lies under a pointer of what is drawn, or what that is in; it may take the place of something.
 fn object_at(
     state: &State,
     home: &Home,
+    was: &str,
     (pointer, level): (&Pointer, usize),
 ) -> Result<scene::Found, Refusal> {
     let all = scene::scene(state, home);
-    let found = scene::nearest(all.iter(), pointer);
+    let found = scene::nearest_instead(all.iter(), was, pointer);
     let none = || words::refuse("nothing that can be picked lies here".into());
     found
         .map(|found| scene::Found { text: found.at_level(level, false), ..found.clone() })
@@ -637,7 +647,7 @@ fn pointed(open: &mut Open, host: &dyn Host, pointer: &Pointer) -> Result<Turn, 
             let change = changing::give(open, host, ("", Some((pointer, level))))?;
             return Ok(turn_of(open, Some(change), String::new()));
         }
-        let found = object_at(&state, &home, (pointer, level))?;
+        let found = object_at(&state, &home, "", (pointer, level))?;
         return Ok(Turn::Wants(Prompt { insert: Some(measured(&state, &found)?), ..prompt }));
     }
     if let Some(dialogue) = &mut open.dialogue {
@@ -665,7 +675,8 @@ fn pointed(open: &mut Open, host: &dyn Host, pointer: &Pointer) -> Result<Turn, 
     let Some(wanted) = blocks::prompt(open) else {
         return Err(words::refuse("nothing is waited for".into()));
     };
-    let found = object_at(&state, &home, (pointer, level))?;
+    let was = of_turn_before(Some(&wanted));
+    let found = object_at(&state, &home, &was, (pointer, level))?;
     match wanted.wants {
         Wants::Recurrence(_) if !wanted.is_value => {
             answered(open, host, (Some(&found.text), Some(pointer.at)))

@@ -13,14 +13,18 @@ pub(crate) struct Measuring {
     pub(crate) kind: MeasureKind,
     /// What was picked so far.
     picked: Vec<Found>,
+    /// What the first of these is.
+    first: Option<Sort>,
 }
 
 /// What a figure is, for a measure.
-#[derive(Clone, Copy, PartialEq, Eq)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum Sort {
     Point,
     Straight,
     Round,
+    /// What has edges: a contour, a surface, a region.
+    Outlined,
 }
 
 fn sort(state: &State, found: &Found) -> Option<Sort> {
@@ -29,6 +33,7 @@ fn sort(state: &State, found: &Found) -> Option<Sort> {
         () if is_of("Point") => Some(Sort::Point),
         () if is_of("Straight") => Some(Sort::Straight),
         () if is_of("Circle") || is_of("Arc") => Some(Sort::Round),
+        () if is_of("Outlined") => Some(Sort::Outlined),
         () => None,
     }
 }
@@ -51,13 +56,13 @@ pub(crate) fn usual(state: &State, found: &Found) -> Option<String> {
     match sort(state, found)? {
         Sort::Round => Some(radius(found)),
         Sort::Straight if is_a(state, found, "Line") => Some(format!("{}.length", found.text)),
-        Sort::Straight | Sort::Point => None,
+        Sort::Straight | Sort::Point | Sort::Outlined => None,
     }
 }
 
 impl Measuring {
     pub(crate) fn new(kind: MeasureKind) -> Self {
-        Self { kind, picked: Vec::new() }
+        Self { kind, picked: Vec::new(), first: None }
     }
 
     /// What is wanted next, in words.
@@ -67,8 +72,12 @@ impl Measuring {
             (MeasureKind::Length, _) => "length: pick a line or an arc",
             (MeasureKind::Across | MeasureKind::Up, _) => "coordinate: pick a point",
             (MeasureKind::Area, _) => "area: pick a circle, or a surface",
-            (MeasureKind::Distance, 0) => "distance: pick a point, a line or a circle",
-            (MeasureKind::Distance, _) => "distance: pick the other",
+            (MeasureKind::Distance, 0) => "distance: pick a point, a line, a circle or a contour",
+            (MeasureKind::Distance, _) => match self.first {
+                Some(Sort::Outlined) => "distance: pick the point that is so far from it",
+                Some(Sort::Straight | Sort::Round) => "distance: pick a point, a line or a circle",
+                Some(Sort::Point) | None => "distance: pick the other",
+            },
             (MeasureKind::Angle, 0) => "angle: pick a line",
             (MeasureKind::Angle, _) => "angle: pick the line that it goes to",
         }
@@ -85,7 +94,14 @@ impl Measuring {
                     || is_a(state, found, "Surface")
                     || is_a(state, found, "Contour")
             }
-            MeasureKind::Distance => sort.is_some(),
+            // how far edges are from what is no point nobody says
+            MeasureKind::Distance => match self.first {
+                None | Some(Sort::Point) => sort.is_some(),
+                Some(Sort::Outlined) => sort == Some(Sort::Point),
+                Some(Sort::Straight | Sort::Round) => {
+                    sort.is_some_and(|sort| sort != Sort::Outlined)
+                }
+            },
             MeasureKind::Angle => sort == Some(Sort::Straight),
         }
     }
@@ -107,6 +123,7 @@ impl Measuring {
 
     /// Takes one more pick; returns the expression once it is complete.
     pub(crate) fn take(&mut self, state: &State, found: Found) -> Option<String> {
+        self.first = self.first.or_else(|| sort(state, &found));
         self.picked.push(found);
         match (self.kind, self.picked.as_slice()) {
             (MeasureKind::Radius, [a, ..]) => Some(radius(a)),
@@ -124,26 +141,48 @@ impl Measuring {
     }
 }
 
-/// Writes how far two figures are from each other: of lines that of a point of one, of circles between the curves.
+/// Writes how far two figures are from each other where they are nearest; of two unbounded lines how far apart they run.
+/// Arcs are only told from the circles that they are parts of where the other is a point.
 fn distance(state: &State, a: &Found, b: &Found) -> Option<String> {
     let (one, other) = (sort(state, a)?, sort(state, b)?);
+    let is_segment = |found: &Found| is_a(state, found, "Line");
+    let (first, second) = (&a.text, &b.text);
     Some(match (one, other) {
-        (Sort::Point, Sort::Point) => format!("{}.distance(to: {})", a.text, b.text),
-        (Sort::Straight, Sort::Point) => format!("abs({}.offset(of: {}))", a.text, b.text),
-        (Sort::Straight, Sort::Straight) => format!("abs({}.offset(of: {}.p1))", a.text, b.text),
-        (Sort::Straight, Sort::Round) => {
-            format!("abs(abs({}.offset(of: {}.center)) - {})", a.text, b.text, radius(b))
+        (Sort::Point, Sort::Point) => format!("{first}.distance(to: {second})"),
+        (Sort::Straight | Sort::Round | Sort::Outlined, Sort::Point) => {
+            format!("{first}.clearance(to: {second})")
         }
-        (Sort::Round, Sort::Point) => {
-            format!("abs({}.center.distance(to: {}) - {})", a.text, b.text, radius(a))
+        (Sort::Straight, Sort::Straight) => match (is_segment(a), is_segment(b)) {
+            (true, true) => format!("{first}.apart(from: {second})"),
+            (false, false) => format!("abs({first}.offset(of: {second}.p1))"),
+            (false, true) => {
+                let [p, q] = ["p1", "p2"].map(|end| format!("{first}.offset(of: {second}.{end})"));
+                format!("max(min({p}, {q}), -max({p}, {q}), 0)")
+            }
+            (true, false) => return distance(state, b, a),
+        },
+        (Sort::Straight, Sort::Round) => {
+            let (center, r) = (format!("{second}.center"), radius(b));
+            let nearest = format!("{first}.clearance(to: {center}) - {r}");
+            match is_segment(a) {
+                // all of it may lie within
+                true => {
+                    let [p, q] =
+                        ["p1", "p2"].map(|end| format!("{center}.distance(to: {first}.{end})"));
+                    format!("max({nearest}, {r} - max({p}, {q}), 0)")
+                }
+                false => format!("max({nearest}, 0)"),
+            }
         }
         (Sort::Round, Sort::Round) => {
-            let apart = format!("{}.center.distance(to: {}.center)", a.text, b.text);
-            format!("abs({apart} - {} - {})", radius(a), radius(b))
+            let apart = format!("{first}.center.distance(to: {second}.center)");
+            let (r, s) = (radius(a), radius(b));
+            format!("max({apart} - {r} - {s}, abs({r} - {s}) - {apart}, 0)")
         }
-        (Sort::Point | Sort::Round, Sort::Straight) | (Sort::Point, Sort::Round) => {
-            return distance(state, b, a);
-        }
+        (Sort::Point | Sort::Round, Sort::Straight)
+        | (Sort::Point, Sort::Round | Sort::Outlined) => return distance(state, b, a),
+        (Sort::Outlined, Sort::Straight | Sort::Round | Sort::Outlined)
+        | (Sort::Straight | Sort::Round, Sort::Outlined) => return None,
     })
 }
 

@@ -217,7 +217,8 @@ pub(crate) fn instead(
                     !text::places_of(text, name).is_empty()
                 })
             };
-            let found = scene::nearest(all.iter().filter(|f| !is_gone(&f.text)), pointer);
+            let left = all.iter().filter(|f| !is_gone(&f.text));
+            let found = scene::nearest_instead(left, &of, pointer);
             let nothing = || {
                 let gone = scene::nearest(all.iter(), pointer).map(|f| format!("{} goes", f.text));
                 words::refuse(gone.unwrap_or_else(|| why_nothing(open, &step, pointer)))

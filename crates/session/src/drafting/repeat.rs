@@ -82,10 +82,14 @@ impl Loop {
                 true => step.as_str(),
                 false => "the block",
             };
-            let first = &steps::as_typed(first, "").unwrap_or_else(|| first.clone());
+            let place = steps::as_typed(first, "");
+            let first = place.as_ref().unwrap_or(first);
             let words = match &question.element {
                 Some(_) => format!(
                     "{operand} of {step} is {first}: each of the set in turn, or always this one?"
+                ),
+                None if place.is_some() => format!(
+                    "{operand} of {step} was {first}: the same, which object of the turn before, or how far on, `@dx,dy`?"
                 ),
                 None => {
                     format!(

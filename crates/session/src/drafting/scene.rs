@@ -65,6 +65,23 @@ pub(crate) fn nearest<'f>(
     .map(|(_, f)| f)
 }
 
+/// Returns the nearest of figures that may take the place of one. A centre or an end stands for a place alone, unless
+/// nothing else is there.
+pub(crate) fn nearest_instead<'f>(
+    all: impl Iterator<Item = &'f Found> + Clone,
+    of: &str,
+    pointer: &Pointer,
+) -> Option<&'f Found> {
+    let of = of.trim_start_matches('-');
+    let is_it =
+        |f: &&Found| f.text == of && !f.curve.is_point() || f.wholes.iter().any(|w| w == of);
+    let figure = all.clone().any(|f| is_it(&f)).then(|| {
+        let figures = all.clone().filter(|f| !f.is_place);
+        nearest(figures, pointer)
+    });
+    figure.flatten().or_else(|| nearest(all, pointer))
+}
+
 /// Finds the figures of a home that lie in a rectangle: whole ones, never the ends of a line that goes on outside.
 pub(crate) fn within(state: &State, home: &Home, (a, b): ((f64, f64), (f64, f64))) -> Vec<Found> {
     let across = a.0.min(b.0)..=a.0.max(b.0);

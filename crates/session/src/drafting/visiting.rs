@@ -136,6 +136,11 @@ impl Session {
         self.document(id).recording.as_ref().map(|recording| recording.program.as_str())
     }
 
+    /// Returns the path of the example by which a program is recorded.
+    pub fn recorded_example(&self, id: DocumentId) -> Option<&str> {
+        self.document(id).recording.as_ref().map(|recording| recording.example.as_str())
+    }
+
     /// Returns the names of the parameters of what is recorded.
     pub fn parameters(&self, id: DocumentId) -> Vec<String> {
         let open = self.document(id);

@@ -3,7 +3,7 @@
 use super::grid::{self, Line};
 use super::{find, map};
 use crate::document::Open;
-use crate::drafting::retext;
+use crate::drafting::{retext, serving};
 use crate::session::{Session, parse_path};
 use crate::state::State;
 use crate::tools::{Tool, room};
@@ -29,12 +29,13 @@ impl Session {
 
     /// Returns the programs of which families can be made, by their names.
     pub fn programs(&self, id: DocumentId) -> Vec<String> {
-        let document = &self.document(id).state.lowered.document;
+        let state = &self.document(id).state;
+        let (document, served) = (&state.lowered.document, serving(state));
         let programs = document
             .classes
             .iter()
             .filter(|(id, c)| document.class_named(&c.name) == Some(*id))
-            .filter(|(_, c)| c.program.is_some() && !c.is_abstract);
+            .filter(|(id, c)| c.program.is_some() && !c.is_abstract && !served.contains(id));
         programs.map(|(_, class)| class.name.to_string()).collect()
     }
 
@@ -220,7 +221,11 @@ impl Session {
             let all = 1 + grid.columns.len();
             let wide = from.1 + rows.iter().map(Vec::len).max().unwrap_or_default();
             if wide > all {
-                let message = format!("what is pasted ends {} columns beyond the grid", wide - all);
+                let beyond = match wide - all {
+                    1 => "1 column".into(),
+                    n => format!("{n} columns"),
+                };
+                let message = format!("what is pasted ends {beyond} beyond the grid");
                 return Err(words::refuse(message));
             }
             if from.0 > lines.len() {

@@ -185,7 +185,7 @@ fn a_stair_begins_its_next_step_where_the_last_one_ends() {
     desk.session.end_turn(desk.id, Ends::Times).expect("a turn is drawn");
     // the place where it began is asked for, too
     let asked = desk.session.prompt(desk.id).expect("it asks").words;
-    assert!(asked.contains("was (0, 0)"), "{asked}");
+    assert!(asked.contains("was (0, 0)") && asked.contains("how far on, `@dx,dy`"), "{asked}");
     pick(&mut desk, 29.0, 17.0);
     for _ in 0..2 {
         desk.session.same(desk.id).expect("it may be the same");

@@ -152,6 +152,19 @@ fn what_a_message_of_the_documents_own_is_sent_to_is_not_erased() {
 }
 
 #[test]
+fn what_a_message_that_replaces_is_sent_to_is_erased() {
+    let own = CROSSED.replace("    extended(by", "    replacing extended(by");
+    let mut desk = Desk::of(&own);
+    desk.session.record(desk.id, "Trim").expect("it is there");
+    begin(&mut desk, "Line:extended");
+    enter(&mut desk, "beam");
+    made(enter(&mut desk, "5"));
+    let lines = " = beam.extended(by: 5)\n    erase beam\n";
+    assert!(desk.text().contains(lines), "{}", desk.text());
+    assert_eq!(desk.wrong(), []);
+}
+
+#[test]
 fn a_line_before_the_loop_that_is_trimmed_in_it_stays_and_is_told() {
     let mut desk = Desk::of(CROSSED);
     desk.session.record(desk.id, "Trim").expect("it is there");
@@ -270,6 +283,108 @@ fn the_place_of_a_point_in_a_loop_is_asked_for() {
     enter(&mut desk, "@pitch,0");
     enter(&mut desk, "3");
     assert_eq!(value(&desk, "row.turns.last.circle"), "centre (40, 0), radius 3");
+}
+
+#[test]
+fn a_small_circle_and_not_its_centre_is_the_object_of_the_turn_before() {
+    let mut desk = Desk::recording("Row", &[]);
+    begin(&mut desk, "Circle");
+    enter(&mut desk, "0,0");
+    made(enter(&mut desk, "2"));
+    desk.session.give_up(desk.id);
+    desk.session.begin_loop(desk.id, "").expect("a program is recorded");
+    begin(&mut desk, ":moved(by)");
+    point(&mut desk, 2.0, 0.0);
+    made(enter(&mut desk, "20,0"));
+    desk.session.give_up(desk.id);
+    desk.session.end_turn(desk.id, Ends::Times).expect("a turn is drawn");
+    // the centre is as near as a hand is steady
+    let hover = desk.session.hover(desk.id, &pointer(22.0, 0.0), "");
+    assert_eq!(hover.finds.as_deref(), Some("shifted"));
+    point(&mut desk, 22.0, 0.0);
+    desk.session.same(desk.id).expect("it may be the same");
+    enter(&mut desk, "3");
+    assert_eq!(desk.wrong(), [], "{}", desk.text());
+    assert_eq!(value(&desk, "row.turns.last.shifted"), "centre (60, 0), radius 2");
+}
+
+#[test]
+fn all_holes_of_a_loop_are_taken_from_a_plate_by_one_pick() {
+    let mut desk = Desk::of(
+        "use contours\nprogram Plate() {\n    box = Contour.box(of: Rectangle.between(first: Point(0, 0), second: Point(60, 20)))\n    holes = for x in [10, 30, 50] {\n        hole = Circle(center: Point(x, 10), radius: 3)\n    }\n}\nplate: Plate\n",
+    );
+    desk.session.record(desk.id, "Plate").expect("it is there");
+    begin(&mut desk, "Region.difference(first,second)");
+    point(&mut desk, 30.0, 0.0);
+    let edge = pointer(30.0, 13.0);
+    assert_eq!(desk.session.hover(desk.id, &edge, "").finds.as_deref(), Some("holes[1].hole"));
+    while desk.session.hover(desk.id, &edge, "").finds.as_deref() != Some("holes") {
+        desk.session.pick_wider(desk.id);
+    }
+    made(point(&mut desk, 30.0, 13.0));
+    assert_eq!(desk.wrong(), [], "{}", desk.text());
+    // 60 by 20 without three discs of radius 3: 1200 - 27 pi
+    let covered = value(&desk, "plate.region.area");
+    assert!(covered.starts_with("1115.17") || covered.starts_with("1115.18"), "{covered}");
+}
+
+/// What is drawn: its places are on no other curve.
+const FAR: &str = "\
+use contours
+program Far() {
+    point = Point(13, 4)
+    line = Line(Point(0, 0), Point(10, 0))
+    upright = Line(Point(40, 0), Point(40, 10))
+    axis = Axis(Point(0, -50), Point(1, -50))
+    circle = Circle(Point(100, 0), 5)
+    inner = Circle(Point(100.5, 0), 4)
+    arc = Arc(Point(0, 100), Point(5, 100), Point(0, 105))
+    box = Contour.box(of: Rectangle.between(first: Point(10, 200), second: Point(20, 210)))
+}
+far: Far
+";
+
+/// Takes a distance between what lies at two places; returns what is written, and what it comes to.
+fn far(from: (f64, f64), to: (f64, f64)) -> (String, String) {
+    let mut desk = Desk::of(FAR);
+    desk.session.record(desk.id, "Far").expect("it is there");
+    begin(&mut desk, "Circle");
+    enter(&mut desk, "500,500");
+    desk.session.begin_measure(desk.id, MeasureKind::Distance);
+    point(&mut desk, from.0, from.1);
+    let Turn::Wants(prompt) = point(&mut desk, to.0, to.1) else { panic!("it is a radius") };
+    let written = prompt.insert.expect("it is taken");
+    made(enter(&mut desk, &written));
+    assert_eq!(desk.wrong(), []);
+    (written, value(&desk, "far.circle2.radius"))
+}
+
+#[test]
+fn a_distance_is_that_to_the_nearest_of_what_is_picked() {
+    let (point, line, upright, axis) = ((13.0, 4.0), (5.0, 0.0), (40.0, 5.0), (5.0, -50.0));
+    let (circle, inner, arc, box_) = ((100.0, 5.0), (100.5, -4.0), (3.54, 103.54), (10.0, 205.0));
+    let far = |from, to| far(from, to).1;
+    // right triangles with sides 3, 4, 5, and differences along one axis
+    assert_eq!(far(point, line), "5");
+    assert_eq!(far(line, point), "5");
+    assert_eq!(far(line, upright), "30");
+    assert_eq!(far(axis, upright), "50");
+    assert_eq!(far(line, circle), "85");
+    assert_eq!(far(axis, circle), "45");
+    // one within the other
+    assert_eq!(far(circle, inner), "0.5");
+    // an arc's circle
+    assert_eq!(far(arc, line), "95");
+    assert_eq!(far(box_, point), "196");
+    let mut desk = Desk::of(FAR);
+    desk.session.record(desk.id, "Far").expect("it is there");
+    begin(&mut desk, "Circle");
+    enter(&mut desk, "500,500");
+    desk.session.begin_measure(desk.id, MeasureKind::Distance);
+    self::point(&mut desk, box_.0, box_.1);
+    let wrong = desk.session.point(desk.id, &pointer(line.0, line.1));
+    let wrong = wrong.expect_err("contours are measured to points").message;
+    assert_eq!(wrong, "distance: pick the point that is so far from it");
 }
 
 #[test]

@@ -127,7 +127,7 @@ fn a_block_of_cells_is_pasted_from_a_spreadsheet() {
     assert_eq!(cells(&desk, "Sold")[4], named("\"A", ["5", "", ""]));
     assert_eq!(cells(&desk, "Sold")[5], named("B", ["6", "", ""]));
     for (from, block, why) in [
-        ((0, 3), "3\t4", "what is pasted ends 1 columns beyond the grid"),
+        ((0, 3), "3\t4", "what is pasted ends 1 column beyond the grid"),
         ((9, 1), "3", "Sold has no row 10"),
         ((0, 1), "10\tx", "hole: "),
     ] {

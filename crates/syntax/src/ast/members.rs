@@ -190,6 +190,10 @@ impl Message {
     pub fn is_combining(&self) -> bool {
         has_keyword(&self.syntax, "combining")
     }
+    /// Returns true for a message marked `replacing`.
+    pub fn is_replacing(&self) -> bool {
+        has_keyword(&self.syntax, "replacing")
+    }
     /// Returns true for a message to the class itself, marked `static`.
     pub fn is_static(&self) -> bool {
         has_keyword(&self.syntax, "static")

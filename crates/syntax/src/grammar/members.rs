@@ -36,6 +36,7 @@ pub(crate) const KEYWORDS: &[&str] = &[
     "combining",
     "builtin",
     "static",
+    "replacing",
     "without",
     "replace",
     "for",
@@ -122,7 +123,7 @@ pub(super) fn member(p: &mut Parser<'_>) -> bool {
             tolerance(p);
             methods_if_any(p);
         }),
-        "default" | "combining" | "builtin" | "static" => modified(p),
+        "default" | "combining" | "builtin" | "static" | "replacing" => modified(p),
         "ref" => one(p, Ref, reference),
         "attachers" => one(p, Attachers, paths),
         "handle" => one(p, Handle, |p| {
@@ -331,11 +332,12 @@ fn message(p: &mut Parser<'_>) -> bool {
     defined
 }
 
-/// `default picture => …`, `combining picture => …`, `static builtin around(center: Point, through: Point): Circle`
+/// `default picture => …`, `combining picture => …`, `replacing trimmed(at c: Curve) => …`, `static builtin around(center: Point, through: Point): Circle`
 fn modified(p: &mut Parser<'_>) {
     p.start_documented(Message);
     let mut builtin = false;
-    while p.nth(1) == Ident && matches!(p.word(0), "default" | "combining" | "builtin" | "static") {
+    let modifiers = ["default", "combining", "builtin", "static", "replacing"];
+    while p.nth(1) == Ident && modifiers.contains(&p.word(0)) {
         builtin |= p.word(0) == "builtin";
         p.bump_keyword();
     }
