@@ -431,9 +431,13 @@ impl Said {
             };
         }
         let class = match new.class.trim() {
-            "" => class_of_example(state, &example)?,
+            "" => class_of_example(state, &example).map_err(|why| or_a_text(why, &example))?,
             class => class.into(),
         };
+        if class == "Text" && !keeps_example && class_of_example(state, &example).is_err() {
+            // words that name nothing are the text itself
+            example = quoted(&example);
+        }
         let mut range = new.range.trim().to_string();
         let keeps_range = is_old(&range, |old| &old.range);
         let read = Allowed::of(&range).filter(|_| !range.is_empty());
@@ -504,6 +508,18 @@ impl Said {
         edits
             .into_iter()
             .fold(source.to_string(), |text, (span, with)| replaced(&text, span, &with))
+    }
+}
+
+/// Says how words are written that were to be a text, where they may be that.
+fn or_a_text(why: Refusal, example: &str) -> Refusal {
+    let is_words = example.chars().all(|c| c.is_alphanumeric() || c.is_whitespace());
+    match is_words && example.chars().any(char::is_alphabetic) {
+        true => Refusal {
+            message: format!("{}; a text stands in quotes: {}", why.message, quoted(example)),
+            ..why
+        },
+        false => why,
     }
 }
 

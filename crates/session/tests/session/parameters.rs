@@ -490,3 +490,19 @@ fn what_is_wrong_of_a_parameter_is_said_of_its_field() {
         assert!(all.iter().any(|said| said.starts_with(wrong)), "{fields:?}: {all:?}");
     }
 }
+
+#[test]
+fn words_that_were_to_be_a_text_are_told_how_it_is_written() {
+    let mut desk = flange();
+    let mut new =
+        NewParameter { name: "drawn".into(), example: "Anna".into(), ..NewParameter::default() };
+    let wrong = desk.session.define_parameter(desk.id, &new).expect_err("it names nothing");
+    assert_eq!(
+        wrong.message,
+        "Anna: there is nothing called Anna here; a text stands in quotes: \"Anna\""
+    );
+    new.class = "Text".into();
+    desk.session.define_parameter(desk.id, &new).expect("it is said to be a text");
+    assert!(desk.text().contains("drawn: Text = \"Anna\""), "{}", desk.text());
+    assert_eq!(desk.wrong(), []);
+}
