@@ -1,5 +1,5 @@
 //! The page's room below the browser: what is painted of a picture and picked in it, which rows are in sight, how
-//! numbers, sentences and paths are put, what is found by words and read of keys, what drafts are kept.
+//! numbers, sentences and paths are put, what is found by words and read of keys, what drafts are kept, how files become one.
 //!
 //! Its nouns: a [`sheet::View`] is where the sheet lies on the screen; a [`paint::DisplayList`] is what is painted;
 //! [`marks::Marked`] is what is selected or under the pointer; a [`rows::Shown`] is a row that no shut row hides; a
@@ -12,6 +12,7 @@
 //! Reading order: [`sheet`], [`paint`], [`pick`], [`band`], [`marks`]; [`rows`], [`palette`], [`shelves`]; then the
 //! rest, each a page.
 pub mod annotations;
+pub mod archive;
 pub mod band;
 pub mod chart;
 pub mod course;

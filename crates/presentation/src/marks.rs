@@ -11,12 +11,14 @@ pub struct Marked {
     pub selected: Vec<String>,
     /// What is under the pointer.
     pub hovered: Option<String>,
+    /// What is drawn now, while a program is recorded: its example.
+    pub recorded: Option<String>,
 }
 
 /// Returns how each of a picture's tags and then each of its grips is marked.
 pub fn marks(picture: &PictureView, marked: &Marked) -> Vec<Mark> {
     let is = |whole: &String, path: &str| !whole.is_empty() && covers(whole, path);
-    if marked.selected.is_empty() && marked.hovered.is_none() {
+    if *marked == Marked::default() {
         return Vec::new();
     }
     let mark = |path: &String| {
@@ -24,6 +26,8 @@ pub fn marks(picture: &PictureView, marked: &Marked) -> Vec<Mark> {
             Mark::Selected
         } else if marked.hovered.as_ref().is_some_and(|whole| is(whole, path)) {
             Mark::Hovered
+        } else if marked.recorded.as_ref().is_some_and(|whole| !is(whole, path)) {
+            Mark::Outside
         } else {
             Mark::None
         }
@@ -43,11 +47,15 @@ mod tests {
         let picture = PictureView { paths, ..PictureView::default() };
         let marks = |selected: &[&str], hovered: Option<&str>| {
             let selected = selected.iter().map(|path| String::from(*path)).collect();
-            marks(&picture, &Marked { selected, hovered: hovered.map(String::from) })
+            let hovered = hovered.map(String::from);
+            marks(&picture, &Marked { selected, hovered, ..Marked::default() })
         };
         assert_eq!(marks(&["a.b"], Some("a")), [Mark::Hovered, Mark::Selected, Mark::None]);
         assert_eq!(marks(&["a.b", "c"], None), [Mark::None, Mark::Selected, Mark::Selected]);
         assert_eq!(marks(&[""], None), [Mark::None; 3]);
         assert!(marks(&[], None).is_empty());
+        let recorded = Some(String::from("a"));
+        let marked = super::marks(&picture, &Marked { recorded, ..Marked::default() });
+        assert_eq!(marked, [Mark::None, Mark::None, Mark::Outside]);
     }
 }

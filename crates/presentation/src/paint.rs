@@ -19,9 +19,14 @@
 //! | 11 | the ring is closed |
 //! | 12, x, y, radius, start, sweep | the ring goes on by an arc |
 //! | 13, begins | a region of rings begins, or ends where 0 |
+//! | 14, x, y, x, y, x, y | the ring goes on by a cubic curve |
+//! | 15, opacity | how much of what follows is seen, from 0 to 1 |
+
+mod reach;
 
 use crate::sheet::View;
 use drawing::{Anchoring, Color, Drawing, Element, Layer, Line, Placement, Point, Shape, Style};
+use reach::Reach;
 use session::view::{Caught, Freedom, MovedView, PictureView, Velocity};
 use std::cell::LazyCell;
 use std::collections::BTreeSet;
@@ -121,12 +126,16 @@ pub enum Mark {
     Hovered,
     /// It is selected.
     Selected,
+    /// It stands outside of what is drawn now, and is dimmed.
+    Outside,
 }
 
 /// The width of a line where the document does not say, in pixels.
 const USUAL_WIDTH: f64 = 1.75;
 /// The length of the longest arrow of a motion, in pixels.
 const ARROW: f64 = 44.0;
+/// So much is seen of what is dimmed.
+const DIMMED: f64 = 0.4;
 /// The radius of a point, in pixels.
 const POINT: f64 = 4.75;
 
@@ -144,6 +153,18 @@ pub fn display_list(picture: &PictureView, part: Part<'_>, marks: &[Mark]) -> Di
         .filter(|grip| grip.anchored)
         .map(|grip| grip.path.as_str())
         .collect();
+    let is_dimmed = |at: usize| marks.get(at) == Some(&Mark::Outside);
+    let (dimmed, own): (Vec<_>, Vec<_>) =
+        own.into_iter().partition(|e| is_dimmed(e.tag.0 as usize));
+    let (dimmed_bare, bare): (Vec<_>, Vec<_>) =
+        bare.into_iter().partition(|at| is_dimmed(picture.paths.len() + at));
+    if !dimmed.is_empty() || !dimmed_bare.is_empty() {
+        opacity(&mut list, DIMMED);
+        paint_elements(&mut list, picture, &anchored, &in_layers(picture, &dimmed));
+        let grips = dimmed_bare.iter().map(|at| &picture.grips[*at]).filter(|grip| !grip.drawn);
+        grips.for_each(|g| dot(&mut list, Point { x: g.x, y: g.y }, g.freedom, g.anchored));
+        opacity(&mut list, 1.0);
+    }
     let elements = in_layers(picture, &own);
     for mark in [Mark::Hovered, Mark::Selected] {
         halos(&mut list, &elements, marks, mark);
@@ -155,7 +176,7 @@ pub fn display_list(picture: &PictureView, part: Part<'_>, marks: &[Mark]) -> Di
     let words = elements.iter().position(|e| e.layer == Layer::Words).unwrap_or(elements.len());
     let (below, words) = elements.split_at(words);
     paint_elements(&mut list, picture, &anchored, below);
-    paint_points_at_rest(&mut list, picture, part);
+    paint_points_at_rest(&mut list, picture, part, &is_dimmed);
     for at in bare {
         let grip = &picture.grips[at];
         if grip.drawn && marks.get(picture.paths.len() + at).is_none_or(|m| *m == Mark::None) {
@@ -168,7 +189,12 @@ pub fn display_list(picture: &PictureView, part: Part<'_>, marks: &[Mark]) -> Di
 }
 
 /// Paints the points that rest over the lines that move, where there are few: a line does not lie over its end.
-fn paint_points_at_rest(list: &mut DisplayList, picture: &PictureView, part: Part<'_>) {
+fn paint_points_at_rest(
+    list: &mut DisplayList,
+    picture: &PictureView,
+    part: Part<'_>,
+    is_dimmed: &dyn Fn(usize) -> bool,
+) {
     /// With more points these stay under what moves.
     const MOST: usize = 400;
     let Part::Moving(view @ MovedView::These { .. }) = part else { return };
@@ -178,7 +204,7 @@ fn paint_points_at_rest(list: &mut DisplayList, picture: &PictureView, part: Par
     let rest = Part::Still(view);
     let dots: Vec<&Element> = { rest.elements(picture).into_iter() }
         .map(|at| &picture.drawing.elements[at])
-        .filter(|element| matches!(element.shape, Shape::Dot(_)))
+        .filter(|e| matches!(e.shape, Shape::Dot(_)) && !is_dimmed(e.tag.0 as usize))
         .collect();
     let grips = rest.grips(picture);
     let bare = bare_grips(picture, &dots, &grips);
@@ -187,47 +213,9 @@ fn paint_points_at_rest(list: &mut DisplayList, picture: &PictureView, part: Par
         .map(|grip| grip.path.as_str())
         .collect();
     paint_elements(list, picture, &anchored, &dots);
-    for grip in bare.iter().map(|at| &picture.grips[*at]).filter(|grip| !grip.drawn) {
+    let clear = bare.iter().filter(|at| !is_dimmed(picture.paths.len() + **at));
+    for grip in clear.map(|at| &picture.grips[*at]).filter(|grip| !grip.drawn) {
         dot(list, Point { x: grip.x, y: grip.y }, grip.freedom, grip.anchored);
-    }
-}
-
-/// How far lines without ends are shown: as far around the middle of a picture as one is likely to look.
-struct Reach {
-    middle: Point,
-    length: f64,
-}
-
-impl Reach {
-    fn of(picture: &Drawing) -> Self {
-        /// Where there is nothing else to go by, in units of the sheet.
-        const ALONE: f64 = 2000.0;
-        /// So many times as far as the picture is wide and high.
-        const TIMES: f64 = 4.0;
-        let ends = picture.elements.iter().filter(|e| !e.style.is_unbounded);
-        match drawing::bounds_of(ends, picture.vertical) {
-            Some(b) if b.most != b.least => Self {
-                middle: Point {
-                    x: f64::midpoint(b.least.x, b.most.x),
-                    y: f64::midpoint(b.least.y, b.most.y),
-                },
-                length: TIMES * (b.most.x - b.least.x + b.most.y - b.least.y),
-            },
-            _ => Self { middle: Point::default(), length: ALONE },
-        }
-    }
-
-    /// What is shown of a line without ends; nothing where it has no direction.
-    fn across(&self, (a, b): (Point, Point)) -> Option<Shape> {
-        let (dx, dy) = (b.x - a.x, b.y - a.y);
-        let length = base::number::hypot(dx, dy);
-        if length <= 0.0 {
-            return None;
-        }
-        let (ux, uy) = (dx / length, dy / length);
-        let along = (self.middle.x - a.x) * ux + (self.middle.y - a.y) * uy;
-        let at = |t: f64| Point { x: a.x + t * ux, y: a.y + t * uy };
-        Some(Shape::Segment(at(along - self.length), at(along + self.length)))
     }
 }
 
@@ -453,7 +441,7 @@ fn halos(list: &mut DisplayList, elements: &[&Element], marks: &[Mark], mark: Ma
 
 fn halo_color(mark: Mark) -> Option<i32> {
     match mark {
-        Mark::None => None,
+        Mark::None | Mark::Outside => None,
         Mark::Hovered => Some(Hue::SoftHalo as i32),
         Mark::Selected => Some(Hue::Halo as i32),
     }
@@ -485,6 +473,12 @@ fn take_up(list: &mut DisplayList, style: [f64; 5]) {
         list.numbers.extend(style);
         list.style = Some(style);
     }
+}
+
+/// From here on so much is seen.
+fn opacity(list: &mut DisplayList, seen: f64) {
+    list.numbers.extend([15.0, seen]);
+    list.style = None;
 }
 
 fn line_number(line: Line) -> f64 {
@@ -786,6 +780,38 @@ mod tests {
         let marked = display_list(&picture(elements, None), Part::Whole, &[Mark::Selected]).numbers;
         assert_eq!(&marked[..2], &[1.0, 8.0]);
         assert_eq!(&marked[marked.len() - plain.len()..], plain);
+    }
+
+    #[test]
+    fn what_stands_outside_is_dimmed_below_the_rest() {
+        let elements = [0, 1].map(|tag| {
+            let shape = segment(f64::from(tag));
+            Element { tag: Tag(tag), ..element(shape, Layer::Lines, Style::default()) }
+        });
+        let picture = PictureView {
+            paths: vec![String::from("p"), String::from("q")],
+            freedom: vec![None; 2],
+            ..picture(elements.to_vec(), None)
+        };
+        let list = display_list(&picture, Part::Whole, &[Mark::None, Mark::Outside]);
+        let style = [1.0, 0.0, -1.0, 0.0, 1.75, 0.0];
+        let line = |x: f64| [2.0, x, 0.0, x, 1.0];
+        let dimmed = [&[15.0, 0.4], &style[..], &line(1.0), &[15.0, 1.0]].concat();
+        assert_eq!(list.numbers, [&dimmed[..], &style, &line(0.0)].concat());
+        // nor does a point of it come to the front while something moves
+        let grip = Grip {
+            path: String::from("q"),
+            x: 1.0,
+            y: 0.0,
+            anchored: false,
+            drawn: false,
+            freedom: None,
+        };
+        let picture = PictureView { grips: vec![grip], ..picture };
+        let moved = MovedView::These { elements: vec![0], grips: Vec::new() };
+        let marks = [Mark::None, Mark::Outside, Mark::Outside];
+        let list = display_list(&picture, Part::Moving(&moved), &marks);
+        assert_eq!(list.numbers, [&style[..], &line(0.0)].concat());
     }
 
     #[test]

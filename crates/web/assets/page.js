@@ -32,10 +32,11 @@ export const painted = () => new Promise((resolve) => {
   setTimeout(resolve, 100)
 })
 
-// Hands the user a file.
-export function download(name, text) {
+// Hands the user a file: a text, or bytes.
+export function download(name, content) {
   const link = document.createElement("a")
-  link.href = URL.createObjectURL(new Blob([text], { type: "text/plain;charset=utf-8" }))
+  const type = typeof content === "string" ? "text/plain;charset=utf-8" : "application/octet-stream"
+  link.href = URL.createObjectURL(new Blob([content], { type }))
   link.download = name
   link.click()
   setTimeout(() => URL.revokeObjectURL(link.href), 1000)

@@ -127,6 +127,7 @@ export function createPainter(canvas, onSize) {
       const onScreen = () => c.setTransform(ratio, 0, 0, ratio, 0, 0)
       const onSheet = () => c.setTransform(ratio * kx, 0, 0, ratio * ky, ratio * x, ratio * y)
       c.setTransform(1, 0, 0, 1, 0, 0)
+      c.globalAlpha = 1
       c.clearRect(0, 0, canvas.width, canvas.height)
       if (kept) c.drawImage(under, 0, 0)
       onScreen()
@@ -291,6 +292,11 @@ export function createPainter(canvas, onSize) {
             i += 5
             break
           }
+          case 15:
+            draw()
+            c.beginPath()
+            c.globalAlpha = list[i++]
+            break
           case 14:
             c.bezierCurveTo(...list.subarray(i, i + 6))
             i += 6

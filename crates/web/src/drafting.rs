@@ -223,10 +223,11 @@ impl Lab {
         }
     }
 
-    /// A parameter's name is wanted where a value goes: at once where nothing is typed yet.
+    /// A parameter's name is wanted where a value or a figure goes: at once where nothing is typed yet.
     fn draft_parameter(self, name: &str) {
-        let is_value =
-            self.drafting.prompt.with_untracked(|p| p.as_ref().is_some_and(|p| p.is_value));
+        let is_typed = self.drafting.prompt.with_untracked(|p| {
+            p.as_ref().is_some_and(|p| !matches!(p.wants, Wants::Otherwise | Wants::Older { .. }))
+        });
         let is_bare = self.drafting.typed.with_untracked(String::is_empty);
         let is_condition = self.drafting.prompt.with_untracked(|p| {
             matches!(
@@ -234,7 +235,7 @@ impl Lab {
                 Some(Wants::Ends(Ends::Until | Ends::While) | Wants::Condition)
             )
         });
-        if !is_value {
+        if !is_typed {
             return;
         }
         self.drafting.typed.update(|typed| typed.push_str(name));

@@ -14,6 +14,7 @@ use session::view::{
 use wasm_bindgen::JsCast;
 use wasm_bindgen::closure::Closure;
 
+pub mod files;
 pub mod grid;
 pub mod map;
 pub mod pictures;
@@ -365,6 +366,10 @@ fn Tools(family: Family, chosen: RwSignal<String>) -> impl IntoView {
         </Show>
         <Show when=move || grid.with(|grid| !grid.rows.is_empty())>
             <button data-family="save" on:click=save>{words::GIVE_CSV}</button>
+            <button data-family="save-svg" title=words::GIVE_DRAWINGS_HELP
+                on:click=move |_| files::save(family, files::Format::Svg)>{words::GIVE_SVG}</button>
+            <button data-family="save-dxf" title=words::GIVE_DRAWINGS_HELP
+                on:click=move |_| files::save(family, files::Format::Dxf)>{words::GIVE_DXF}</button>
         </Show>
         {move || grid.with(|grid| grid.table.clone()).map(|file| view! {
             <span class="quiet">{words::rows_in_file(&file)}</span>

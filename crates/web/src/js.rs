@@ -148,6 +148,10 @@ extern "C" {
     /// Hands the user a file.
     pub fn download(name: &str, text: &str);
 
+    /// Hands the user a file of bytes.
+    #[wasm_bindgen(js_name = download)]
+    pub fn download_bytes(name: &str, bytes: &[u8]);
+
     /// Hands the user an SVG as a PNG of twice its size.
     #[wasm_bindgen(js_name = downloadPng)]
     pub fn download_png(name: &str, svg: &str);

@@ -40,8 +40,14 @@ pub fn rest_at(selector: &'static str) {
 
 /// The buttons of a list, and the heads of its shelves, in order: those that no shut shelf hides.
 fn buttons(list: &str) -> Vec<HtmlElement> {
+    of_list(list, "")
+}
+
+/// Those of them that a selector finds.
+fn of_list(list: &str, filter: &str) -> Vec<HtmlElement> {
     let Ok(Some(list)) = document().query_selector(list) else { return Vec::new() };
-    let Ok(found) = list.query_selector_all("button, summary") else { return Vec::new() };
+    let wanted = format!("button{filter}, summary{filter}");
+    let Ok(found) = list.query_selector_all(&wanted) else { return Vec::new() };
     let all = (0..found.length()).filter_map(|i| found.item(i)?.dyn_into::<HtmlElement>().ok());
     all.filter(|e| !is_shut_away(e)).collect()
 }
@@ -59,18 +65,30 @@ fn is_shut_away(e: &HtmlElement) -> bool {
 /// first. To be said again where its rows are others.
 pub fn one_stop(list: &'static str) {
     request_animation_frame(move || {
-        let all = buttons(list);
-        let held = holder();
-        let is_held =
-            |b: &HtmlElement| held.as_ref().is_some_and(|held| b.is_same_node(Some(held)));
-        // a new button has no such word of its own, and is a stop all the same
-        let is_stop = |b: &HtmlElement| b.get_attribute("tabindex").as_deref() == Some("0");
-        let was = || all.iter().position(is_stop);
-        let is_chosen = |b: &HtmlElement| b.matches("[aria-selected='true']").unwrap_or(false);
-        let chosen = || all.iter().position(is_chosen);
-        let at = all.iter().position(is_held).or_else(chosen).or_else(was).unwrap_or(0);
-        stop_at(&all, at);
+        // of a long list few are looked at: those that are stops already, as each new one is
+        let stops = of_list(list, ":not([tabindex='-1'])");
+        let held = holder().and_then(|held| held.dyn_into::<HtmlElement>().ok());
+        let held = held.filter(|held| is_in(held, list));
+        let first = |filter| of_list(list, filter).into_iter().next();
+        let stop = held
+            .or_else(|| first("[aria-selected='true']"))
+            // a new button has no such word of its own
+            .or_else(|| first("[tabindex='0']"))
+            .or_else(|| first(""));
+        let is_it = |b: &HtmlElement| stop.as_ref().is_some_and(|stop| b.is_same_node(Some(stop)));
+        for other in stops.iter().filter(|b| !is_it(b)) {
+            other.set_tab_index(-1);
+        }
+        if let Some(stop) = stop {
+            stop.set_tab_index(0);
+        }
     });
+}
+
+/// Whether a button, or the head of a shelf, belongs to a list.
+fn is_in(e: &HtmlElement, list: &str) -> bool {
+    let is_button = e.matches("button, summary").unwrap_or(false);
+    is_button && e.closest(list).is_ok_and(|list| list.is_some()) && !is_shut_away(e)
 }
 
 fn stop_at(all: &[HtmlElement], at: usize) {

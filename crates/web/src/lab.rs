@@ -297,6 +297,7 @@ impl Lab {
                 Marked {
                     selected: selected.map(first).collect(),
                     hovered: hovered.get().map(first),
+                    recorded: None,
                 }
             })
         });

@@ -18,7 +18,7 @@ use js_sys::Array;
 use leptos::ev::{KeyboardEvent, MouseEvent, PointerEvent, WheelEvent};
 use leptos::html::Canvas;
 use leptos::prelude::*;
-use presentation::marks::marks;
+use presentation::marks::{Marked, marks};
 use session::view::{Caught, Grip, MovedView, PictureView};
 use std::sync::Arc;
 use wasm_bindgen::closure::Closure;
@@ -140,9 +140,16 @@ fn lists(lab: Lab) -> Lists {
     let marked = lab.marked;
     // what a drag leaves as it is
     let form = Memo::new(move |_| lab.picture.with(|p| (p.made, p.paths.len(), p.grips.len())));
+    let recorded = Memo::new(move |_| {
+        lab.text.track();
+        lab.drafting.turned.track();
+        lab.ask_of_shown(|session, id| session.recorded_example(id).map(String::from)).flatten()
+    });
     let marks = Memo::new(move |_| {
         form.track();
-        marked.with(|marked| lab.picture.with_untracked(|picture| marks(picture, marked)))
+        let recorded = recorded.get();
+        let marked = marked.with(|marked| Marked { recorded, ..marked.clone() });
+        lab.picture.with_untracked(|picture| marks(picture, &marked))
     });
     let listed = move |picture: &PictureView, part: Part<'_>| {
         form.track();

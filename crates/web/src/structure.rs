@@ -272,7 +272,11 @@ pub fn Structure(
         request_animation_frame(look);
     });
     let listener = window_event_listener(leptos::ev::resize, move |_| look());
-    on_cleanup(move || listener.remove());
+    on_cleanup(move || {
+        listener.remove();
+        // the lab may have gone with the page
+        let _ = lab.shown_things.try_set_value(Vec::new());
+    });
     let rows = Memo::new(move |_| {
         let (window, current) = (window.get(), tree.current.get());
         tree.visible.with(|visible| {

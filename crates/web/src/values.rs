@@ -43,6 +43,8 @@ pub fn Values(
         lab.shown_values.set_value(shown.clone());
         shown
     };
+    // the lab may have gone with the page
+    on_cleanup(move || _ = lab.shown_values.try_set_value(Vec::new()));
     let more = Memo::new(move |_| found.with(|found| found.len().saturating_sub(MOST_ROWS)));
     view! {
         <section class="panel values" aria-label=words::VALUES>

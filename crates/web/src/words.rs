@@ -76,6 +76,7 @@ pub const DOCK: &str = "Text, tables";
 pub const SHEET: &str = "Panels";
 pub const EXPORT_SVG: &str = "Export the picture as SVG";
 pub const EXPORT_PNG: &str = "Export the picture as PNG";
+pub const EXPORT_DXF: &str = "Export the picture as DXF";
 pub const EXPORT_CSV: &str = "Export the values as CSV";
 pub const PRINT: &str = "Print the picture";
 pub const SHARE: &str = "Copy a link that carries the document";

@@ -678,6 +678,15 @@ pub const ACTIONS: &[Action] = &[
         run: Lab::export_png,
     },
     Action {
+        id: "export-dxf",
+        group: Group::File,
+        contexts: &[],
+        label: words::EXPORT_DXF,
+        keys: &[],
+        enabled: |lab| document(lab).map(drop),
+        run: Lab::export_dxf,
+    },
+    Action {
         id: "export-csv",
         group: Group::File,
         contexts: &[],

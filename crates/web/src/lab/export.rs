@@ -1,4 +1,4 @@
-//! What leaves the lab: the picture as SVG or PNG, the values as CSV, print, and a link that carries the document.
+//! What leaves the lab: the picture as SVG, PNG or DXF, the values as CSV, print, and a link that carries the document.
 
 use super::{ABSENT, Lab, Notice};
 use crate::server::Stored;
@@ -31,6 +31,13 @@ impl Lab {
     pub fn export_png(self) {
         if let Some((name, svg)) = self.drawn() {
             js::download_png(&format!("{name}.png"), &svg);
+        }
+    }
+
+    /// Hands the user the picture as DXF, in millimetres.
+    pub fn export_dxf(self) {
+        if let Some(((name, _), dxf)) = self.drawn().zip(self.ask_of_shown(session::Session::dxf)) {
+            js::download(&format!("{name}.dxf"), &dxf);
         }
     }
 

@@ -28,6 +28,8 @@ pub enum Kind {
     Rows,
     /// The map of a program.
     Map,
+    /// The files of a family's rows.
+    Files,
 }
 
 /// What is told of a job.

@@ -1,7 +1,7 @@
 //! Views: what of them is made anew after a command, and when.
 //!
 //! At once there are the picture, the status line and the rows in sight. All rows follow while the page rests, a few
-//! at a time, where no more than values are others; whoever has to know them all before asks for them by
+//! at a time, where no more than values are others or no list of them is in the page; whoever has to know them all before asks for them by
 //! [`Lab::list`]. During a drag only what is in sight is made.
 
 use super::{Lab, Zoom};
@@ -55,7 +55,12 @@ impl Lab {
         self.tell_state(id);
         let number = self.begin_listing(id);
         if is_anew {
-            return self.list();
+            let is_in_sight = |rows: StoredValue<Vec<usize>>| rows.with_value(|at| !at.is_empty());
+            if is_in_sight(self.shown_things) || is_in_sight(self.shown_values) {
+                return self.list();
+            }
+            // nobody looks at a list of them: the picture comes first
+            return set_timeout(move || self.go_on_listing(number), Duration::ZERO);
         }
         self.renew_rows(id);
         self.go_on_listing(number);

@@ -20,6 +20,20 @@ pub const ADD_ROW: &str = "Add row";
 pub const TAKE_CSV: &str = "Load CSV";
 /// Hands out a table.
 pub const GIVE_CSV: &str = "Save CSV";
+/// Hands out the drawings.
+pub const GIVE_SVG: &str = "Save SVG";
+pub const GIVE_DXF: &str = "Save DXF";
+pub const GIVE_DRAWINGS_HELP: &str = "a drawing for each row, all in one archive";
+/// So many of the rows have a file in an archive.
+pub fn files_given(drawn: usize, all: usize) -> String {
+    match drawn == all {
+        true => format!("a drawing for each of {all} rows"),
+        false => format!(
+            "{drawn} drawings; {} of {all} rows are not drawn: the grid says why",
+            all - drawn
+        ),
+    }
+}
 /// Takes the rows of a file into the document.
 pub const TAKE_TABLE: &str = "Take the rows into the document";
 /// The names of the rows.

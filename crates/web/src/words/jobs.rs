@@ -14,12 +14,15 @@ pub const ROWS_STOPPED: &str =
 pub const MAP_STOPPED: &str = "The map was stopped. Another range makes it again.";
 pub const ANALYSE_AGAIN: &str = "Look again";
 
+pub const FILES_STOPPED: &str = "The files were not made: the drawing was stopped.";
+
 /// What a job is called while it goes on.
 pub fn job(kind: Kind) -> &'static str {
     match kind {
         Kind::Analysis => "Analysing",
         Kind::Rows => "Drawing rows",
         Kind::Map => "Making the map",
+        Kind::Files => "Drawing the files of a family",
     }
 }
 
