@@ -6,7 +6,7 @@
 //! **Source:** PKWARE, *.ZIP File Format Specification*, 6.3.10, sections 4.3 and 4.4.
 
 /// What a file's entry is of: the version that reads it, and names in UTF-8; stored as it is, on the first day.
-const ENTRY: [u16; 5] = [20, 1 << 11, 0, 0, 1 << 5 | 1];
+const ENTRY: [u16; 5] = [20, 1 << 11, 0, 0, (1 << 5) | 1];
 
 /// Makes an archive of files. At most 65 535 of them, 4 GB together, have room in one; any further are left out.
 pub fn zip(files: &[(String, String)]) -> Vec<u8> {
@@ -51,7 +51,7 @@ fn size(bytes: usize) -> u32 {
 
 /// The cyclic redundancy check of 32 bits, reflected, with the polynomial of Ethernet.
 fn crc(bytes: &[u8]) -> u32 {
-    let bit = |crc: u32, _| if crc & 1 == 1 { crc >> 1 ^ 0xEDB8_8320 } else { crc >> 1 };
+    let bit = |crc: u32, _| if crc & 1 == 1 { (crc >> 1) ^ 0xEDB8_8320 } else { crc >> 1 };
     !bytes.iter().fold(u32::MAX, |crc, &byte| (0..8).fold(crc ^ u32::from(byte), bit))
 }
 

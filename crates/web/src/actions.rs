@@ -8,6 +8,7 @@ use wasm_bindgen::JsCast;
 use wasm_bindgen::closure::Closure;
 
 mod conditions;
+mod instances;
 mod table;
 pub use table::ACTIONS;
 

@@ -7,7 +7,7 @@ use super::{Action, Context, Group};
 use crate::dialog::Wish;
 use crate::dock::Tab;
 use crate::keyboard::focus;
-use crate::lab::{Drawer, Lab, Notice, Zoom};
+use crate::lab::{Drawer, Lab, Zoom};
 use crate::{drafting, js, route, structure, words};
 use leptos::prelude::*;
 use session::view::RowKind;
@@ -749,31 +749,6 @@ pub const ACTIONS: &[Action] = &[
 fn hold(lab: Lab, class: &str) {
     lab.take_tool(class);
     focus("#picture");
-}
-
-impl Lab {
-    /// Holds the selected thing of a program in its place, so that drags fit the program, or lets it go.
-    fn hold_in_place(self) {
-        let Ok((thing, held)) = untrack(|| instance(self)) else { return };
-        if self.settle(self.tell(|session, id| session.hold_in_place(id, &thing, !held))) {
-            let said = if held { words::let_go(&thing) } else { words::held_in_place(&thing) };
-            self.notice.set(Some(Notice::Said(said)));
-        }
-    }
-
-    /// Makes plain figures of what a program drew.
-    fn unlink(self) {
-        let Ok(thing) = untrack(|| drawn(self)) else { return };
-        match self.tell(|session, id| session.unlink(id, &thing)) {
-            Some(Ok((change, names))) => {
-                self.settle(Some(Ok(change)));
-                self.select(names.first().cloned());
-                self.notice.set(Some(Notice::Said(words::unlinked(&thing, &names))));
-            }
-            Some(Err(refusal)) => self.notice.set(Some(Notice::Refused(refusal))),
-            None => {}
-        }
-    }
 }
 
 /// Gives the clipboard a text; where the browser does not let it, the lab has it.
