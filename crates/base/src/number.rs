@@ -5,8 +5,19 @@
 
 pub use libm::{
     acos, acosh, asin, asinh, atan, atan2, atanh, cbrt, cos, cosh, exp, hypot, log as ln, log2,
-    log10, pow, sin, sinh, sqrt, tan, tanh,
+    log10, pow, sin, sinh, tan, tanh,
 };
+
+/// Returns the square root, which every machine has as an instruction and rounds alike: IEEE 754 prescribes its bits.
+/// For WebAssembly `libm` would compute it digit by digit.
+///
+/// ```
+/// assert_eq!(base::number::sqrt(2.0).to_bits(), 0x3ff6_a09e_667f_3bcd);
+/// assert!(base::number::sqrt(-1.0).is_nan());
+/// ```
+pub fn sqrt(x: f64) -> f64 {
+    x.sqrt()
+}
 
 /// How far the two sides of a rule may differ, relative to the larger side.
 pub const RULE_TOLERANCE: f64 = 1e-9;
