@@ -48,7 +48,8 @@ pub(crate) fn build(compiler: &WasmCompiler, effort: Effort) -> Result<Option<Ma
 }
 
 /// The files of the assets that are worth compressing.
-const COMPRESSED: [&str; 2] = ["codemirror.js", "style.css"];
+const COMPRESSED: [&str; 6] =
+    ["codemirror.js", "host.js", "page.js", "painter.js", "stamps.js", "style.css"];
 
 /// Compiles a package's program of the same name for the browser; gives the folder of its module: `NAME.js`, and
 /// `NAME_bg.wasm` that it loads. For the tests it is taken down what was made, and the package is linted where the

@@ -93,12 +93,16 @@ impl Server {
 }
 
 /// Sends bytes and gives the whole answer.
-fn exchange(mut stream: TcpStream, request: &str) -> String {
+fn exchange(stream: TcpStream, request: &str) -> String {
+    String::from_utf8_lossy(&exchange_bytes(stream, request)).into_owned()
+}
+
+fn exchange_bytes(mut stream: TcpStream, request: &str) -> Vec<u8> {
     // The server may have answered and closed before the last byte is sent.
     let _ = stream.write_all(request.as_bytes());
     let mut answer = Vec::new();
     let _ = stream.read_to_end(&mut answer);
-    String::from_utf8_lossy(&answer).into_owned()
+    answer
 }
 
 impl Drop for Server {
@@ -430,6 +434,29 @@ fn an_honest_page_reads_saves_and_is_told_of_conflicts() {
             .iter()
             .all(|file| file["name"].as_str().unwrap().ends_with(".thing"))
     );
+}
+
+#[test]
+fn a_long_answer_is_compressed_for_whoever_takes_that() {
+    let server = Server::start("compressed");
+    let asking = server.request("GET", "/api/library", "");
+    let plain = exchange_bytes(server.connect(), &asking);
+    let taking = asking.replace("Connection:", "Accept-Encoding: gzip, br\r\nConnection:");
+    let sent = exchange_bytes(server.connect(), &taking);
+    let parts = |answer: &[u8]| {
+        let end = answer.windows(4).position(|four| four == b"\r\n\r\n").unwrap();
+        (String::from_utf8(answer[..end].to_vec()).unwrap(), answer[end + 4..].to_vec())
+    };
+    let ((_, plain), (head, sent)) = (parts(&plain), parts(&sent));
+    assert!(head.contains("content-encoding: br"), "{head}");
+    assert!(3 * sent.len() < plain.len(), "{} of {} bytes", sent.len(), plain.len());
+    let mut read = Vec::new();
+    brotli::Decompressor::new(&sent[..], 4096).read_to_end(&mut read).unwrap();
+    assert!(read == plain);
+
+    let short = server.request("GET", "/api/document?path=none.thing", "");
+    let short = short.replace("Connection:", "Accept-Encoding: br\r\nConnection:");
+    assert!(!exchange(server.connect(), &short).contains("content-encoding"));
 }
 
 #[test]

@@ -10,10 +10,11 @@
 //! - `PUT /api/draft` with `{path, tab, draft}` → `{}` once it is on disk; null for nothing any more
 //! - `GET /api/library` → `[{name, text}]`
 //!
-//! Every error is `{error: sentence}` with its status.
+//! Every error is `{error: sentence}` with its status. Long answers are compressed for whoever takes that.
 
 use std::borrow::Cow;
 use std::hash::{DefaultHasher, Hash as _, Hasher as _};
+use std::io::Write as _;
 use std::time::Duration;
 
 use http_body_util::{BodyExt, Full, LengthLimitError, Limited};
@@ -35,6 +36,13 @@ const LONGEST_BODY: usize = 2 * disk::LONGEST;
 
 /// How long a whole body may take to arrive.
 const BODY_TIME: Duration = Duration::from_secs(60);
+
+/// Answers from so many bytes on are compressed: shorter ones fit into a packet as they are.
+const WORTH_COMPRESSING: usize = 1400;
+
+/// How hard the compressor tries, as each answer waits for it, and how far back it looks, as a power of two.
+const QUALITY: u32 = 5;
+const WINDOW: u32 = 22;
 
 /// What every answer says of itself: what the page may load, and that no other page may use it.
 /// Styles may be inline, because the text editor makes its own; scripts may not.
@@ -119,6 +127,9 @@ pub(crate) async fn answer(lab: &Lab, request: Request<Incoming>) -> Answer {
         Err((status, why)) => refused(status, why),
         Ok(()) => match ask {
             Ask::Page => page(lab, request.method(), path, request.headers()),
+            Ask::Documents if takes_brotli(request.headers()) => {
+                compressed(documents(lab, request).await).await
+            }
             Ask::Documents => documents(lab, request).await,
         },
     };
@@ -138,9 +149,7 @@ fn page(lab: &Lab, method: &Method, path: &str, headers: &HeaderMap) -> Answer {
         && let Some(bytes) = lab.page.file(&format!("{path}.br"))
     {
         let mut answer = file_answer(kind, bytes, headers);
-        let headers = answer.headers_mut();
-        headers.insert(CONTENT_ENCODING, HeaderValue::from_static("br"));
-        headers.insert(VARY, HeaderValue::from_static("accept-encoding"));
+        say_compressed(answer.headers_mut());
         return answer;
     }
     match lab.page.file(path) {
@@ -174,6 +183,27 @@ fn owned(bytes: Cow<'static, [u8]>) -> Bytes {
         Cow::Borrowed(bytes) => Bytes::from_static(bytes),
         Cow::Owned(bytes) => Bytes::from(bytes),
     }
+}
+
+/// A long answer compressed, a short one as it is.
+async fn compressed(answer: Answer) -> Answer {
+    let (mut parts, body) = answer.into_parts();
+    let Ok(whole) = body.collect().await;
+    let plain = whole.to_bytes();
+    if plain.len() < WORTH_COMPRESSING {
+        return Response::from_parts(parts, Full::new(plain));
+    }
+    let mut bytes = Vec::new();
+    let mut writer = brotli::CompressorWriter::new(&mut bytes, 1 << 16, QUALITY, WINDOW);
+    writer.write_all(&plain).expect("a list takes all that is written");
+    drop(writer);
+    say_compressed(&mut parts.headers);
+    Response::from_parts(parts, Full::new(Bytes::from(bytes)))
+}
+
+fn say_compressed(headers: &mut HeaderMap) {
+    headers.insert(CONTENT_ENCODING, HeaderValue::from_static("br"));
+    headers.insert(VARY, HeaderValue::from_static("accept-encoding"));
 }
 
 /// Whether a request takes an answer compressed by brotli.
