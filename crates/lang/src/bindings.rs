@@ -128,8 +128,12 @@ impl Lowerer<'_> {
         (value, term): (&Expr, &Term),
         given: OriginId,
     ) {
+        // most values are plain numbers, which is seen at once
+        if !speaks(term) {
+            return;
+        }
         let Some(class) = class.filter(|&c| can_be_bound(&self.document, c)) else { return };
-        if !speaks(term) || self.is_reference(scope.class(), path) || self.is_count(scope, path) {
+        if self.is_reference(scope.class(), path) || self.is_count(scope, path) {
             return;
         }
         let member = value.syntax().parent();
