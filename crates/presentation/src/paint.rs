@@ -337,7 +337,7 @@ pub(crate) fn note(
 ) {
     let hue = match (holds, mark) {
         (false, _) => Hue::Conflict,
-        (true, Mark::None) => Hue::Faint,
+        (true, Mark::None | Mark::Outside) => Hue::Faint,
         (true, Mark::Hovered | Mark::Selected) => Hue::Accent,
     };
     let polyline = |points: &[Point], closed| Shape::Polyline { points: points.to_vec(), closed };
