@@ -84,7 +84,7 @@ pub fn edits_for(
         Command::Set(targets) => match targets.as_slice() {
             [(path, value)] if is_count(lowered, path) => text.set_count(path, value)?,
             all if all.iter().all(|(_, v)| matches!(v, Literal::Path(_))) => {
-                crate::write::value_edits(lowered, targets).into()
+                crate::write::value_edits(lowered, targets, crate::write::Digits::All).into()
             }
             [(path, value)] => text.set_of_constraint(path, value)?,
             _ => {

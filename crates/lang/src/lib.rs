@@ -93,4 +93,4 @@ pub use numbers::{Wanted, read_literal, show_limit};
 pub use origins::Origins;
 pub use placed::PLACED;
 pub use views::{PlotOf, Toolbox};
-pub use write::{quoted, write_values};
+pub use write::{quoted, write_rounded, write_values};

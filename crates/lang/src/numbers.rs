@@ -66,6 +66,22 @@ pub(crate) fn write_number(
         .unwrap_or_else(|| shortest(bare))
 }
 
+/// So many digits behind the first one of a number that was computed are more than anybody reads; what is left out is
+/// a hundredth of the tolerance of rules.
+const MEANT: i32 = 10;
+
+/// Returns a written number, with its unit, without digits that only computing has made. `part` is how much larger the
+/// largest number is that says the same place.
+pub(crate) fn without_noise(text: String, part: f64) -> String {
+    let (digits, unit) = text.split_at(text.find(' ').unwrap_or(text.len()));
+    let Ok(x) = digits.parse::<f64>() else { return text };
+    let first = format!("{:e}", x * part);
+    let first = first.split_once('e').and_then(|(_, e)| e.parse().ok()).unwrap_or(0_i32);
+    let decimals = usize::try_from(MEANT.saturating_sub(first)).unwrap_or(0);
+    let short = rounded(x, decimals).parse().map(shortest).unwrap_or_default();
+    if short.len() < digits.len() { short + unit } else { text }
+}
+
 /// Finds a number next to `x` whose shortest decimal reads as it should.
 fn near(x: f64, reads: impl Fn(&str) -> bool) -> Option<String> {
     let (mut up, mut down) = (x, x);

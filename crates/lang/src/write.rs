@@ -5,7 +5,7 @@
 
 use crate::connections::is_bare_path;
 use crate::lower::{Lowered, OWN};
-use crate::numbers::write_number;
+use crate::numbers::{without_noise, write_number};
 use crate::paths::loose_path;
 use base::{Name, Span};
 use expr::dimension::Dimension;
@@ -21,21 +21,45 @@ use syntax::{SyntaxKind, SyntaxNode};
 ///
 /// Where the text has an error, what would have to be written inside of it is left out.
 pub fn write_values(lowered: &Lowered, writes: &[(Path, Literal)]) -> Vec<TextEdit> {
-    in_text(lowered, value_edits(lowered, writes))
+    in_text(lowered, value_edits(lowered, writes, Digits::All))
+}
+
+/// Returns the edits that give these parts these values, as [`write_values`] does, but for digits that only computing
+/// has made: those of numbers that are not `meant`, behind the eleventh.
+pub fn write_rounded(
+    lowered: &Lowered,
+    writes: &[(Path, Literal)],
+    meant: &BTreeSet<u64>,
+) -> Vec<TextEdit> {
+    in_text(lowered, value_edits(lowered, writes, Digits::Meant(meant)))
+}
+
+/// The digits that numbers are written with.
+#[derive(Clone, Copy)]
+pub(crate) enum Digits<'m> {
+    /// All that reading needs to give the same bits.
+    All,
+    /// All of those with these bits; of others those that are more than rounding.
+    Meant(&'m BTreeSet<u64>),
 }
 
 /// Returns the edits of the effective text that give these parts these values.
-pub(crate) fn value_edits(lowered: &Lowered, writes: &[(Path, Literal)]) -> Vec<TextEdit> {
+pub(crate) fn value_edits(
+    lowered: &Lowered,
+    writes: &[(Path, Literal)],
+    digits: Digits<'_>,
+) -> Vec<TextEdit> {
     let file = lowered.effective_parse.file();
     let own = Some(lowered.document.root);
     let members = Members::of(about(lowered, &file, writes).into_iter(), lowered, own);
+    let document = &lowered.document;
     let mut writer =
-        Writer { lowered, document: &lowered.document, edits: Vec::new(), added: IndexMap::new() };
+        Writer { lowered, document, digits, edits: Vec::new(), added: IndexMap::new() };
     for (path, literal) in writes {
         let root = lowered.document.root;
         if let Some((class, declared, rest)) = prototype(lowered, &file, path) {
             let literal = &in_class(literal, &path.0[..1]);
-            let part = Value { literal, class: lowered.class_at(class, &rest) };
+            let part = Value::of(literal, lowered.class_at(class, &rest));
             let end = Spot::EndOf(declared.syntax().clone());
             let members = declared.body().into_iter().flat_map(|b| b.members());
             let members = Members::of(members, lowered, Some(class));
@@ -43,7 +67,7 @@ pub(crate) fn value_edits(lowered: &Lowered, writes: &[(Path, Literal)]) -> Vec<
             continue;
         }
         let class = lowered.class_at(root, path);
-        let part = Value { literal, class };
+        let part = Value::of(literal, class);
         let body = Body { owner: Some(root), end: Spot::EndOf(file.syntax().clone()) };
         writer.write(&body, &members, path, part);
     }
@@ -112,6 +136,14 @@ fn in_text(lowered: &Lowered, edits: Vec<TextEdit>) -> Vec<TextEdit> {
 struct Value<'v> {
     literal: &'v Literal,
     class: Option<ClassId>,
+    /// The largest coordinate of the place that it is one of.
+    largest: f64,
+}
+
+impl<'v> Value<'v> {
+    fn of(literal: &'v Literal, class: Option<ClassId>) -> Self {
+        Self { literal, class, largest: 0.0 }
+    }
 }
 
 /// Where the members of a thing stand.
@@ -187,6 +219,7 @@ impl Members {
 struct Writer<'d> {
     lowered: &'d Lowered,
     document: &'d Document,
+    digits: Digits<'d>,
     edits: Vec<TextEdit>,
     /// New members by where they go, so that a body is opened once.
     added: IndexMap<Spot, Vec<String>>,
@@ -353,8 +386,12 @@ impl Writer<'_> {
         let Some(class) = value.class else { return };
         for (field, literal) in self.document.layout(class).into_iter().zip(items) {
             let name = self.document.field_name(field).clone();
-            let class = Some(self.document.field_class(field));
-            self.write(body, members, &path.then(Step::Part(name)), Value { literal, class });
+            let part = Value {
+                literal,
+                class: Some(self.document.field_class(field)),
+                largest: self.largest(value.class, items),
+            };
+            self.write(body, members, &path.then(Step::Part(name)), part);
         }
     }
 
@@ -372,7 +409,8 @@ impl Writer<'_> {
                     let layout = self.document.layout(class);
                     for ((element, literal), field) in elements.iter().zip(items).zip(layout) {
                         let class = Some(self.document.field_class(field));
-                        self.write_over(element, Value { literal, class });
+                        let largest = self.largest(value.class, items);
+                        self.write_over(element, Value { literal, class, largest });
                     }
                 } else {
                     self.replace(written.syntax(), value);
@@ -381,9 +419,7 @@ impl Writer<'_> {
             (_, Literal::Number(x)) if self.read(written, value.class) == Some(x.to_bits()) => {}
             (Expr::Number(number), Literal::Number(x)) => {
                 let unit = number.unit();
-                let dimension = self.dimension(value.class);
-                let unit = unit.as_ref().map(ast::Word::text);
-                let text = write_number(*x, dimension, self.document, unit);
+                let text = self.number(*x, value, unit.as_ref().map(ast::Word::text));
                 self.edits.push(edit::replace(written.syntax(), &text));
             }
             _ => self.replace(written.syntax(), value),
@@ -428,6 +464,29 @@ impl Writer<'_> {
         }
     }
 
+    /// Returns the largest of the coordinates of a place, whichever way it goes; zero for whatever else.
+    fn largest(&self, class: Option<ClassId>, items: &[Literal]) -> f64 {
+        let size = |literal: &Literal| match literal {
+            Literal::Number(x) => x.abs(),
+            _ => 0.0,
+        };
+        match class.is_some_and(|class| self.document.is_place(class)) {
+            true => items.iter().map(size).fold(0.0, f64::max),
+            false => 0.0,
+        }
+    }
+
+    /// Writes a number, with the unit that was written before, if any.
+    fn number(&self, x: f64, value: Value<'_>, unit: Option<&str>) -> String {
+        let text = write_number(x, self.dimension(value.class), self.document, unit);
+        match self.digits {
+            Digits::Meant(meant) if x != 0.0 && !meant.contains(&x.to_bits()) => {
+                without_noise(text, (value.largest / x.abs()).max(1.0))
+            }
+            Digits::Meant(_) | Digits::All => text,
+        }
+    }
+
     /// Writes an option of a choice, as its class tells it apart.
     fn option(&self, class: Option<ClassId>, at: f64) -> Option<String> {
         let ClassKind::Primitive(Primitive::Choice(of)) = self.document.classes[class?].kind else {
@@ -440,9 +499,7 @@ impl Writer<'_> {
     fn text(&self, value: Value<'_>) -> String {
         match value.literal {
             Literal::Number(x) if let Some(option) = self.option(value.class, *x) => option,
-            Literal::Number(x) => {
-                write_number(*x, self.dimension(value.class), self.document, None)
-            }
+            Literal::Number(x) => self.number(*x, value, None),
             Literal::Bool(b) => b.to_string(),
             Literal::Text(t) => quoted(t),
             Literal::Path(path) => path.to_string(),
@@ -450,7 +507,7 @@ impl Writer<'_> {
                 let fields = value.class.map(|c| self.document.layout(c)).unwrap_or_default();
                 let item = |(i, literal): (usize, &Literal)| {
                     let class = fields.get(i).map(|&f| self.document.field_class(f));
-                    self.text(Value { literal, class })
+                    self.text(Value { literal, class, largest: self.largest(value.class, items) })
                 };
                 let items: Vec<String> = items.iter().enumerate().map(item).collect();
                 format!("({})", items.join(", "))

@@ -1,6 +1,7 @@
 //! Rows of the structure: which are in sight, which speak of a thing, and where they are written.
 
 use crate::paths::{covers, speaks_of};
+use crate::sentences::formula;
 use session::view::{RowKind, StructureRow};
 use std::collections::BTreeSet;
 
@@ -58,6 +59,33 @@ pub fn shown_rules(rows: &[StructureRow], selected: Option<&str>) -> Vec<Structu
         None => row.depth == 1,
     };
     rules.filter(fits).take(MOST).cloned().collect()
+}
+
+/// A constraint's row without what its name says already; any other row's detail.
+pub fn rule_alone(row: &StructureRow) -> &str {
+    let rest = row.detail.strip_prefix("constraint ").unwrap_or(&row.detail).trim_start();
+    let rest = rest
+        .strip_prefix(row.name.as_str())
+        .map_or(rest, |rest| rest.trim_start().strip_prefix(':').map_or(rest, str::trim_start));
+    if row.kind == RowKind::Constraint { rest } else { &row.detail }
+}
+
+/// Whether a row is a constraint or a merge that nobody has named: its rule says more than `constraint3`.
+pub fn is_unnamed(row: &StructureRow) -> bool {
+    if row.name.is_empty() && !row.kind.has_own_path() {
+        return true;
+    }
+    let number = row.name.strip_prefix("constraint");
+    row.kind == RowKind::Constraint
+        && number.is_some_and(|n| !n.is_empty() && n.chars().all(|c| c.is_ascii_digit()))
+}
+
+/// What a row is called where it stands alone: by its path, or by what it says where nobody has named it.
+pub fn called(row: &StructureRow) -> String {
+    match is_unnamed(row) && row.kind == RowKind::Constraint {
+        true => formula(&session::rule_in_words(rule_alone(row))),
+        false => row.path.clone(),
+    }
 }
 
 /// Where a thing is written, or else the nearest thing that it is a part of.

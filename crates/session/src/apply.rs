@@ -15,7 +15,7 @@ use crate::state::State;
 use crate::texts::Texts;
 use crate::view::{Change, Choice, DragState, Limit, Question, Refusal};
 use crate::words;
-use crate::write_back::{differing, settle_places, sides_after, write_back, write_sides};
+use crate::write_back::{Edited, differing, settle_places, sides_after, write_back, write_sides};
 use base::number::Toward;
 use kernel::{
     ClassId, Command, DOCUMENT, Literal, Path, SlotId, Step, Term, ThingId, Value, Values,
@@ -157,7 +157,8 @@ fn edit(
             },
         });
     }
-    let edited = aims.iter().flat_map(|(aim, _)| slots_of(&state, aim)).collect();
+    let slots = aims.iter().flat_map(|(aim, _)| slots_of(&state, aim)).collect();
+    let edited = Edited::to(slots, aims.iter().flat_map(|(_, values)| values));
     let mut change = keep(open, host, label, edited, &values, &report.undecided)?;
     if report.reached {
         change.modes.extend(limits::courses(&state, &report.courses));
@@ -404,7 +405,7 @@ pub(crate) fn keep(
     open: &mut Open,
     host: &dyn Host,
     label: String,
-    edited: Vec<SlotId>,
+    edited: Edited,
     values: &Values,
     undecided: &[(SlotId, Toward)],
 ) -> Result<Change, Refusal> {
@@ -436,7 +437,7 @@ pub(crate) fn keep(
     planner.restore_latest(latest);
     let texts = &mut Texts::new(&state.lowered.document, &state.structure);
     let modes = planner.mode_changes(state.model(), &before.values, values, texts);
-    open.step_with(label.clone(), edited, (state, planner, status));
+    open.step_with(label.clone(), edited.slots, (state, planner, status));
     let mut modes = limits::modes(&open.state, &modes);
     modes.extend(limits::sides(&before, &open.state));
     Ok(Change { modes, ..change(label, &before, &open.state) })
@@ -549,7 +550,7 @@ fn restructured(open: &mut Open, host: &dyn Host, command: &Command) -> Result<C
             // what holds no more is computed anew, so that no given number has to yield to what is kept
             let mut texts = Texts::new(&state.lowered.document, &state.structure);
             planner.satisfy_since(state.model(), &state.values, &mut values, &mut texts);
-            write_back(&state, &values, &[], host, planner.into_plans())
+            write_back(&state, &values, &Edited::default(), host, planner.into_plans())
         }
         (None, Some(class)) => {
             let (state, planner) = place_new_parts(&before, state, planner, class, host);

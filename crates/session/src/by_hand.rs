@@ -149,6 +149,11 @@ impl Session {
                 let anew = is_dimension.then(|| ways_out::said_anew(open, &beside, &command));
                 Ok(anew.flatten().unwrap_or(command))
             }
+            Deed::Give(path) => {
+                let value = value.or(offer.value.as_deref()).unwrap_or_default();
+                let literal = words::read_typed(&open.state, path, value)?;
+                Ok(Command::Set(vec![(path.clone(), literal)]))
+            }
             Deed::Round(of) => {
                 let radius = value.or(offer.value.as_deref()).unwrap_or_default();
                 outlines::rounded_by(open, &beside, of, radius).ok_or_else(|| {

@@ -12,6 +12,7 @@ use crate::state::State;
 use crate::texts::Texts;
 use crate::view::{Change, DragState, Refusal};
 use crate::words;
+use crate::write_back::Edited;
 use eval::Answer;
 use expr::Dimension;
 use kernel::{Argument, BinaryOperator, DOCUMENT, Literal, Path, SlotId, Step, Structure};
@@ -682,9 +683,9 @@ impl Drag {
         let is_apart = whole.as_ref().is_some_and(|whole| {
             state.values.changed(&self.values).any(|slot| !whole.contains(&slot))
         });
-        let slots = whole.unwrap_or(self.slots);
+        let edited = Edited { slots: whole.unwrap_or(self.slots), said: self.wish.to_vec() };
         let steps = open.done.len();
-        let kept = apply::keep(open, host, label, slots, &self.values, &report.undecided)?;
+        let kept = apply::keep(open, host, label, edited, &self.values, &report.undecided)?;
         if let Some(step) = open.done.get_mut(steps) {
             step.wishes = wishes;
             // the checker knows no stays of a drag alone: of what moved beside the thing it tests the rules

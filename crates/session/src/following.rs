@@ -9,7 +9,7 @@
 use crate::host::Host;
 use crate::state::State;
 use crate::texts::Texts;
-use crate::write_back::{differing, sides_after, unit_of_writing, write_back, write_sides};
+use crate::write_back::{Edited, differing, sides_after, unit_of_writing, write_back, write_sides};
 use base::number::{Toward, close};
 use kernel::{SlotId, Term, ThingId, Value, Values};
 use plan::{EditKind, Planner, Target};
@@ -35,7 +35,9 @@ pub(crate) fn follow(
         return (state, planner);
     };
     let Followed { values, typed, sides } = followed;
-    let (next, planner) = write_back(&state, &values, &typed, host, planner.into_plans());
+    let said = typed.iter().map(|&slot| values.numbers[slot]).collect();
+    let edited = Edited { slots: typed, said };
+    let (next, planner) = write_back(&state, &values, &edited, host, planner.into_plans());
     let (next, planner) = write_sides(next, planner, &sides, host);
     let is_kept = next.diagnostics.len() <= state.diagnostics.len()
         && next.structure.slots.len() == state.structure.slots.len()

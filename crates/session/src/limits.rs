@@ -3,7 +3,7 @@
 use crate::drag::Drag;
 use crate::state::State;
 use crate::view::{Limit, ModeView};
-use crate::words;
+use crate::{rules, words};
 use base::number::Toward;
 use expr::Dimension;
 use kernel::{DOCUMENT, Primitive, Quantity, SlotId, Term, ThingId, Value};
@@ -224,9 +224,13 @@ pub(crate) fn mode(state: &State, change: ModeChange) -> Option<ModeView> {
     let class = &state.lowered.document.classes[instance.class];
     let declared = &class.constraints[instance.index as usize];
     let rule = &words::rule_alone(state, index);
-    let acts = words::acting(state, &constraint, change.acting.kind);
+    let unnamed = rules::unnamed(state, index);
+    let told = unnamed.as_deref().unwrap_or(&constraint);
+    let acts = words::acting(state, told, change.acting.kind);
     let message = match (change.acting.kind, change.begins) {
+        (ActingKind::AtBound, true) if unnamed.is_some() => acts,
         (ActingKind::AtBound, true) => format!("{acts}: {rule}"),
+        (ActingKind::AtBound, false) if unnamed.is_some() => format!("{told} is off its bound"),
         (ActingKind::AtBound, false) => format!("{constraint} is off its bound: {rule}"),
         (ActingKind::Taken { way, of }, _) => match alternative(rule, way, of) {
             Some(way) => format!("{acts}: {way}"),

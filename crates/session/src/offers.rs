@@ -7,6 +7,7 @@
 
 use crate::apply;
 use crate::by_hand::class_at;
+use crate::classing;
 use crate::document::{Direction, Open};
 use crate::drag;
 use crate::host::Host;
@@ -15,7 +16,7 @@ use crate::plotting;
 use crate::recognise;
 use crate::session::thing_at;
 use crate::state::State;
-use crate::view::Offer;
+use crate::view::{Deed, Offer};
 use crate::words;
 use base::Name;
 use drawing::Drawing;
@@ -23,9 +24,10 @@ use eval::Answer;
 use expr::Dimension;
 use kernel::{
     Argument, BinaryOperator, ClassId, ClassKind, Command, DOCUMENT, Literal, Message, Path,
-    SlotId, Step, Term, ThingId, UnaryOperator,
+    SlotId, Step, Term, Thing, ThingId, UnaryOperator,
 };
 use std::collections::BTreeSet;
+use syntax::ast::Member;
 
 /// The most things that offers are made for.
 const MOST: usize = 8;
@@ -237,9 +239,10 @@ impl Offerer<'_> {
             let [a, b] = self.things else { return None };
             let both = self.is_place(a.class) && self.is_place(b.class);
             let now = self.number(&asked(a, "distance", "to", b)).filter(|_| both)?;
-            let members = format!("constraint {}.distance(to: {}) = {{}}", a.path, b.path);
-            let value = Some(self.written(now));
-            Some(Offer { label: "distance".into(), members, value, ..Offer::default() })
+            let lefts = distances(&a.path, &b.path);
+            let offer = self.dimension("distance", &lefts, self.written(now));
+            let stands = a.thing.zip(b.thing).and_then(|(a, b)| self.standing(a, b));
+            Some(self.given(stands, offer))
         };
         let single = |name: &str| {
             let [one] = self.things else { return None };
@@ -248,35 +251,83 @@ impl Offerer<'_> {
             }
             let path = one.path.then(Step::Part(Name::new(name)));
             let now = self.number(&Term::at(Term::Document, &path))?;
-            let members = format!("constraint {path} = {{}}");
-            Some(Offer {
-                label: name.into(),
-                members,
-                value: Some(self.written(now)),
-                ..Offer::default()
-            })
+            let ends = self.ends(one).filter(|_| name == "length");
+            let mut lefts = vec![path.to_string()];
+            lefts.extend(ends.iter().flat_map(|(a, b)| distances(a, b)));
+            let ends =
+                ends.map(|(a, b)| Some((thing_at(self.state, &a)?, thing_at(self.state, &b)?)));
+            let own = thing_at(self.state, &path);
+            let stands = own.or_else(|| ends.flatten().and_then(|(a, b)| self.standing(a, b)));
+            Some(self.given(stands, self.dimension(name, &lefts, self.written(now))))
         };
         let angle = || {
             let [a, b] = self.things else { return None };
             self.message(a.class, "angle").filter(|m| m.parameters.len() == 1)?;
             let (radians, _) = self.number(&asked(a, "angle", "to", b))?;
-            let members = format!("constraint {}.angle(to: {}) = {{}}", a.path, b.path);
-            let value = in_degrees(radians);
-            Some(Offer { label: "angle".into(), members, value: Some(value), ..Offer::default() })
+            let left = format!("{}.angle(to: {})", a.path, b.path);
+            Some(self.dimension("angle", &[left], in_degrees(radians)))
         };
         let direction = || {
             let [one] = self.things else { return None };
             self.message(one.class, "direction").filter(|m| m.parameters.is_empty())?;
             let path = one.path.then(Step::Part(Name::new("direction")));
             let (radians, _) = self.number(&Term::at(Term::Document, &path))?;
-            let members = format!("constraint {path} = {{}}");
-            let value = Some(in_degrees(radians));
-            Some(Offer { label: "direction".into(), members, value, ..Offer::default() })
+            Some(self.dimension("direction", &[path.to_string()], in_degrees(radians)))
         };
         let singles =
             ["length", "radius", "side", "width", "height"].into_iter().filter_map(single);
         let angles = angle().into_iter().chain(direction());
         distance().into_iter().chain(singles).chain(angles).collect()
+    }
+
+    /// A number that is to hold, with what it is now, as the first of some terms says it that a constraint of the
+    /// document gives a number already: there it stands. Else as the first of all says it.
+    fn dimension(&self, label: &str, lefts: &[String], value: String) -> Offer {
+        let file = syntax::parse(base::FileId(0), &self.state.text).file();
+        let left = |member: Member| match member {
+            Member::Constraint(constraint) => {
+                classing::equals_number(self.state, &constraint).map(|said| said.left)
+            }
+            _ => None,
+        };
+        let said: Vec<String> = file.members().filter_map(left).collect();
+        let stands = lefts.iter().find(|left| said.contains(left));
+        let left = stands.or(lefts.first()).map_or("", String::as_str);
+        let members = format!("constraint {left} = {{}}");
+        let stands = stands.is_some();
+        Offer { label: label.into(), members, value: Some(value), stands, ..Offer::default() }
+    }
+
+    /// The value of a dimension that stands between two places already.
+    fn standing(&self, a: ThingId, b: ThingId) -> Option<ThingId> {
+        let (document, structure) = (&self.state.lowered.document, &self.state.structure);
+        let class = document.class_named("Distance")?;
+        let part = |thing, name: &str| structure.part_named(thing, &Name::new(name));
+        let is_between = |&(id, thing): &(ThingId, &Thing)| {
+            let ends = [part(id, "from"), part(id, "to")];
+            let [Some(from), Some(to)] = ends.map(|end| end.map(|end| structure.merged[end]))
+            else {
+                return false;
+            };
+            let own = [structure.merged[a], structure.merged[b]];
+            document.is_a(thing.class, class) && (own == [from, to] || own == [to, from])
+        };
+        let (id, _) = structure.things.iter().find(is_between)?;
+        part(id, "value")
+    }
+
+    /// An offer of a number; where a thing is that number, and it is given, it is given anew.
+    fn given(&self, number: Option<ThingId>, offer: Offer) -> Offer {
+        let (document, structure) = (&self.state.lowered.document, &self.state.structure);
+        let slot = number.and_then(|thing| structure.slot_of(thing));
+        match slot.filter(|&slot| structure.given(slot).is_some() && !offer.stands) {
+            Some(slot) => {
+                let path = structure.path(document, structure.slots[slot].thing);
+                let value = Some(words::slot_exactly(self.state, slot, &self.state.values));
+                Offer { value, stands: true, deed: Deed::Give(path), ..offer }
+            }
+            None => offer,
+        }
     }
 
     /// A number that something is now, in base units, with what it measures.
@@ -534,6 +585,11 @@ fn is_unmoved(was: &State, is: &State) -> bool {
             (a, b) => a.same_bits(&b),
         })
     })
+}
+
+/// How far two places are apart, from either.
+fn distances(a: &Path, b: &Path) -> [String; 2] {
+    [format!("{a}.distance(to: {b})"), format!("{b}.distance(to: {a})")]
 }
 
 /// An angle as a person writes it.

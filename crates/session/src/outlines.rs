@@ -35,6 +35,7 @@ pub(crate) fn offers(open: &Open, paths: &[Path]) -> Vec<Offer> {
         members: "round corner of radius {}".into(),
         value: Some(shortest(radius)),
         deed: Deed::Round(paths.to_vec()),
+        ..Offer::default()
     });
     let rectangle = match paths {
         [one] => rectangle(&open.state, one).map(|_| one),

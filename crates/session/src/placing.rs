@@ -11,7 +11,7 @@ use crate::host::Host;
 use crate::prototype::Lone;
 use crate::state::State;
 use crate::texts::Texts;
-use crate::write_back::write_back;
+use crate::write_back::{Edited, write_back};
 use base::number::{close, hypot};
 use kernel::{Path, SlotId, Structure, ThingId, Value, Values};
 use plan::{EditKind, Planner, SlotState, Target};
@@ -72,7 +72,7 @@ pub(crate) fn place_new_parts(
     }
     match moved_alone(&state, &mut planner, &targets) {
         Some(values) if !targets.is_empty() => {
-            let edited = slots_of(&state, &targets);
+            let edited = Edited { slots: slots_of(&state, &targets), ..Edited::default() };
             write_back(&state, &values, &edited, host, planner.into_plans())
         }
         Some(_) | None => (state, planner),

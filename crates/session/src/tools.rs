@@ -8,7 +8,7 @@
 pub(crate) mod bin;
 mod catch;
 pub(crate) mod copies;
-mod digits;
+pub(crate) mod digits;
 mod lengths;
 pub(crate) mod room;
 mod stages;
@@ -391,7 +391,10 @@ impl Tool {
             preview.elements.clear();
         }
         let stage = self.stages.get(self.set.len());
-        let hint = stage.map(|stage| stage.hint(&self.class, (self.set.is_empty(), self.goes_on)));
+        let hint = stage.map(|stage| {
+            let kind = stage.class(&trial.state, &self.name);
+            stage.hint(&self.class, kind.as_ref(), (self.set.is_empty(), self.goes_on))
+        });
         let hint = hint.unwrap_or_default();
         let hint = match stage {
             Some(Stage::Reach { number }) => format!("{hint}; digits: its {number}, as 30 or 3 cm"),

@@ -11,6 +11,7 @@ use crate::document::Open;
 use crate::host::Host;
 use crate::offers;
 use crate::recognise;
+use crate::rules;
 use crate::session::{parse_path, thing_at};
 use crate::state::State;
 use crate::view::{Choice, Question};
@@ -184,14 +185,8 @@ fn in_words(state: &State, name: &str) -> String {
     let is_it = |source: &plan::Source| {
         words::source_name(state, *source).is_some_and(|known| known == name)
     };
-    let found = sources(state).find(is_it).and_then(|source| words::source_in_words(state, source));
-    let found = found.unwrap_or_else(|| name.to_string());
-    // a number says less than the rule after it
-    let rule = found.strip_prefix("constraint").and_then(|rest| rest.split_once(" ("));
-    match rule.filter(|(number, _)| number.chars().all(|c| c.is_ascii_digit())) {
-        Some((_, rule)) => rule.strip_suffix(')').unwrap_or(rule).to_string(),
-        None => found,
-    }
+    let found = sources(state).find(is_it).and_then(|source| rules::told(state, source));
+    found.unwrap_or_else(|| name.to_string())
 }
 
 /// Returns the command for a dimension that only reads what another would set; nothing where there is none, or where it

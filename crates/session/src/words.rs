@@ -2,6 +2,7 @@
 
 use crate::angles;
 use crate::document::Open;
+use crate::rules::told;
 use crate::state::State;
 use crate::view::{Freedom, Refusal};
 use crate::views;
@@ -38,7 +39,7 @@ pub(crate) fn refusal_for(state: &State, reason: &RefusalReason, report: &EditRe
     let (sources, are_several) = refusing(state, report);
     let mut constraints: Vec<String> =
         sources.iter().filter_map(|&source| source_name(state, source)).collect();
-    let said = sources.iter().filter_map(|&source| source_in_words(state, source));
+    let said = sources.iter().filter_map(|&source| told(state, source));
     let said = listed(&said.collect::<Vec<_>>());
     let message = match reason {
         RefusalReason::Unmet if sources.is_empty() => {
@@ -283,7 +284,7 @@ pub(crate) fn refusal_of_status(state: &State, status: &plan::Status) -> Option<
     let unmet = status.unmet.iter().filter(|u| u.level == solve::Level::Required);
     let unmet: Vec<Source> = unmet.map(|u| u.source).collect();
     let constraints: Vec<String> = unmet.iter().filter_map(|&u| source_name(state, u)).collect();
-    let said: Vec<String> = unmet.iter().filter_map(|&u| source_in_words(state, u)).collect();
+    let said: Vec<String> = unmet.iter().filter_map(|&u| told(state, u)).collect();
     let message =
         format!("refused: {} would not hold{}", listed(&said), allowed_in_words(state, &unmet));
     (!status.satisfied).then(|| Refusal { message, constraints, ..Refusal::default() })
@@ -314,7 +315,7 @@ fn allowed_in_words(state: &State, sources: &[Source]) -> String {
 /// Names the required constraints that do not hold, with the rules of those that have no name.
 pub(crate) fn unmet_in_words(state: &State, status: &plan::Status) -> Vec<String> {
     let unmet = status.unmet.iter().filter(|u| u.level == solve::Level::Required);
-    unmet.filter_map(|u| source_in_words(state, u.source)).collect()
+    unmet.filter_map(|u| told(state, u.source)).collect()
 }
 
 /// Lists names for a sentence: the first few, and how many more there are.
@@ -349,14 +350,14 @@ pub(crate) fn what_holds(state: &State, report: &EditReport, acting: &[Acting]) 
     let mut names: Vec<String> = Vec::new();
     for conflict in &report.conflicts {
         let sources = std::iter::once(&conflict.source).chain(&conflict.circuit);
-        for name in sources.filter_map(|s| source_in_words(state, *s)) {
+        for name in sources.filter_map(|s| told(state, *s)) {
             if !names.contains(&name) {
                 names.push(name);
             }
         }
     }
     let bounds = acting.iter().filter(|a| a.kind == ActingKind::AtBound);
-    for name in bounds.filter_map(|a| source_in_words(state, a.source)) {
+    for name in bounds.filter_map(|a| told(state, a.source)) {
         if !names.contains(&name) {
             names.push(name);
         }
@@ -376,30 +377,6 @@ pub(crate) fn source_name(state: &State, source: Source) -> Option<String> {
         }
         Source::Wish(_) => None,
     }
-}
-
-/// Returns what a reader is told of a constraint: its path; of one without a name what it says as well.
-pub(crate) fn source_in_words(state: &State, source: Source) -> Option<String> {
-    let name = source_name(state, source)?;
-    match source {
-        Source::Constraint(index) => Some(name + &unnamed_rule(state, index)),
-        Source::Stay(_) | Source::Wish(_) => Some(name),
-    }
-}
-
-/// The longest rule that is told with the path of its constraint, in letters.
-const LONGEST_RULE: usize = 48;
-
-/// Returns the rule of a constraint that has no name, in brackets; nothing where it has one, or is long.
-pub(crate) fn unnamed_rule(state: &State, index: u32) -> String {
-    let instance = state.structure.constraints[index as usize];
-    let class = &state.lowered.document.classes[instance.class];
-    if class.constraints[instance.index as usize].name.is_some() {
-        return String::new();
-    }
-    let rule = rule_alone(state, index);
-    let is_short = !rule.is_empty() && rule.chars().count() <= LONGEST_RULE && !rule.contains('\n');
-    if is_short { format!(" ({rule})") } else { String::new() }
 }
 
 /// Returns the path of a constraint: its owner's, and its name.

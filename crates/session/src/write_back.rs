@@ -1,18 +1,40 @@
 //! Writing back: the values that an edit came to, as the fewest changes of the text.
 //!
 //! In: a state, and the values after an edit. Out: the text whose state has these values. Given
-//! numbers that changed are rewritten where they stand; then the text is opened, and while a value
+//! numbers that changed are rewritten where they stand, without digits that only computing has made; then the text is opened, and while a value
 //! differs from what the edit came to, one that does is given as well: one whose class gives it a
 //! value, else one that the edit was about, else the first. Given numbers that the edit left alone and that come
-//! to other bits, since they give way whenever the text is opened, are written as they are.
+//! to other bits, since they give way whenever the text is opened, are written as they are. Where the fewer digits do
+//! not say the same, all are written.
 
 use crate::given_twice;
 use crate::host::Host;
 use crate::state::State;
-use base::number::{Toward, close};
+use crate::tools::digits;
+use base::number::{RULE_TOLERANCE, Toward, close};
 use kernel::{GivenIn, Literal, Path, Primitive, SideWay, SlotId, ThingId, Value, Values};
 use plan::{Planner, Plans};
 use std::collections::{BTreeMap, BTreeSet};
+
+/// What an edit was about.
+#[derive(Default)]
+pub(crate) struct Edited {
+    /// Its slots.
+    pub(crate) slots: Vec<SlotId>,
+    /// The numbers that somebody said, by typing or pointing: they are written to the last digit.
+    pub(crate) said: Vec<f64>,
+}
+
+impl Edited {
+    /// What was about slots that were to have these values.
+    pub(crate) fn to<'v>(slots: Vec<SlotId>, values: impl Iterator<Item = &'v Value>) -> Self {
+        let number = |value: &Value| match value {
+            Value::Number(x) => Some(*x),
+            Value::Text(_) => None,
+        };
+        Self { slots, said: values.filter_map(number).collect() }
+    }
+}
 
 /// Makes the state whose text gives these values, and its planner.
 ///
@@ -21,9 +43,36 @@ use std::collections::{BTreeMap, BTreeSet};
 pub(crate) fn write_back(
     state: &State,
     wanted: &Values,
-    edited: &[SlotId],
+    edited: &Edited,
     host: &dyn Host,
-    mut plans: Plans,
+    plans: Plans,
+) -> (State, Planner) {
+    let slots = state.structure.slots.ids();
+    let stays = |slot: &SlotId| wanted.get(*slot).same_bits(&state.values.get(*slot));
+    let kept = slots.filter(stays).map(|slot| wanted.numbers[slot]);
+    let meant: BTreeSet<u64> = kept.chain(edited.said.iter().copied()).map(f64::to_bits).collect();
+    let (next, mut planner) = written(state, wanted, &edited.slots, Some(&meant), (host, plans));
+    if is_as_exact(&next, wanted, &mut planner) {
+        return (next, planner);
+    }
+    written(state, wanted, &edited.slots, None, (host, planner.into_plans()))
+}
+
+/// Whether a text that was written with fewer digits says what it should: what holds, and values that are the same
+/// for everybody who looks at them, however small they are.
+fn is_as_exact(next: &State, wanted: &Values, planner: &mut Planner) -> bool {
+    next.structure.slots.len() == wanted.numbers.len()
+        && (next.values.changed(wanted).next().is_none()
+            || digits::has_values(next, wanted, RULE_TOLERANCE) && next.status(planner).satisfied)
+}
+
+/// Makes the state whose text gives these values, and its planner: numbers to the digits that are meant, or all.
+fn written(
+    state: &State,
+    wanted: &Values,
+    edited: &[SlotId],
+    meant: Option<&BTreeSet<u64>>,
+    (host, mut plans): (&dyn Host, Plans),
 ) -> (State, Planner) {
     let unit = |slot: SlotId| unit_of_change(state, wanted, slot);
     let is_given = |slot: SlotId| {
@@ -45,7 +94,10 @@ pub(crate) fn write_back(
                 (state.structure.path(&state.lowered.document, at), literal(state, t, wanted))
             })
             .collect();
-        let edits = lang::write_values(&state.lowered, &writes);
+        let edits = match meant {
+            Some(meant) => lang::write_rounded(&state.lowered, &writes, meant),
+            None => lang::write_values(&state.lowered, &writes),
+        };
         let text = syntax::edit::apply(&state.text, &edits);
         let (next, planner) = State::written(text, state, host, plans);
         if next.structure.slots.len() != state.structure.slots.len() {
@@ -133,7 +185,13 @@ pub(crate) fn settle_places(
     let path = |t: ThingId| state.structure.path(document, written_at(&state, t));
     let writes: Vec<(Path, Literal)> =
         units.iter().map(|&t| (path(t), literal(&state, t, &state.values))).collect();
+    let rounded = lang::write_rounded(&state.lowered, &writes, &BTreeSet::new());
     let edits = lang::write_values(&state.lowered, &writes);
+    let text = syntax::edit::apply(&state.text, &rounded);
+    let (next, mut planner) = State::written(text, &state, host, planner.into_plans());
+    if is_as_exact(&next, &state.values, &mut planner) {
+        return (next, planner);
+    }
     let text = syntax::edit::apply(&state.text, &edits);
     let (next, planner) = State::written(text, &state, host, planner.into_plans());
     match is_same(&next, &state) {

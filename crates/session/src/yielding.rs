@@ -4,8 +4,9 @@
 //! given, what it became, and the constraints that made it so. What a class gives its things is told where the
 //! document declares the thing, for there it can be given another value.
 
+use crate::rules;
 use crate::state::State;
-use crate::words::{listed, show_thing, source_in_words};
+use crate::words::{listed, show_thing};
 use crate::write_back::unit_of_writing;
 use base::{Diagnostic, Place};
 use kernel::{DOCUMENT, SlotId, ThingId};
@@ -93,7 +94,7 @@ fn warning(
     let sources: BTreeSet<Source> =
         line.slots.iter().filter_map(|slot| behind.get(slot)).flatten().copied().collect();
     let constraints: Vec<String> =
-        sources.iter().filter_map(|&source| source_in_words(state, source)).collect();
+        sources.iter().filter_map(|&source| rules::told(state, source)).collect();
     let because = match constraints.is_empty() {
         true => String::new(),
         false => format!(", because of {}", listed(&constraints)),

@@ -9,7 +9,7 @@ use crate::words;
 use leptos::prelude::*;
 use presentation::numbers::to_read;
 use presentation::paths::covers;
-use presentation::rows::shown_rules;
+use presentation::rows::{called, shown_rules};
 use presentation::sentences::formula;
 use session::Command;
 use session::view::{Offer, RowKind, StructureRow, ValueRow, ValueWithin};
@@ -29,7 +29,7 @@ pub fn Inspector(
         found.or_else(|| computed_rows(lab, &path).into_iter().next())
     });
     let title = move || {
-        let name = row.with(|row| row.as_ref().map(|row| row.path.clone()));
+        let name = row.with(|row| row.as_ref().map(called));
         let several = lab.also.with(Vec::len) + 1;
         if several > 1 {
             return words::several(several);
@@ -246,7 +246,11 @@ fn Rules(lab: Lab) -> impl IntoView {
 
 #[component]
 fn Rule(lab: Lab, row: StructureRow) -> impl IntoView {
+    let label = called(&row);
     let (path, on) = (row.path, row.enabled);
+    // what nobody has named is told by what it says
+    let rule = (label == path).then(|| (row.detail.clone(), formula(&row.detail)));
+    let title = if rule.is_some() { row.doc } else { row.detail };
     let (select, hover, switched) = (path.clone(), path.clone(), path.clone());
     let state = row.freedom.map(words::freedom).unwrap_or_default();
     let toggle = move |_| {
@@ -257,11 +261,11 @@ fn Rule(lab: Lab, row: StructureRow) -> impl IntoView {
     view! {
         <li class:off=!on>
             <button class="switch" role="switch" aria-checked=on.to_string()
-                aria-label=words::switch_of(&path) on:click=toggle></button>
-            <button class="path" title=row.doc
+                aria-label=words::switch_of(&label) on:click=toggle></button>
+            <button class="path" title=title
                 on:click=move |_| lab.select(Some(select.clone()))
-                on:pointerenter=move |_| lab.hover(Some(hover.clone()))>{path}</button>
-            <code title=row.detail.clone()>{formula(&row.detail)}</code>
+                on:pointerenter=move |_| lab.hover(Some(hover.clone()))>{label}</button>
+            {rule.map(|(detail, formula)| view! { <code title=detail>{formula}</code> })}
             <span class=format!("state {state}")><span class="unseen">{state}</span></span>
         </li>
     }

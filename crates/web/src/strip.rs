@@ -69,10 +69,15 @@ fn key(offer: &Offer) -> (String, Option<String>, String) {
 #[component]
 fn Button(lab: Lab, offer: Offer) -> impl IntoView {
     let label = match &offer.value {
+        Some(value) if offer.stands => format!("✓ {} {}", offer.label, to_read(value)),
         Some(value) => format!("{} {}", offer.label, to_read(value)),
         None => offer.label.clone(),
     };
-    let (name, title) = (offer.label.clone(), offer.members.replace("{}", "…"));
+    let title = match offer.stands {
+        true => String::from(words::SAID_ALREADY),
+        false => offer.members.replace("{}", "…"),
+    };
+    let name = offer.label.clone();
     let offer = StoredValue::new(offer);
     let look = move || lab.foresee(Some(&offer.get_value()));
     view! {
@@ -163,6 +168,7 @@ impl Lab {
         Ok(match offer.deed {
             Deed::Add if !matches!(command, Command::Text(_)) => self.apply(&command),
             Deed::Add => self.apply_called(&command, &offer.label),
+            Deed::Give(_) => self.apply(&command),
             Deed::Round(_) | Deed::InLines(_) => self.apply_called(&command, &offer.label),
         })
     }

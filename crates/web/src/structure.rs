@@ -8,7 +8,7 @@ use leptos::attr::custom::custom_attribute;
 use leptos::ev::KeyboardEvent;
 use leptos::html::Div;
 use leptos::prelude::*;
-use presentation::rows::{Shown, shown};
+use presentation::rows::{Shown, called, is_unnamed, rule_alone, shown};
 use session::Command;
 use session::view::{RowKind, StructureRow};
 use std::collections::BTreeSet;
@@ -225,25 +225,6 @@ fn named(row: &StructureRow, title: Option<String>) -> String {
     if row.depth == 0 { title.unwrap_or_default() } else { row.name.clone() }
 }
 
-/// A row's detail without what its name says already.
-fn rule_alone(row: &StructureRow) -> &str {
-    let rest = row.detail.strip_prefix("constraint ").unwrap_or(&row.detail).trim_start();
-    let rest = rest
-        .strip_prefix(row.name.as_str())
-        .map_or(rest, |rest| rest.trim_start().strip_prefix(':').map_or(rest, str::trim_start));
-    if row.kind == RowKind::Constraint { rest } else { &row.detail }
-}
-
-/// Whether a row is a constraint or a merge that nobody has named: its rule says more than `constraint3`.
-fn is_unnamed(row: &StructureRow) -> bool {
-    if row.name.is_empty() && !row.kind.has_own_path() {
-        return true;
-    }
-    let number = row.name.strip_prefix("constraint");
-    row.kind == RowKind::Constraint
-        && number.is_some_and(|n| !n.is_empty() && n.chars().all(|c| c.is_ascii_digit()))
-}
-
 /// Whether a row's value can be typed.
 fn is_editable(row: &StructureRow) -> bool {
     match row.kind {
@@ -394,7 +375,10 @@ fn Row(tree: Tree, place: usize, shown: Shown) -> impl IntoView {
         let title = lab.document.with(|d| d.as_ref().map(|d| d.title.clone()));
         row.with(|row| row.as_ref().map(|row| named(row, title)).unwrap_or_default())
     });
-    let detail = of(|row| String::from(rule_alone(row)));
+    let detail = of(|row| match row.kind == RowKind::Constraint && is_unnamed(row) {
+        true => called(row),
+        false => String::from(rule_alone(row)),
+    });
     let doc = of(|row| row.doc.clone());
     let state = of(|row| row.freedom.map(words::freedom).map(String::from).unwrap_or_default());
     let value = Memo::new(move |_| {

@@ -5,10 +5,11 @@ use crate::lab::{Kind, Lab, Told};
 use crate::{icons, words};
 use leptos::prelude::*;
 use presentation::paths::covers;
+use presentation::rows::called;
 use session::jobs::{LongAnswer, LongQuestion};
 use session::view::{
     Advice, Analysis, Choice, ContradictionView, ExplainedStep, Ghost, HeldView, MotionView,
-    RedundantView, Unmet, Velocity,
+    RedundantView, RowKind, StructureRow, Unmet, Velocity,
 };
 use session::{Command, Path};
 
@@ -23,12 +24,12 @@ pub(crate) fn listed(lab: Lab, word: &'static str, paths: Vec<String>) -> Option
 /// A path that is selected when it is pressed.
 #[component]
 fn PathButton(lab: Lab, path: String) -> impl IntoView {
-    let (select, hover) = (path.clone(), path.clone());
+    let (select, hover, label) = (path.clone(), path.clone(), lab.called(&path));
     view! {
         <button class="path"
             on:click=move |_| lab.select(Some(select.clone()))
             on:pointerenter=move |_| lab.hover(Some(hover.clone()))
-            on:pointerleave=move |_| lab.hover(None)>{path}</button>
+            on:pointerleave=move |_| lab.hover(None)>{label}</button>
     }
 }
 
@@ -287,10 +288,11 @@ fn Motion(lab: Lab, motion: MotionView) -> impl IntoView {
 
 #[component]
 fn UnmetRow(lab: Lab, unmet: Unmet) -> impl IntoView {
+    let is_named = lab.called(&unmet.constraint) == unmet.constraint;
     view! {
         <li>
             <PathButton lab=lab path=unmet.constraint />
-            <code>{unmet.rule}</code>" "
+            {is_named.then(|| view! { <code>{unmet.rule}</code>" " })}
             <span class="quiet">{unmet.strength}
                 {unmet.error.map(|error| format!(", {} {}", words::OFF_BY, words::short(error)))}</span>
         </li>
@@ -308,5 +310,15 @@ fn Step(lab: Lab, step: ExplainedStep) -> impl IntoView {
             <span class="quiet">{step.reason}</span>
             <span class="results">{step.values.join(", ")}</span>
         </li>
+    }
+}
+
+impl Lab {
+    /// What is at a path, in words: a constraint that nobody has named by what it says.
+    pub fn called(self, path: &str) -> String {
+        self.structure.with_untracked(|rows| {
+            let rule = |row: &&StructureRow| row.path == path && row.kind == RowKind::Constraint;
+            rows.iter().find(rule).map_or_else(|| path.into(), called)
+        })
     }
 }

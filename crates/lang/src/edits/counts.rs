@@ -5,7 +5,7 @@ use super::delete::Deletion;
 use crate::lower::Lowered;
 use crate::numbers::constant;
 use crate::uses::{Text, refused};
-use crate::write::value_edits;
+use crate::write::{Digits, value_edits};
 use base::Diagnostic;
 use kernel::{ClassId, Literal, Path, Step};
 use syntax::ast::{self, AstNode, Expr, TypeShape, span_without_doc};
@@ -67,7 +67,7 @@ impl Text<'_> {
         deletion: Deletion,
     ) -> Restructuring {
         let mut edits = deletion.edits;
-        for new in value_edits(self.lowered, &[(path.clone(), value.clone())]) {
+        for new in value_edits(self.lowered, &[(path.clone(), value.clone())], Digits::All) {
             let around =
                 |e: &&mut TextEdit| e.span.start <= new.span.start && new.span.end <= e.span.end;
             match edits.iter_mut().find(around) {

@@ -5,7 +5,7 @@ use crate::document::Open;
 use crate::host::Host;
 use crate::state::State;
 use base::number::{RULE_TOLERANCE, rounded, shortest};
-use kernel::{ThingId, Value};
+use kernel::{ThingId, Value, Values};
 use std::collections::BTreeMap;
 use syntax::ast::{AstNode, NumberExpr, UnaryExpr, UnaryOp};
 use syntax::{SyntaxKind, SyntaxNode, TextEdit};
@@ -51,7 +51,7 @@ pub(super) fn without_noise(
         let again = Open::of(&trial.name, trial.state.text.replacen(&member, short, 1), host);
         let state = &again.state;
         let holds = again.status.satisfied && state.gave_way.is_empty() && !state.has_errors();
-        holds && has_values_of(state, &trial.state, rounding)
+        holds && has_values(state, &trial.state.values, rounding.like)
     };
     for &rounding in sorts {
         let short = shortened(&member, rounding);
@@ -62,22 +62,23 @@ pub(super) fn without_noise(
     member
 }
 
-/// Whether the values of a text are those of another one of the same things, up to rounding.
-fn has_values_of(now: &State, was: &State, rounding: Rounding) -> bool {
-    let slots = &was.structure.slots;
+/// Whether the values of a state are like others of the same things: apart by no more than such a part of themselves, or
+/// of the largest coordinate of their place.
+pub(crate) fn has_values(now: &State, was: &Values, like: f64) -> bool {
+    let slots = &now.structure.slots;
     let mut largest: BTreeMap<ThingId, f64> = BTreeMap::new();
     for (slot, of) in slots.iter() {
-        if let (Some(place), Value::Number(x)) = (of.place, was.values.get(slot)) {
+        if let (Some(place), Value::Number(x)) = (of.place, was.get(slot)) {
             let known = largest.entry(place).or_default();
             *known = known.max(x.abs());
         }
     }
     let is_like = |a: f64, b: f64, place: Option<ThingId>| {
         let size = place.and_then(|place| largest.get(&place).copied()).unwrap_or(a.abs());
-        a == b || (a - b).abs() <= rounding.like * size
+        a == b || (a - b).abs() <= like * size
     };
-    slots.len() == now.structure.slots.len()
-        && slots.iter().all(|(slot, of)| match (was.values.get(slot), now.values.get(slot)) {
+    slots.len() == was.numbers.len()
+        && slots.iter().all(|(slot, of)| match (was.get(slot), now.values.get(slot)) {
             (Value::Number(a), Value::Number(b)) => is_like(a, b, of.place),
             (a, b) => a.same_bits(&b),
         })

@@ -54,12 +54,17 @@ impl Stage {
 
     /// What the mouse does, in one sentence: for the first place of a thing, and for others of one that a next goes on
     /// from, or not.
-    pub(crate) fn hint(&self, class: &str, (is_first, goes_on): (bool, bool)) -> String {
-        let part = self.part();
-        let what = match (self, part.0.is_empty()) {
-            (_, true) => String::from("it"),
-            (Self::Far { .. }, _) => String::from("the opposite corner"),
-            _ => part.to_string(),
+    /// `kind` is the class of what it sets.
+    pub(crate) fn hint(
+        &self,
+        class: &str,
+        kind: Option<&Name>,
+        (is_first, goes_on): (bool, bool),
+    ) -> String {
+        let what = match self {
+            Self::Far { .. } => String::from("the opposite corner"),
+            Self::Place { part, .. } => in_words(part, kind),
+            Self::Reach { number } => in_words(number, kind),
         };
         let (way, leave) = match (is_first, goes_on) {
             (true, _) => ("click or press", "done"),
@@ -67,6 +72,28 @@ impl Stage {
             (false, false) => ("click", "give up"),
         };
         format!("{class}: {way} to set {what}; Shift: no joints and guides; Esc: {leave}")
+    }
+}
+
+/// What people are told of a part of a thing: `its second point` of `p2`, `its center` of `center`.
+fn in_words(part: &Path, kind: Option<&Name>) -> String {
+    const ORDINALS: [&str; 4] = ["first", "second", "third", "fourth"];
+    let name = part.to_string();
+    if name.is_empty() {
+        return "it".into();
+    }
+    let stem = name.trim_end_matches(|c: char| c.is_ascii_digit());
+    let number = name[stem.len()..].parse::<usize>().ok();
+    let ordinal = number.and_then(|n| ORDINALS.get(n.checked_sub(1)?));
+    // a letter says nothing
+    let noun = match kind {
+        Some(kind) if stem.chars().count() == 1 => kind.to_lowercase(),
+        _ => stem.to_string(),
+    };
+    match ordinal {
+        Some(ordinal) => format!("its {ordinal} {noun}"),
+        None if noun != stem => format!("its {noun} {name}"),
+        None => format!("its {name}"),
     }
 }
 

@@ -93,6 +93,8 @@ pub struct Offer {
     pub members: String,
     /// The value as it is now, where one goes there.
     pub value: Option<String>,
+    /// Whether a dimension says it already: saying it gives that another value.
+    pub stands: bool,
     /// What saying it does.
     pub deed: Deed,
 }
@@ -112,6 +114,8 @@ pub enum Deed {
     /// Its members are added to the document.
     #[default]
     Add,
+    /// The value at a path, which a dimension has that stands already, is another.
+    Give(kernel::Path),
     /// The corner at a point, or between two lines, is rounded; its value is the radius.
     Round(Vec<kernel::Path>),
     /// A rectangle becomes its four lines.

@@ -5,7 +5,7 @@ use crate::session::parse_path;
 use crate::state::State;
 use crate::texts::Texts;
 use crate::view::{Analysis, Choice, ContradictionView, MotionView, RedundantView, Velocity};
-use crate::words;
+use crate::{rules, words};
 use base::Place;
 use kernel::{Command, Literal, Primitive, SlotId, ThingId, Values};
 use plan::{
@@ -57,12 +57,14 @@ fn redundant(open: &Open, r: &Redundant) -> Option<RedundantView> {
         (RedundantKind::Form, true) => "it speaks of numbers that are fixed anyway".to_string(),
         (RedundantKind::Form, false) => {
             let say = if implied_by.len() == 1 { "says" } else { "say" };
-            format!("{} {say} it already", words::listed(&implied_by))
+            let said = rules::all_told(&open.state, &r.implied_by);
+            format!("{} {say} it already", words::listed(&said))
         }
         (RedundantKind::Theorem, true) => "it holds wherever the others do".to_string(),
         (RedundantKind::Theorem, false) => {
             let hold = if implied_by.len() == 1 { "does" } else { "do" };
-            format!("it holds wherever {} {hold}", words::listed(&implied_by))
+            let said = rules::all_told(&open.state, &r.implied_by);
+            format!("it holds wherever {} {hold}", words::listed(&said))
         }
     };
     Some(RedundantView { constraint, implied_by, because })
@@ -187,7 +189,7 @@ pub(crate) fn contradiction(open: &Open, c: &Contradiction) -> ContradictionView
     let state = &open.state;
     let constraints = names(open, &c.constraints);
     let anchors: Vec<String> = c.anchors.iter().map(|&a| place(open, a)).collect();
-    let mut all = constraints.clone();
+    let mut all = rules::all_told(state, &c.constraints);
     all.extend(anchors.iter().map(|a| format!("the anchor of {a}")));
     let list = words::listed(&all);
     let (decided, message) = match (c.certainty, all.len()) {
@@ -200,7 +202,7 @@ pub(crate) fn contradiction(open: &Open, c: &Contradiction) -> ContradictionView
         (Certainty::NoSolution { starts }, count) => {
             let together = if count == 1 { "" } else { " together" };
             let why = no_value(open, c).and_then(|no_value| {
-                let name = words::source_name(state, no_value.source)?;
+                let name = rules::told(state, no_value.source)?;
                 Some(format!(": {name} has no value: {}", no_value.fault))
             });
             let why = why.unwrap_or_default();
@@ -234,7 +236,7 @@ pub(crate) fn contradiction(open: &Open, c: &Contradiction) -> ContradictionView
     };
     let repair = |r: &Repair| match *r {
         Repair::LeaveOut { source, ref numbers } => {
-            let name = words::source_name(state, source)?;
+            let name = rules::told(state, source)?;
             let sides = words::sides_in_words(state, source, &left(open, numbers));
             let sides = sides.map_or(String::new(), |sides| format!("; then {sides}"));
             Some(format!("delete {name} or switch it off{sides}"))
@@ -361,7 +363,7 @@ fn one_way(open: &Open, c: &Contradiction) -> Option<String> {
         let mut read = open.planner.only_read(source);
         read.extend(named.flat_map(|thing| state.structure.slots_under(thing)));
         let read: Vec<SlotId> = read.into_iter().collect();
-        let name = words::source_name(state, source)?;
+        let name = rules::told(state, source)?;
         let read = words::listed(&words::slots_listed(state, &read));
         (!read.is_empty()).then(|| format!("{name} only reads {read}"))
     };
@@ -374,7 +376,7 @@ fn combination(open: &Open, proof: &Combination) -> Option<String> {
     let shown = |x: f64| base::number::significant(x, 6);
     let mut sum = String::new();
     for &(source, factor) in &proof.terms {
-        let name = words::source_name(&open.state, source)?;
+        let name = rules::told(&open.state, source)?;
         let sign = match (sum.is_empty(), factor < 0.0) {
             (true, false) => "",
             (true, true) => "−",
@@ -393,7 +395,7 @@ fn combination(open: &Open, proof: &Combination) -> Option<String> {
         Said::AtMost(x) => format!("at most {}", measured(x)),
         Said::AtLeast(x) => format!("at least {}", measured(x)),
     };
-    let against = words::source_name(&open.state, proof.against)?;
+    let against = rules::told(&open.state, proof.against)?;
     let (said, denied) = (says(proof.says), says(proof.denies));
     (!sum.is_empty()).then(|| format!("{sum} says {said}, {against} says {denied}"))
 }

@@ -3,13 +3,14 @@
 use crate::document::Open;
 use crate::texts::Texts;
 use crate::view::HeldView;
-use crate::words;
+use crate::{rules, words};
 use kernel::{Path, SlotId};
+use plan::Source;
 
 /// What stands in the way of some numbers alike.
 #[derive(PartialEq)]
 struct Hold {
-    constraints: Vec<String>,
+    constraints: Vec<Source>,
     anchors: Vec<String>,
 }
 
@@ -33,9 +34,7 @@ pub(crate) fn view(open: &mut Open, about: &Path) -> Option<HeldView> {
             continue;
         };
         let mut hold = Hold { constraints: Vec::new(), anchors: Vec::new() };
-        for name in by.constraints.into_iter().filter_map(|s| words::source_name(&state, s)) {
-            push_new(&mut hold.constraints, name);
-        }
+        by.constraints.into_iter().for_each(|source| push_new(&mut hold.constraints, source));
         by.anchors.into_iter().for_each(|anchor| push_new(&mut hold.anchors, place(anchor)));
         match holds.iter_mut().find(|known| known.0 == hold) {
             Some(known) => known.1.push(slot),
@@ -50,14 +49,13 @@ pub(crate) fn view(open: &mut Open, about: &Path) -> Option<HeldView> {
             if only { (vec![about.to_string()], 1) } else { (whole(slots), whole(slots).len()) };
         let (moves, is) = if number == 1 { ("does", "it is") } else { ("do", "they are") };
         let names = words::listed(&names);
+        let by = words::listed(&rules::all_told(&state, &hold.constraints));
         let reason = match (hold.constraints.is_empty(), hold.anchors.is_empty()) {
             (true, _) => format!("{is} anchored"),
-            (false, true) => format!("held by {}", words::listed(&hold.constraints)),
-            (false, false) => format!(
-                "held by {}, and by the anchor of {}",
-                words::listed(&hold.constraints),
-                words::listed(&hold.anchors)
-            ),
+            (false, true) => format!("held by {by}"),
+            (false, false) => {
+                format!("held by {by}, and by the anchor of {}", words::listed(&hold.anchors))
+            }
         };
         sentences.push(format!("{names} {moves} not move: {reason}"));
     }
@@ -69,13 +67,14 @@ pub(crate) fn view(open: &mut Open, about: &Path) -> Option<HeldView> {
     }
     let (mut constraints, mut anchors) = (Vec::new(), Vec::new());
     for (hold, _) in holds {
-        hold.constraints.into_iter().for_each(|name| push_new(&mut constraints, name));
+        let names = hold.constraints.iter().filter_map(|&s| words::source_name(&state, s));
+        names.for_each(|name| push_new(&mut constraints, name));
         hold.anchors.into_iter().for_each(|path| push_new(&mut anchors, path));
     }
     Some(HeldView { message: sentences.join("; "), constraints, anchors })
 }
 
-fn push_new(names: &mut Vec<String>, name: String) {
+fn push_new<T: PartialEq>(names: &mut Vec<T>, name: T) {
     if !names.contains(&name) {
         names.push(name);
     }

@@ -8,7 +8,7 @@ use crate::document::Open;
 use crate::state::State;
 use crate::texts::Texts;
 use crate::view::DiagnosticView;
-use crate::words;
+use crate::{rules, words};
 use base::{Diagnostic, FileId, Name, Place};
 use eval::{Fault, FaultKind};
 use expr::Dimension;
@@ -199,7 +199,7 @@ fn sends<'a>(message: &Message, others: &(impl Iterator<Item = &'a Failing<'a>> 
 }
 
 fn of_unmet(state: &State, source: Source) -> Option<Diagnostic> {
-    let name = words::source_in_words(state, source)?;
+    let name = rules::told(state, source)?;
     let (place, _) = place_of(state, source)?;
     let why = words::shortfall(state, source, &state.values);
     let operation = words::place_of_fault(state, source, &state.values);
@@ -283,8 +283,7 @@ fn mechanism(open: &mut Open, state: &State) -> Option<(Diagnostic, Vec<Source>)
         return None;
     }
     let moving = words::listed(&words::slots_listed(state, &moving));
-    let names: Vec<String> =
-        unbalanced.iter().filter_map(|&s| words::source_name(state, s)).collect();
+    let names = rules::all_told(state, &unbalanced);
     let so = match names.is_empty() {
         true => String::new(),
         false => format!(", so {} cannot be met", words::listed(&names)),

@@ -22,7 +22,7 @@ pub(crate) fn view(open: &Open) -> Status {
     let errors = state.diagnostics.iter().filter(|d| d.severity == base::Severity::Error).count();
     let notes: Vec<String> = double_roots(state).into_iter().chain(yielded(state)).collect();
     let said: Vec<String> =
-        status.unmet.iter().filter_map(|u| words::source_in_words(state, u.source)).collect();
+        status.unmet.iter().filter_map(|u| crate::rules::told(state, u.source)).collect();
     let mut message = sentence(satisfied, &said, status.freedom, errors);
     for note in &notes {
         message = format!("{message}; {note}");

@@ -125,7 +125,7 @@ fn what_contradicts_is_asked_about_with_ways_out_that_hold() {
         labels,
         [
             "reference dimension: it only reads",
-            "instead of a.length = 100",
+            "instead of “length of a = 100”",
             "keep it switched off",
             "keep it as a conflict",
         ]

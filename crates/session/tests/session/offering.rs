@@ -381,3 +381,38 @@ fn what_constraints_say_stands_on_the_drawing_and_is_typed_anew() {
         .expect("it is switched off");
     assert_eq!(desk.session.annotations(desk.id).len(), 6);
 }
+
+#[test]
+fn a_dimension_that_stands_is_shown_and_edited() {
+    let dimension = |desk: &Desk, paths: &[&str], label: &str| {
+        let found = offers(desk, paths).into_iter().find(|offer| offer.label == label);
+        found.unwrap_or_else(|| panic!("{label} of {paths:?} is offered"))
+    };
+    let mut desk = Desk::of("use geometry\na: Line { p1 = (0, 0)  p2 = (30, 40) }\n");
+    assert!(!dimension(&desk, &["a.p1", "a.p2"], "distance").stands);
+    take(&mut desk, &["a.p1", "a.p2"], "distance", Some("100"));
+    // of the two places, either way round, and of the line between them
+    let ways =
+        [(&["a.p1", "a.p2"][..], "distance"), (&["a.p2", "a.p1"], "distance"), (&["a"], "length")];
+    for (paths, label) in ways {
+        let stands = dimension(&desk, paths, label);
+        assert!(stands.stands, "{stands:?}");
+        let command = desk.session.said(desk.id, &stands, Some("50")).expect("it fits");
+        desk.apply(&command).expect("it holds");
+        assert_eq!(desk.text().matches("distance").count(), 1, "{}", desk.text());
+        assert!(desk.text().contains("a.p1.distance(to: a.p2) = 50"), "{}", desk.text());
+        desk.undo();
+    }
+    take(&mut desk, &["a"], "direction", Some("90 deg"));
+    assert!(dimension(&desk, &["a"], "direction").stands);
+    // and of a number that is given, one of a thing that is the distance too
+    let text = "use geometry\na: Line { p1 = (0, 0)  p2 = (30, 40) }\nd: Distance { from = a.p1  to = a.p2  value = 50 }\n";
+    let mut desk = Desk::of(text);
+    assert!(dimension(&desk, &["a"], "length").stands);
+    take(&mut desk, &["a.p2", "a.p1"], "distance", Some("25"));
+    assert_eq!(desk.text().lines().last(), Some("d: Distance { from = a.p1  to = a.p2  value = 25 }"));
+    let mut desk = Desk::of(FIGURE);
+    assert!(dimension(&desk, &["c"], "radius").stands);
+    take(&mut desk, &["c"], "radius", Some("25"));
+    assert!(desk.text().contains("radius = 25") && !desk.text().contains("constraint"));
+}

@@ -119,7 +119,7 @@ fn a_refusal_says_what_a_rule_without_a_name_says() {
     let refusal = desk.set("w", 30.0).expect_err("the height would be less than four");
     assert_eq!(
         refusal.message,
-        "refused: 25 is the limit of w; constraint1 (w * h = 100), constraint3 (h >= 4) would not all hold"
+        "refused: 25 is the limit of w; “w * h = 100”, “h >= 4” would not all hold"
     );
     assert_eq!(refusal.constraints, ["constraint1", "constraint3"]);
 }

@@ -187,3 +187,28 @@ fn numbers_survive_to_the_last_bit() {
     assert_eq!(saved, "a: Real = 0.3333333333333333\n");
     assert_eq!(Desk::of(&saved).number("a").to_bits(), third.to_bits());
 }
+
+/// The digits of every number of a text, without leading zeros.
+fn digits(text: &str) -> Vec<usize> {
+    let numbers = text.split(|c: char| !(c.is_ascii_digit() || c == '.'));
+    let digits = |number: &str| number.replace('.', "").trim_start_matches('0').len();
+    numbers.map(digits).collect()
+}
+
+#[test]
+fn what_a_rule_makes_of_a_drag_is_written_as_a_draughtsman_would() {
+    let mut desk = Desk::of(
+        "use geometry\ncircle: Circle { center = (0, 0)  radius = 150 }\np: Point = (150, 0)\n\
+         constraint circle.passes(through: p)\nanchor circle.center\nanchor circle.radius\n",
+    );
+    desk.drag("p", &[(120.0, 70.0), (100.0, 120.0)]);
+    let text = desk.text();
+    assert!(digits(&text).into_iter().all(|n| n <= 11), "{text}");
+    let (x, y) = (desk.number("p.x"), desk.number("p.y"));
+    assert!((base::number::hypot(x, y) - 150.0).abs() < 1e-8, "({x}, {y})");
+    assert_eq!(Desk::of(&text).bits(), desk.bits());
+    // what somebody says is written as it was said
+    desk.set("circle.radius", 1.0 / 3.0).expect("nothing forbids it");
+    assert!(desk.text().contains("radius = 0.3333333333333333"), "{}", desk.text());
+    assert_eq!(Desk::of(&desk.text()).bits(), desk.bits());
+}

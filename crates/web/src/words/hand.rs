@@ -19,6 +19,8 @@ pub const ALSO: &str = "+ also";
 pub const ALSO_HELP: &str = "Select further things by touching them; touch the empty sheet to end";
 /// The value of what is one itself.
 pub const VALUE: &str = "value";
+/// What the strip says of a dimension that is said already.
+pub const SAID_ALREADY: &str = "said already: press to give it another value";
 /// What the strip says of a check mark.
 pub const HOLDS_ALREADY: &str = "it is so already: something says it, or it follows";
 

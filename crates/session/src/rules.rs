@@ -1,0 +1,88 @@
+//! Rules: what a constraint is called in a sentence. One that has a name is called by it; of one without, people are
+//! told what it says.
+
+use crate::state::State;
+use crate::words::{rule_alone, source_name};
+use kernel::DOCUMENT;
+use plan::Source;
+
+/// The longest rule that is told, in letters.
+const LONGEST: usize = 64;
+
+/// Returns what a reader is told of a constraint: its path, or what it says where it has no name; nothing for a wish.
+pub(crate) fn told(state: &State, source: Source) -> Option<String> {
+    let name = source_name(state, source)?;
+    match source {
+        Source::Constraint(index) => Some(unnamed(state, index).unwrap_or(name)),
+        Source::Stay(_) | Source::Wish(_) => Some(name),
+    }
+}
+
+/// Returns what constraints are called.
+pub(crate) fn all_told(state: &State, sources: &[Source]) -> Vec<String> {
+    sources.iter().filter_map(|&source| told(state, source)).collect()
+}
+
+/// Returns what a constraint says that has no name, in quotes; nothing where it has one, or says too much.
+pub(crate) fn unnamed(state: &State, index: u32) -> Option<String> {
+    let instance = state.structure.constraints[index as usize];
+    let document = &state.lowered.document;
+    if document.classes[instance.class].constraints[instance.index as usize].name.is_some() {
+        return None;
+    }
+    let rule = rule_alone(state, index);
+    let is_short = !rule.is_empty() && rule.chars().count() <= LONGEST && !rule.contains('\n');
+    let said = is_short.then(|| format!("“{}”", rule_in_words(&rule)))?;
+    Some(match instance.owner {
+        DOCUMENT => said,
+        owner => format!("{said} of {}", state.structure.path(document, owner)),
+    })
+}
+
+/// Returns a rule as a person says it: `a ∥ b` for `a.parallel(to: b)`, `length of a = 30 mm` for `a.length = 30 mm`;
+/// any other as it is written.
+///
+/// ```
+/// use session::rule_in_words;
+/// assert_eq!(rule_in_words("a.perpendicular(to: b.side1)"), "a ⟂ b.side1");
+/// assert_eq!(rule_in_words("circle.passes(through: line.p2)"), "circle passes through line.p2");
+/// assert_eq!(rule_in_words("a.angle(to: b) = 30 deg"), "angle of a to b = 30 deg");
+/// assert_eq!(rule_in_words("q.side1.length = 30 mm"), "length of q.side1 = 30 mm");
+/// assert_eq!(rule_in_words("a.length = b.length"), "a.length = b.length");
+/// assert_eq!(rule_in_words("x = 30"), "x = 30");
+/// ```
+pub fn rule_in_words(rule: &str) -> String {
+    let (measured, value) = match rule.split_once(" = ") {
+        Some((left, value)) if value.starts_with(|c: char| c.is_ascii_digit()) => (left, value),
+        Some(_) => return rule.into(),
+        None => {
+            return asked(rule).map_or(rule.into(), |(one, verb, other)| match verb.as_str() {
+                "parallel to" => format!("{one} ∥ {other}"),
+                "perpendicular to" => format!("{one} ⟂ {other}"),
+                _ => format!("{one} {verb} {other}"),
+            });
+        }
+    };
+    if let Some((one, verb, other)) = asked(measured) {
+        let (what, way) = verb.split_once(' ').unwrap_or((&verb, "and"));
+        return format!("{what} of {one} {way} {other} = {value}");
+    }
+    match measured.rsplit_once('.') {
+        Some((whole, what)) if is_path(measured) => format!("{what} of {whole} = {value}"),
+        _ => rule.into(),
+    }
+}
+
+/// Takes apart what is asked of one thing about another: the one, the message with its label, and the other.
+fn asked(rule: &str) -> Option<(&str, String, &str)> {
+    let (to, argument) = rule.strip_suffix(')')?.split_once('(')?;
+    let (one, message) = to.rsplit_once('.')?;
+    let (label, other) = argument.split_once(": ")?;
+    let is_plain = is_path(one) && is_path(other) && is_path(message) && is_path(label);
+    is_plain.then(|| (one, format!("{message} {label}"), other))
+}
+
+fn is_path(text: &str) -> bool {
+    text.starts_with(char::is_alphabetic)
+        && text.chars().all(|c| c.is_alphanumeric() || "._[]".contains(c))
+}
