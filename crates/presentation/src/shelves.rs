@@ -16,8 +16,12 @@ pub struct Shelf {
 impl Shelf {
     /// What tells it from others: its name, what lies on it, whether it is open.
     pub fn key(&self) -> (String, Vec<String>, bool) {
-        let classes = self.entries.iter().map(|entry| entry.class.clone()).collect();
-        (self.name.clone(), classes, self.is_open)
+        // how a library's classes look stays; the document's own are edited
+        let told = |entry: &BinEntry| match entry.library.is_empty() {
+            true => format!("{} {:?}", entry.class, entry.picture.elements),
+            false => entry.class.clone(),
+        };
+        (self.name.clone(), self.entries.iter().map(told).collect(), self.is_open)
     }
 }
 
@@ -70,6 +74,22 @@ mod tests {
         };
         assert_ne!(key("Resistor"), key("Capacitor"));
         assert_eq!(key("Resistor"), key("Resistor"));
+    }
+
+    #[test]
+    fn a_tile_is_drawn_anew_when_its_class_has_another_look() {
+        let key = |x: f64| {
+            let mut own = entry("Sail", "", None);
+            own.picture.elements.push(drawing::Element {
+                shape: drawing::Shape::Dot(drawing::Point { x, y: 0.0 }),
+                style: drawing::Style::default(),
+                layer: drawing::Layer::Lines,
+                tag: drawing::Tag(0),
+            });
+            shelved(&[own], false)[0].key()
+        };
+        assert_ne!(key(1.0), key(2.0));
+        assert_eq!(key(1.0), key(1.0));
     }
 
     #[test]

@@ -225,6 +225,11 @@ impl Session {
         }
     }
 
+    /// Whether a number says how many parts there are: it is no number to drag, the document is another with each.
+    pub fn is_count(&self, id: DocumentId, path: &Path) -> bool {
+        lang::is_count(&self.document(id).state.lowered, path)
+    }
+
     /// Returns the number in base units that a value comes to on a slider: in its unit the shortest that is as near as a
     /// step. Nothing where the path leads to no number.
     pub fn at_step(&self, id: DocumentId, path: &Path, x: f64, step: f64) -> Option<f64> {

@@ -49,12 +49,14 @@ pub(crate) fn unnamed(state: &State, index: u32) -> Option<String> {
 /// assert_eq!(rule_in_words("a.angle(to: b) = 30 deg"), "angle of a to b = 30 deg");
 /// assert_eq!(rule_in_words("q.side1.length = 30 mm"), "length of q.side1 = 30 mm");
 /// assert_eq!(rule_in_words("a.length = b.length"), "a.length = b.length");
+/// assert_eq!(rule_in_words("a.p1.y = a.p2.y"), "a is horizontal");
+/// assert_eq!(rule_in_words("a.p1.x = b.p2.x"), "a.p1 is straight above or below b.p2");
 /// assert_eq!(rule_in_words("x = 30"), "x = 30");
 /// ```
 pub fn rule_in_words(rule: &str) -> String {
     let (measured, value) = match rule.split_once(" = ") {
         Some((left, value)) if value.starts_with(|c: char| c.is_ascii_digit()) => (left, value),
-        Some(_) => return rule.into(),
+        Some((left, right)) => return level(left, right).unwrap_or_else(|| rule.into()),
         None => {
             return asked(rule).map_or(rule.into(), |(one, verb, other)| match verb.as_str() {
                 "parallel to" => format!("{one} ∥ {other}"),
@@ -70,6 +72,25 @@ pub fn rule_in_words(rule: &str) -> String {
     match measured.rsplit_once('.') {
         Some((whole, what)) if is_path(measured) => format!("{what} of {whole} = {value}"),
         _ => rule.into(),
+    }
+}
+
+/// Says that two places are level, or one above the other: of the two ends of one thing, that it is.
+fn level(left: &str, right: &str) -> Option<String> {
+    let ((one, x), (other, y)) = (left.rsplit_once('.')?, right.rsplit_once('.')?);
+    let (way, said) = match (x, y) {
+        ("y", "y") => ("horizontal", "is level with"),
+        ("x", "x") => ("vertical", "is straight above or below"),
+        _ => return None,
+    };
+    if !is_path(one) || !is_path(other) {
+        return None;
+    }
+    match (one.rsplit_once('.'), other.rsplit_once('.')) {
+        (Some((whole, "p1")), Some((same, "p2"))) if whole == same => {
+            Some(format!("{whole} is {way}"))
+        }
+        _ => Some(format!("{one} {said} {other}")),
     }
 }
 

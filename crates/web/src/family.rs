@@ -11,6 +11,7 @@ use session::jobs::{LongAnswer, LongQuestion};
 use session::view::{
     Change, DocumentId, FamilyGrid, FamilyRow, FamilyView, Refusal, RowFormats, RowOutcome, RowUse,
 };
+use std::collections::BTreeMap;
 use wasm_bindgen::JsCast;
 use wasm_bindgen::closure::Closure;
 
@@ -44,9 +45,42 @@ pub struct Family {
     thing: Memo<Option<String>>,
     /// Why something was refused.
     refused: RwSignal<Option<String>>,
+    /// What was typed into cells and refused, by the family and the cell's row and column.
+    kept: StoredValue<BTreeMap<(String, usize, usize), String>>,
 }
 
 impl Family {
+    /// Keeps what was typed into a cell where it was refused, so that it stands there until it is said otherwise.
+    fn keep(self, (row, column): (usize, usize), typed: &str, is_taken: bool) {
+        let cell = (self.name.get_untracked(), row, column);
+        let _ = self.kept.try_update_value(|kept| match is_taken {
+            true => kept.remove(&cell),
+            false => kept.insert(cell, typed.into()),
+        });
+    }
+
+    /// What was typed into a cell and refused.
+    fn kept(self, (row, column): (usize, usize)) -> Option<String> {
+        let cell = (self.name.get_untracked(), row, column);
+        self.kept.with_value(|kept| kept.get(&cell).cloned())
+    }
+
+    /// Forgets what was refused of a row that goes; that of later rows goes up with them.
+    fn forget(self, gone: usize) {
+        let own = self.name.get_untracked();
+        self.kept.update_value(|kept| {
+            let stays = std::mem::take(kept)
+                .into_iter()
+                .filter(|((name, row, _), _)| *name != own || *row != gone);
+            *kept = stays
+                .map(|((name, row, column), typed)| {
+                    let row = if name == own && row > gone { row - 1 } else { row };
+                    ((name, row, column), typed)
+                })
+                .collect();
+        });
+    }
+
     /// Changes the document by an edit of the family that is shown, once what is pending has ended.
     fn edit(
         self,
@@ -212,7 +246,8 @@ pub fn Families(
         let is_there = |path: &String| things.contains(path);
         selected.filter(is_there).or(Some(chosen).filter(is_there)).or(things.first().cloned())
     });
-    let family = Family { lab, name, grid, outcomes, thing, refused };
+    let kept = StoredValue::new(BTreeMap::new());
+    let family = Family { lab, name, grid, outcomes, thing, refused, kept };
     view! {
         <section class="panel family" aria-label=words::FAMILY>
             <Show when=move || choices.with(|all| !all.is_empty())

@@ -8,6 +8,9 @@ use presentation::palette::Makeable;
 use presentation::typing::{adds, pointed};
 use session::view::{Along, Pointer, Refusal, RowKind, ToolView};
 
+/// The library whose things the tools of the rail draw.
+const SHEET_LIBRARY: &str = "geometry";
+
 /// The tools, one below the other; those that the document has no classes for say why not.
 #[component]
 pub fn Rail(
@@ -348,6 +351,14 @@ impl Lab {
             act(self, &one.class);
         }
         is_used
+    }
+
+    /// Takes the tool that draws things of a class; a file in which nothing stands yet becomes a new sheet.
+    pub fn draw_with(self, class: &str) {
+        let is_blank = self.text.with_untracked(|text| text.source.trim().is_empty());
+        if !is_blank || self.use_library(SHEET_LIBRARY) {
+            self.take_tool(class);
+        }
     }
 
     /// Has the document use a library; returns whether it does.

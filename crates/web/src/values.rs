@@ -1,6 +1,6 @@
 //! The values view: a table in which every value can be typed, scrubbed and locked.
 
-use crate::lab::Lab;
+use crate::lab::{Lab, Notice};
 use crate::player::Play;
 use crate::{field, js, words};
 use leptos::ev::{KeyboardEvent, PointerEvent};
@@ -292,8 +292,20 @@ pub fn Slider(
         });
         rounded.filter(|x| (least..=most).contains(x)).unwrap_or(to)
     };
+    // how many parts there are is said once the hand lets go: each number is another document
+    let counted = StoredValue::new(None::<f64>);
+    let is_count = move || {
+        let path = path.with_untracked(|path| session::parse_path(path));
+        let asked = path.zip(lab.id());
+        asked.is_some_and(|(path, id)| lab.ask(|session| session.is_count(id, &path)))
+    };
     let moved = move |e: leptos::ev::Event| {
         let Ok(to) = event_target_value(&e).parse::<f64>() else { return };
+        if !pressed.get_value() && is_count() {
+            counted.set_value(Some(to));
+            let said = path.with_untracked(|path| words::count_to_be(path, to));
+            return lab.notice.set(Some(Notice::Said(said)));
+        }
         if !pressed.get_value() {
             pressed.set_value(path.with_untracked(|path| lab.press(path)).is_some());
         }
@@ -304,6 +316,10 @@ pub fn Slider(
     let done = move || {
         if pressed.try_update_value(std::mem::take) == Some(true) {
             lab.release();
+        }
+        if let Some(to) = counted.try_update_value(Option::take).flatten() {
+            let said = path.with_untracked(|path| lab.set_typed(path, &to.to_string()));
+            lab.notice.set(said.err().map(Notice::Refused));
         }
     };
     let step = move || {
@@ -321,7 +337,12 @@ pub fn Slider(
                     min=move || range.get().0.to_string() max=move || range.get().1.to_string()
                     step=move || step().to_string()
                     prop:value=move || number.get().unwrap_or_default().to_string()
-                    on:input=moved on:change=move |_| done()
+                    on:input=moved on:change=move |e| {
+                        done();
+                        // what was refused is as it was
+                        let is = number.get_untracked().unwrap_or_default().to_string();
+                        event_target::<web_sys::HtmlInputElement>(&e).set_value(&is);
+                    }
                     on:pointerup=move |_| done() on:pointercancel=move |_| done() />
                 </div>
             }

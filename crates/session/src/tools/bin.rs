@@ -5,9 +5,12 @@ use crate::joining;
 use crate::prototype::Lone;
 use crate::recognise;
 use crate::state::State;
+use crate::texts::Texts;
 use crate::view::BinEntry;
+use drawing::Drawing;
 use eval::Evaluator;
-use kernel::{ClassId, SlotId, Value};
+use kernel::{ClassId, SlotId, Value, Values};
+use plan::{Model, Planner, Plans};
 
 /// The class of an entry, and the toolbox that it lies in.
 type Made<'s> = (ClassId, &'s kernel::Class, Option<usize>);
@@ -52,17 +55,42 @@ pub(crate) fn entries(state: &State) -> Vec<BinEntry> {
                 .map(|file| file.name.clone())
                 .unwrap_or_default(),
             toolbox: toolbox.map(|b| boxes[b].title.clone()),
-            picture: picture(state, id),
+            picture: solved(state, id),
         }
     };
     made(state).into_iter().map(entry).collect()
 }
 
 /// The picture of a class's prototype, from what is given alone.
-pub(crate) fn picture(state: &State, class: ClassId) -> drawing::Drawing {
-    let Some(lone) = Lone::of(&state.lowered.document, class) else {
-        return drawing::Drawing::default();
-    };
+pub(crate) fn picture(state: &State, class: ClassId) -> Drawing {
+    let prototype = Lone::of(&state.lowered.document, class);
+    prototype.map(|lone| drawn(&lone, &spread(&lone, class))).unwrap_or_default()
+}
+
+/// The same as its constraints want it, where it is small enough to be solved for a tile.
+fn solved(state: &State, class: ClassId) -> Drawing {
+    /// What has more numbers is shown as it is given.
+    const MOST: usize = 40;
+    let Some(lone) = Lone::of(&state.lowered.document, class) else { return Drawing::default() };
+    let given = spread(&lone, class);
+    let Lone { document, structure, .. } = &lone;
+    let is_small = structure.slots.len() <= MOST && !structure.constraints.is_empty();
+    let values = is_small.then(|| {
+        let model = Model { document, structure };
+        let (mut planner, _) = Planner::new(model, Plans::default());
+        let mut values = given.clone();
+        let holds = planner.satisfy(model, &mut values, &mut Texts::new(document, structure));
+        holds.then_some(values)
+    });
+    drawn(&lone, &values.flatten().unwrap_or(given))
+}
+
+fn drawn(lone: &Lone, values: &Values) -> Drawing {
+    Evaluator::new(&lone.document, &lone.structure, values).picture(lone.thing).drawing
+}
+
+/// What a prototype is given; where that leaves all that sticks in one spot, each has a spot of its own.
+fn spread(lone: &Lone, class: ClassId) -> Values {
     let (mut values, _) = eval::given_values(&lone.document, &lone.structure);
     let places: Vec<[SlotId; 2]> = joining::attachers(&lone.document, class)
         .iter()
@@ -77,6 +105,5 @@ pub(crate) fn picture(state: &State, class: ClassId) -> drawing::Drawing {
             values.put(*y, Value::Number(to_y));
         }
     }
-    let evaluator = Evaluator::new(&lone.document, &lone.structure, &values);
-    evaluator.picture(lone.thing).drawing
+    values
 }

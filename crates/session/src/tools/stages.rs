@@ -78,10 +78,11 @@ impl Stage {
 /// What people are told of a part of a thing: `its second point` of `p2`, `its center` of `center`.
 fn in_words(part: &Path, kind: Option<&Name>) -> String {
     const ORDINALS: [&str; 4] = ["first", "second", "third", "fourth"];
-    let name = part.to_string();
-    if name.is_empty() {
-        return "it".into();
-    }
+    let Some((Step::Part(name), whole)) = part.0.split_last() else { return "it".into() };
+    let of = match whole {
+        [] => String::new(),
+        whole => format!(" of {}", Path(whole.to_vec())),
+    };
     let stem = name.trim_end_matches(|c: char| c.is_ascii_digit());
     let number = name[stem.len()..].parse::<usize>().ok();
     let ordinal = number.and_then(|n| ORDINALS.get(n.checked_sub(1)?));
@@ -91,9 +92,9 @@ fn in_words(part: &Path, kind: Option<&Name>) -> String {
         _ => stem.to_string(),
     };
     match ordinal {
-        Some(ordinal) => format!("its {ordinal} {noun}"),
-        None if noun != stem => format!("its {noun} {name}"),
-        None => format!("its {name}"),
+        Some(ordinal) => format!("its {ordinal} {noun}{of}"),
+        None if noun != stem => format!("its {noun} {name}{of}"),
+        None => format!("its {name}{of}"),
     }
 }
 

@@ -355,8 +355,12 @@ impl<'a> Maker<'a> {
         all.filter(|all| all.iter().any(|known| known == text)).unwrap_or_default()
     }
 
-    /// Returns the range that a program gives the parameter that a thing is.
+    /// Returns the range that a program gives the parameter that a thing is, or a class the whole number.
     fn asked_range(&self, thing: ThingId) -> Option<(f64, f64)> {
+        let slot = self.state.structure.slot_of(thing)?;
+        if let Some(&(least, most)) = self.state.structure.ranges.get(&slot) {
+            return Some((least as f64, most as f64));
+        }
         let (Allowed::Range { least, most, .. }, owner) = self.asked(thing)? else { return None };
         let end = |term: &'a Term| match self.evaluator.evaluate(term, owner) {
             Ok(Answer::Number(x, _)) => Some(x),

@@ -188,3 +188,14 @@ fn what_counts_otherwise_in_a_drag_is_told_against_the_press() {
         );
     }
 }
+
+#[test]
+fn a_count_is_told_from_numbers_and_knows_its_range() {
+    let desk = Desk::of(
+        "use geometry\nclass Ladder {\n    n: Integer in 1..40 = 6\n    rungs: List of n Line\n    m: Integer = 2\n}\nladder: Ladder\n",
+    );
+    assert!(desk.session.is_count(desk.id, &at("ladder.n")));
+    assert!(!desk.session.is_count(desk.id, &at("ladder.m")));
+    assert_eq!(desk.row("ladder.n").range, Some((1.0, 40.0)));
+    assert_eq!(desk.row("ladder.m").range, None);
+}

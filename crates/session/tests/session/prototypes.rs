@@ -137,3 +137,21 @@ fn a_length_that_is_refused_in_a_pane_leaves_the_document_without_a_unit() {
     assert_eq!(desk.text(), before);
     assert_eq!(place(&desk, shown, "strut.line.p2"), (100.0, 0.0));
 }
+
+#[test]
+fn a_tile_of_the_bin_shows_what_the_constraints_of_its_class_make() {
+    let desk = Desk::of("use geometry\n");
+    let ends = |class: &str| {
+        let entry = desk.session.bin(desk.id).into_iter().find(|entry| entry.class == class);
+        let elements = entry.expect("the bin has it").picture.elements;
+        let ends = elements.into_iter().find_map(|element| match element.shape {
+            drawing::Shape::Segment(a, b) => Some((a, b)),
+            _ => None,
+        });
+        ends.expect("it is drawn as a segment")
+    };
+    let (a, b) = ends("HorizontalLine");
+    assert!((a.y - b.y).abs() < 1e-9 && a.x != b.x, "{a:?} {b:?}");
+    let (a, b) = ends("VerticalLine");
+    assert!((a.x - b.x).abs() < 1e-9 && a.y != b.y, "{a:?} {b:?}");
+}

@@ -10,7 +10,9 @@ pub(super) fn class(lab: Lab, name: &str) -> Result<(), &'static str> {
     document(lab)?;
     lab.text.track();
     let there = lab.id().is_some_and(|id| lab.ask(|session| session.has_class(id, name)));
-    if there { Ok(()) } else { Err(words::NO_CLASS) }
+    // a file in which nothing stands yet becomes a new sheet
+    let is_blank = || lab.text.with(|text| text.source.trim().is_empty());
+    if there || is_blank() { Ok(()) } else { Err(words::NO_CLASS) }
 }
 
 /// Whether there is a document, and then whether it has unsaved changes.

@@ -747,7 +747,7 @@ pub const ACTIONS: &[Action] = &[
 
 /// Takes the tool that makes things of a class; the picture gets the keyboard.
 fn hold(lab: Lab, class: &str) {
-    lab.take_tool(class);
+    lab.draw_with(class);
     focus("#picture");
 }
 

@@ -78,35 +78,48 @@ pub fn Grid(
 #[component]
 fn NewRow(family: Family, at: usize) -> impl IntoView {
     let columns = family.grid.with_untracked(|grid| grid.columns.clone());
+    // where one goes on: by the keyboard to the next cell, by the pointer to the one that is pressed
+    let goes_to = StoredValue::new(None::<usize>);
     let field = move |column: usize, name: &str, placeholder: String| {
         // what was refused stays, marked, until it is said otherwise
-        let is_wrong = RwSignal::new(false);
-        let take = move |typed: &str, next: usize| {
+        let kept = family.kept((at, column));
+        let is_wrong = RwSignal::new(kept.is_some());
+        let take = move |typed: &str, next: Option<usize>| {
             let cell = (at, column);
             let is_made =
                 family.edit(|session, id, name| session.set_family_cells(id, name, cell, typed));
+            family.keep(cell, typed, is_made);
             let _ = is_wrong.try_set(!is_made);
-            if is_made {
+            if let (true, Some(next)) = (is_made, next) {
                 go_on(at, next);
             }
         };
         let change = move |e: leptos::ev::Event| {
             let typed = event_target_value(&e);
             match typed.trim().is_empty() {
-                true => is_wrong.set(false),
-                false => take(&typed, column + 1),
+                true => {
+                    family.keep((at, column), "", true);
+                    is_wrong.set(false);
+                }
+                false => take(&typed, goes_to.get_value()),
             }
+        };
+        let keyed = move |e: KeyboardEvent| {
+            let is_on = matches!(e.key().as_str(), "Enter" | "Tab");
+            goes_to.set_value(is_on.then_some(column + 1));
+            walk(&e);
         };
         let paste = move |e: web_sys::ClipboardEvent| {
             if let Some(block) = block_of(&e) {
-                take(&block, column);
+                take(&block, Some(column));
             }
         };
         view! {
             <input class="field" autocomplete="off" spellcheck="false" aria-label=words::cell_of(name, words::NEW_ROW)
                 placeholder=placeholder data-cell=format!("{at},{column}")
-                aria-invalid=move || is_wrong.get().to_string()
-                on:paste=paste on:keydown=move |e| walk(&e) on:change=change />
+                aria-invalid=move || is_wrong.get().to_string() prop:value=kept.unwrap_or_default()
+                on:paste=paste on:keydown=keyed on:change=change
+                on:pointerdown=move |_| goes_to.set_value(Some(column)) />
         }
     };
     let cell = move |(index, column): (usize, session::view::GridColumn)| {
@@ -122,7 +135,7 @@ fn NewRow(family: Family, at: usize) -> impl IntoView {
 }
 
 /// With the next frame, gives the keyboard to a cell of the row that was just made, or, after its last one, to the row
-/// that is begun then; not where it went elsewhere meanwhile.
+/// that is begun then; not where it went elsewhere meanwhile. A press beside the row goes nowhere.
 fn go_on(row: usize, column: usize) {
     request_animation_frame(move || {
         let holder = keyboard::holder().filter(|holder| holder.tag_name() != "BODY");
@@ -174,15 +187,28 @@ fn Row(family: Family, at: usize, row: FamilyRow) -> impl IntoView {
         let cell = (at, column.as_deref());
         family.edit(|session, id, name| session.set_family_cell(id, name, cell, typed))
     };
-    let is_name_wrong = RwSignal::new(false);
+    let kept_name = family.kept((at, 0));
+    let is_name_wrong = RwSignal::new(kept_name.is_some());
+    let name_value = kept_name.unwrap_or_else(|| row_name.clone());
+    let rename = move |e: leptos::ev::Event| {
+        let typed = event_target_value(&e);
+        let is_set = set(None, &typed);
+        family.keep((at, 0), &typed, is_set);
+        let _ = is_name_wrong.try_set(!is_set);
+    };
     let cell = move |(index, column): (usize, session::view::GridColumn)| {
-        let value = grid.with_untracked(|grid| grid.cell(at, index).to_string());
+        let kept = family.kept((at, index + 1));
+        let is_kept = kept.is_some();
+        let value =
+            kept.unwrap_or_else(|| grid.with_untracked(|grid| grid.cell(at, index).to_string()));
         let label = words::cell_of(&column.name, &row.with_value(|row| row.name.clone()));
         let named = column.name.clone();
         // what was refused stays, marked, until it is said otherwise
-        let is_wrong = RwSignal::new(false);
+        let is_wrong = RwSignal::new(is_kept);
         let change = move |e: leptos::ev::Event| {
-            let is_set = set(Some(named.clone()), &event_target_value(&e));
+            let typed = event_target_value(&e);
+            let is_set = set(Some(named.clone()), &typed);
+            family.keep((at, index + 1), &typed, is_set);
             let _ = is_wrong.try_set(!is_set);
         };
         let options: Vec<_> = column
@@ -203,7 +229,9 @@ fn Row(family: Family, at: usize, row: FamilyRow) -> impl IntoView {
         }
     };
     let delete = move |_| {
-        family.edit(|session, id, name| session.delete_family_row(id, name, at));
+        if family.edit(|session, id, name| session.delete_family_row(id, name, at)) {
+            family.forget(at);
+        }
     };
     // nothing is known of a row that is still to be drawn
     let is_bad = move || outcome.with(|o| !o.outcome.is_empty() && o.outcome != "drawn");
@@ -218,9 +246,9 @@ fn Row(family: Family, at: usize, row: FamilyRow) -> impl IntoView {
         <tr class:bad=is_bad data-row=mark>
             <th scope="row"><input class="field" autocomplete="off" spellcheck="false" readonly=!is_own
                 aria-label=name_label data-cell=format!("{at},0")
-                prop:value=row_name on:paste=move |e| paste(family, (at, 0), &e) on:keydown=move |e| walk(&e)
+                prop:value=name_value on:paste=move |e| paste(family, (at, 0), &e) on:keydown=move |e| walk(&e)
                 aria-invalid=move || is_name_wrong.get().to_string()
-                on:change=move |e| { let _ = is_name_wrong.try_set(!set(None, &event_target_value(&e))); } /></th>
+                on:change=rename /></th>
             {columns.into_iter().enumerate().map(cell).collect_view()}
             <td class="outcome">{said}</td>
             <td class="uses">

@@ -24,6 +24,11 @@ pub const SAID_ALREADY: &str = "said already: press to give it another value";
 /// What the strip says of a check mark.
 pub const HOLDS_ALREADY: &str = "it is so already: something says it, or it follows";
 
+/// What a slider says of a count while it is moved.
+pub fn count_to_be(path: &str, to: f64) -> String {
+    format!("{path} = {to} once you let go")
+}
+
 /// The palette's words for the tool that places things of a class.
 pub fn place_one(class: &str) -> String {
     format!("Place: {class}")
