@@ -44,7 +44,10 @@ pub fn Page() -> impl IntoView {
     });
     let listeners = [
         window_event_listener(ev::hashchange, move |_| follow(lab)),
-        window_event_listener(ev::focus, move |_| lab.renew_tables()),
+        window_event_listener(ev::focus, move |_| {
+            lab.renew_tables();
+            lab.renew_document();
+        }),
         window_event_listener(ev::keydown, move |e| {
             if !e.default_prevented() && actions::key(lab, &e) {
                 e.prevent_default();

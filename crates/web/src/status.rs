@@ -42,6 +42,16 @@ pub fn StatusLine(
         let hint = lab.tool_view.with(|view| view.hint.clone());
         let typed = lab.typed.get();
         let typed = (!typed.is_empty()).then(|| words::typed_for_tool(&typed));
+        // a finger has no keys: what it does stands first
+        if lab.touch.get() {
+            let first = hint
+                .split("; ")
+                .next()
+                .unwrap_or_default()
+                .replace(words::CLICK_OR_PRESS, words::TOUCH)
+                .replace(words::CLICK, words::TOUCH);
+            return lab.tool.with(Option::is_some).then(|| typed.unwrap_or(first));
+        }
         let has_keys = lab.cursor.with(Option::is_none) || lab.keyed.with(Option::is_some);
         let hint = match has_keys {
             true => format!("{hint}; {}", words::TOOL_KEYS),

@@ -74,15 +74,20 @@ fn solved(state: &State, class: ClassId) -> Drawing {
     let Some(lone) = Lone::of(&state.lowered.document, class) else { return Drawing::default() };
     let given = spread(&lone, class);
     let Lone { document, structure, .. } = &lone;
-    let is_small = structure.slots.len() <= MOST && !structure.constraints.is_empty();
-    let values = is_small.then(|| {
-        let model = Model { document, structure };
-        let (mut planner, _) = Planner::new(model, Plans::default());
-        let mut values = given.clone();
-        let holds = planner.satisfy(model, &mut values, &mut Texts::new(document, structure));
-        holds.then_some(values)
-    });
-    drawn(&lone, &values.flatten().unwrap_or(given))
+    let looks = drawn(&lone, &given);
+    let evaluator = Evaluator::new(document, structure, &given);
+    let mut rules = structure.constraints.iter();
+    let holds = rules.all(|&rule| evaluator.test(rule).is_ok_and(|verdict| verdict.holds));
+    if holds || looks.elements.is_empty() || structure.slots.len() > MOST {
+        return looks;
+    }
+    let model = Model { document, structure };
+    let (mut planner, _) = Planner::new(model, Plans::default());
+    let mut values = given.clone();
+    match planner.satisfy(model, &mut values, &mut Texts::new(document, structure)) {
+        true => drawn(&lone, &values),
+        false => looks,
+    }
 }
 
 fn drawn(lone: &Lone, values: &Values) -> Drawing {

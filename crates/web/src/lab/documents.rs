@@ -253,6 +253,27 @@ impl Lab {
         });
     }
 
+    /// Takes up what another tab or program has saved of the shown document, as one step, where nothing is unsaved here.
+    pub fn renew_document(self) {
+        let clean = move || {
+            let is_dirty = self.document.with_untracked(|d| d.as_ref().is_none_or(|d| d.dirty));
+            let is_busy = self.dragging.with_untracked(Option::is_some);
+            (!is_dirty && !is_busy).then(|| self.current.get_untracked()).flatten()
+        };
+        self.flush_text();
+        let Some(path) = clean() else { return };
+        leptos::task::spawn_local(async move {
+            let Ok(Some(theirs)) = server::document(&path).await else { return };
+            let known = self.document.with_untracked(|d| d.as_ref().map(|d| d.version.clone()));
+            if clean().as_ref() == Some(&path) && known.is_some_and(|known| known != theirs.version)
+            {
+                self.conflict.set(Some(Some(theirs)));
+                self.take_theirs();
+                self.notice.set(Some(Notice::Said(words::renewed(&path))));
+            }
+        });
+    }
+
     /// Waits until nothing is dragged.
     async fn dragged(self) {
         while self.dragging.with_untracked(Option::is_some) {

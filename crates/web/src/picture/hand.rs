@@ -15,6 +15,7 @@ use presentation::band::{Take, banded};
 use presentation::paths::covers;
 use presentation::pick::{pick, pick_word};
 use session::view::{Caught, Pointer};
+use std::time::Duration;
 
 /// How near a grip the pointer must be, in pixels: a mouse's, a finger's.
 const REACH: (f64, f64) = (10.0, 24.0);
@@ -62,6 +63,8 @@ struct State {
     /// Whether guides and joints are wanted: Shift suppresses those of a tool, Alt those of a drag.
     shift: bool,
     alt: bool,
+    /// How many fingers have come down so far.
+    presses: u32,
 }
 
 /// A handle to the hand.
@@ -93,6 +96,7 @@ impl Hand {
             rest: Vec::new(),
             shift: false,
             alt: false,
+            presses: 0,
         };
         Self { lab, canvas, state: StoredValue::new(state) }
     }
@@ -164,6 +168,9 @@ impl Hand {
             state.pointers.retain(|(id, _)| *id != e.pointer_id());
             state.pointers.push((e.pointer_id(), at));
         });
+        if e.pointer_type() == "touch" {
+            self.wait_for_menu(e, at);
+        }
         // a pen has no keys either
         self.lab.touched(e.pointer_type() != "mouse");
         let space = self.state.with_value(|state| state.space);
@@ -267,11 +274,38 @@ impl Hand {
     /// Opens the menu of what lies under the pointer, and selects it; of a tool's hand it is laid down.
     pub(super) fn menu(self, e: &MouseEvent) {
         e.prevent_default();
-        let place = (f64::from(e.client_x()), f64::from(e.client_y()));
         if self.lab.tool.with_untracked(Option::is_some) {
             self.lab.drop_tool();
             return;
         }
+        self.open_menu((f64::from(e.client_x()), f64::from(e.client_y())));
+    }
+
+    /// Opens the menu once a finger has lain still for a while: not every browser makes a press of the second button
+    /// of that.
+    fn wait_for_menu(self, e: &PointerEvent, start: (f64, f64)) {
+        /// Longer than browsers wait that do.
+        const STILL: Duration = Duration::from_millis(700);
+        let place = (f64::from(e.client_x()), f64::from(e.client_y()));
+        let press = self.state.try_update_value(|state| {
+            state.presses += 1;
+            state.presses
+        });
+        let open = move || {
+            let is_still = self.state.try_with_value(|state| {
+                let is_held = matches!(state.mode, Mode::Pressed { .. } | Mode::Pan { .. });
+                let rests = matches!(state.pointers[..], [(_, at)] if distance(at, start) < PULL);
+                is_held && rests && Some(state.presses) == press
+            });
+            if is_still == Some(true) {
+                self.open_menu(place);
+            }
+        };
+        set_timeout(open, STILL);
+    }
+
+    /// Opens the menu of what lies at a place of the window.
+    fn open_menu(self, place: (f64, f64)) {
         if self.lab.dragging.with_untracked(Option::is_some) {
             self.lab.cancel();
         }

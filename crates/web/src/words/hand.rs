@@ -24,6 +24,18 @@ pub const SAID_ALREADY: &str = "said already: press to give it another value";
 /// What the strip says of a check mark.
 pub const HOLDS_ALREADY: &str = "it is so already: something says it, or it follows";
 
+/// Another tab or program has saved the shown document.
+pub fn renewed(path: &str) -> String {
+    format!("{path} was changed elsewhere: it is shown as it is now")
+}
+
+/// What a tool is told to set a place by, and what a finger does instead.
+pub const CLICK_OR_PRESS: &str = "click or press";
+/// The same where one goes on.
+pub const CLICK: &str = "click";
+/// What a finger does.
+pub const TOUCH: &str = "touch";
+
 /// What a slider says of a count while it is moved.
 pub fn count_to_be(path: &str, to: f64) -> String {
     format!("{path} = {to} once you let go")
