@@ -1,7 +1,8 @@
-//! The palette: what has the words that are wanted, of actions, constructions, classes and documents.
+//! The palette: what has the words that are wanted, of actions, things, constructions, classes and documents.
 
 use crate::find::has_words;
 use session::drafting::view::ConstructionRow;
+use session::view::{RowKind, StructureRow};
 
 /// An action: itself, its name, its label.
 pub type Named<A> = (A, &'static str, &'static str);
@@ -52,12 +53,22 @@ pub enum Choice<A> {
     Draw(ConstructionRow),
     /// A class of the bin, or of a library that is not used yet.
     Insert(Makeable),
+    /// A thing of the shown document, by its path.
+    Select(String),
     /// A document.
     Open(Listed),
 }
 
-/// What can be drawn in the shown document: its constructions, and what things can be made of.
-pub type Drawn = (Vec<ConstructionRow>, Vec<Makeable>);
+/// What the shown document offers: its constructions, what things can be made of, and the paths of its things.
+pub type Drawn = (Vec<ConstructionRow>, Vec<Makeable>, Vec<String>);
+
+/// The paths of the things of a document that are found by name: its own, and what these have that has parts.
+pub fn named_things(rows: &[StructureRow]) -> Vec<String> {
+    let is_named = |row: &&StructureRow| {
+        row.kind == RowKind::Part && (row.depth == 1 || row.depth == 2 && row.descendants > 0)
+    };
+    rows.iter().filter(is_named).map(|row| row.path.clone()).collect()
+}
 
 /// What has the words that are wanted in its label; then what has them in its own name; then what has each of
 /// them somewhere; then what has all their letters in order, the shortest first: an action in its label, a
@@ -69,7 +80,7 @@ pub fn matching<A: Clone>(
     wanted: &str,
     actions: &[Named<A>],
     listed: &[Listed],
-    (constructions, classes): &Drawn,
+    (constructions, classes, things): &Drawn,
 ) -> Vec<Choice<A>> {
     let wanted = wanted.trim().to_lowercase();
     let rank = |label: &str, name: &str, short: &str| {
@@ -103,7 +114,15 @@ pub fn matching<A: Clone>(
         let later = usize::from(one.unused.is_some());
         (rank.map(|(rank, place)| (rank, place + later)), Choice::Insert(one.clone()))
     };
-    let all = actions.iter().map(action).chain(constructions.iter().map(construction));
+    let thing = |path: &String| {
+        let name = path.rsplit('.').next().unwrap_or(path);
+        (has(path).then(|| begins(name)), Choice::Select(path.clone()))
+    };
+    let all = actions
+        .iter()
+        .map(action)
+        .chain(things.iter().map(thing))
+        .chain(constructions.iter().map(construction));
     let all = all.chain(classes.iter().map(class)).chain(listed.iter().map(document));
     let mut found: Vec<_> = all.filter_map(|(rank, choice)| Some((rank?, choice))).collect();
     found.sort_by_key(|(rank, _)| *rank);
@@ -178,12 +197,14 @@ mod tests {
         let drawn = (
             vec![row],
             [makeable("Resistor", None), makeable("Resistance", Some("circuits"))].into(),
+            ["rocker", "frame.rocker"].map(String::from).into(),
         );
         assert_eq!(matching("", &ACTIONS, &listed, &drawn).len(), ACTIONS.len() + 1);
         let first = |wanted| match matching(wanted, &ACTIONS, &listed, &drawn).into_iter().next() {
             Some(Choice::Do(action)) => String::from(action),
             Some(Choice::Draw(row)) => row.id,
             Some(Choice::Insert(one)) => one.class,
+            Some(Choice::Select(path)) => path,
             Some(Choice::Open(listed)) => listed.path,
             None => String::new(),
         };
@@ -197,6 +218,9 @@ mod tests {
         assert_eq!(first("resist"), "Resistor");
         assert_eq!(first("resistance"), "Resistance");
         assert_eq!(first("brg"), "gallery/bridge.thing");
+        // a thing of the document
+        assert_eq!(first("rocker"), "rocker");
+        assert_eq!(first("frame.ro"), "frame.rocker");
         // no piece of every word of a long title
         assert_eq!(first("bgeudload"), "");
         assert_eq!(first("qqq"), "");

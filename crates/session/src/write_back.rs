@@ -58,12 +58,22 @@ pub(crate) fn write_back(
     written(state, wanted, &edited.slots, None, (host, planner.into_plans()))
 }
 
-/// Whether a text that was written with fewer digits says what it should: what holds, and values that are the same
-/// for everybody who looks at them, however small they are.
+/// Whether a text that was written with fewer digits says what it should: what holds as it is given, so that nothing
+/// gives way when it is opened, and values that are the same for everybody who looks at them, however small they are.
 fn is_as_exact(next: &State, wanted: &Values, planner: &mut Planner) -> bool {
-    next.structure.slots.len() == wanted.numbers.len()
-        && (next.values.changed(wanted).next().is_none()
-            || digits::has_values(next, wanted, RULE_TOLERANCE) && next.status(planner).satisfied)
+    if next.structure.slots.len() != wanted.numbers.len() {
+        return false;
+    }
+    let changed: Vec<SlotId> = next.values.changed(wanted).collect();
+    if changed.is_empty() {
+        return true;
+    }
+    let given = eval::given_values(&next.lowered.document, &next.structure).0;
+    let stands = |&slot: &SlotId| given.get(slot).same_bits(&next.values.get(slot));
+    let is_given = |slot: &&SlotId| next.structure.given(**slot).is_some();
+    changed.iter().filter(is_given).all(stands)
+        && digits::has_values(next, wanted, RULE_TOLERANCE)
+        && next.status(planner).satisfied
 }
 
 /// Makes the state whose text gives these values, and its planner: numbers to the digits that are meant, or all.

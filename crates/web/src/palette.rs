@@ -62,6 +62,7 @@ fn Open(lab: Lab) -> impl IntoView {
                     crate::keyboard::focus("#picture");
                 }
             }
+            Choice::Select(path) => lab.select(Some(path)),
             Choice::Open(listed) => route::go(&route::to(&listed.path)),
         }
     };
@@ -112,7 +113,8 @@ fn drawn(lab: Lab) -> Drawn {
     let own = own.into_iter().map(|class| Makeable { class, unused: None });
     let unused = lab.in_unused_libraries().into_iter();
     let other = unused.map(|one| Makeable { class: one.class, unused: Some(one.library) });
-    (constructions, own.chain(other).collect())
+    let things = lab.structure.with(|rows| palette::named_things(rows));
+    (constructions, own.chain(other).collect(), things)
 }
 
 #[component]
@@ -128,6 +130,9 @@ fn Entry(
         Choice::Draw(row) => (row.operands, row.label, None),
         Choice::Insert(Makeable { class, unused }) => {
             (unused.unwrap_or_else(|| class.clone()), words::place_one(&class), None)
+        }
+        Choice::Select(path) => {
+            (String::from(words::PART_OF_THIS), format!("{} {path}", words::SELECT_ONE), None)
         }
         Choice::Open(listed) => (listed.path, format!("{} {}", words::OPEN, listed.title), None),
     };

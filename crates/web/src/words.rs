@@ -473,7 +473,9 @@ pub fn value_of(label: &str) -> String {
 
 /// What goes with something that is to be deleted.
 pub fn goes_along(path: &str, along: &[String]) -> String {
-    format!("With {path} goes what speaks of it: {}", along.join("; "))
+    let rule = |said: &String| said.strip_prefix("constraint ").map(session::rule_in_words);
+    let told: Vec<String> = along.iter().map(|said| rule(said).unwrap_or(said.clone())).collect();
+    format!("With {path} goes what speaks of it: {}", told.join("; "))
 }
 
 /// Several things, by their number.

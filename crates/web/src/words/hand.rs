@@ -36,6 +36,11 @@ pub const CLICK: &str = "click";
 /// What a finger does.
 pub const TOUCH: &str = "touch";
 
+/// The palette's word for a thing of the document.
+pub const SELECT_ONE: &str = "Select";
+/// Where that is.
+pub const PART_OF_THIS: &str = "in this document";
+
 /// What a slider says of a count while it is moved.
 pub fn count_to_be(path: &str, to: f64) -> String {
     format!("{path} = {to} once you let go")
