@@ -158,7 +158,7 @@ fn edit(
         });
     }
     let slots = aims.iter().flat_map(|(aim, _)| slots_of(&state, aim)).collect();
-    let edited = Edited::to(slots, aims.iter().flat_map(|(_, values)| values));
+    let edited = Edited { slots, ..Edited::default() };
     let mut change = keep(open, host, label, edited, &values, &report.undecided)?;
     if report.reached {
         change.modes.extend(limits::courses(&state, &report.courses));

@@ -35,8 +35,7 @@ pub(crate) fn follow(
         return (state, planner);
     };
     let Followed { values, typed, sides } = followed;
-    let said = typed.iter().map(|&slot| values.numbers[slot]).collect();
-    let edited = Edited { slots: typed, said };
+    let edited = Edited { slots: typed, ..Edited::default() };
     let (next, planner) = write_back(&state, &values, &edited, host, planner.into_plans());
     let (next, planner) = write_sides(next, planner, &sides, host);
     let is_kept = next.diagnostics.len() <= state.diagnostics.len()

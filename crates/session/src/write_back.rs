@@ -1,7 +1,7 @@
 //! Writing back: the values that an edit came to, as the fewest changes of the text.
 //!
 //! In: a state, and the values after an edit. Out: the text whose state has these values. Given
-//! numbers that changed are rewritten where they stand, without digits that only computing has made; then the text is opened, and while a value
+//! numbers that changed are rewritten where they stand; after a drag without digits that only computing has made; then the text is opened, and while a value
 //! differs from what the edit came to, one that does is given as well: one whose class gives it a
 //! value, else one that the edit was about, else the first. Given numbers that the edit left alone and that come
 //! to other bits, since they give way whenever the text is opened, are written as they are. Where the fewer digits do
@@ -21,19 +21,9 @@ use std::collections::{BTreeMap, BTreeSet};
 pub(crate) struct Edited {
     /// Its slots.
     pub(crate) slots: Vec<SlotId>,
-    /// The numbers that somebody said, by typing or pointing: they are written to the last digit.
-    pub(crate) said: Vec<f64>,
-}
-
-impl Edited {
-    /// What was about slots that were to have these values.
-    pub(crate) fn to<'v>(slots: Vec<SlotId>, values: impl Iterator<Item = &'v Value>) -> Self {
-        let number = |value: &Value| match value {
-            Value::Number(x) => Some(*x),
-            Value::Text(_) => None,
-        };
-        Self { slots, said: values.filter_map(number).collect() }
-    }
+    /// Where the pointer was, of a drag: that is written to the last digit, and what follows from it to those that
+    /// are more than rounding. What is typed or commanded is written with all that comes of it.
+    pub(crate) pointed: Option<[f64; 2]>,
 }
 
 /// Makes the state whose text gives these values, and its planner.
@@ -47,10 +37,13 @@ pub(crate) fn write_back(
     host: &dyn Host,
     plans: Plans,
 ) -> (State, Planner) {
+    let Some(pointed) = edited.pointed else {
+        return written(state, wanted, &edited.slots, None, (host, plans));
+    };
     let slots = state.structure.slots.ids();
     let stays = |slot: &SlotId| wanted.get(*slot).same_bits(&state.values.get(*slot));
     let kept = slots.filter(stays).map(|slot| wanted.numbers[slot]);
-    let meant: BTreeSet<u64> = kept.chain(edited.said.iter().copied()).map(f64::to_bits).collect();
+    let meant: BTreeSet<u64> = kept.chain(pointed).map(f64::to_bits).collect();
     let (next, mut planner) = written(state, wanted, &edited.slots, Some(&meant), (host, plans));
     if is_as_exact(&next, wanted, &mut planner) {
         return (next, planner);
@@ -195,13 +188,7 @@ pub(crate) fn settle_places(
     let path = |t: ThingId| state.structure.path(document, written_at(&state, t));
     let writes: Vec<(Path, Literal)> =
         units.iter().map(|&t| (path(t), literal(&state, t, &state.values))).collect();
-    let rounded = lang::write_rounded(&state.lowered, &writes, &BTreeSet::new());
     let edits = lang::write_values(&state.lowered, &writes);
-    let text = syntax::edit::apply(&state.text, &rounded);
-    let (next, mut planner) = State::written(text, &state, host, planner.into_plans());
-    if is_as_exact(&next, &state.values, &mut planner) {
-        return (next, planner);
-    }
     let text = syntax::edit::apply(&state.text, &edits);
     let (next, planner) = State::written(text, &state, host, planner.into_plans());
     match is_same(&next, &state) {
