@@ -410,7 +410,10 @@ fn a_dimension_that_stands_is_shown_and_edited() {
     let mut desk = Desk::of(text);
     assert!(dimension(&desk, &["a"], "length").stands);
     take(&mut desk, &["a.p2", "a.p1"], "distance", Some("25"));
-    assert_eq!(desk.text().lines().last(), Some("d: Distance { from = a.p1  to = a.p2  value = 25 }"));
+    assert_eq!(
+        desk.text().lines().last(),
+        Some("d: Distance { from = a.p1  to = a.p2  value = 25 }")
+    );
     let mut desk = Desk::of(FIGURE);
     assert!(dimension(&desk, &["c"], "radius").stands);
     take(&mut desk, &["c"], "radius", Some("25"));
