@@ -25,12 +25,11 @@ pub const DEEPEST_MESSAGES: u32 = 200;
 const DEEPEST_TERMS: u32 = 1000;
 /// How many terms one question may evaluate: what a mistyped recursion may cost.
 const MOST_TERMS: u64 = 10_000_000;
-/// What a message answered, and the slots that were read for it.
-type Remembered<'a> = (Answer<'a>, BTreeSet<SlotId>);
-
 /// From so many terms on a question remembers what messages answer: those that speak of each other twice are asked
 /// for once.
 const LONG: u64 = 100_000;
+/// How many answers and slots that were read for them are remembered in one state: no more memory than that.
+const MOST_REMEMBERED: u64 = 1_000_000;
 /// How many terms the rule of a constraint may evaluate: one that opens into more than a million is not
 /// solved anyway.
 const MOST_TERMS_OF_RULE: u64 = 2_000_000;
@@ -40,6 +39,9 @@ const SHOWN: &str = "shown";
 const LONGEST_RANGE: f64 = 1_000_000.0;
 
 pub(crate) type Result<T> = std::result::Result<T, Fault>;
+
+/// What a message answered, and the slots that were read for it.
+type Remembered<'a> = (Answer<'a>, BTreeSet<SlotId>);
 
 /// An argument with its label, evaluated.
 pub(crate) type Given<'a> = (Option<&'a Name>, Answer<'a>);
@@ -65,6 +67,8 @@ pub struct Evaluator<'a> {
     pub(crate) may_remember: Cell<bool>,
     /// What messages without arguments answered, by the thing and where the message is, and what they read.
     pub(crate) remembered: RefCell<BTreeMap<(ThingId, usize), Remembered<'a>>>,
+    /// How much more may be remembered.
+    pub(crate) left_to_remember: Cell<u64>,
     /// What went wrong in parts whose siblings went on without them.
     pub(crate) faults: RefCell<Vec<Fault>>,
     /// The slots read since someone began to listen.
@@ -129,6 +133,7 @@ impl<'a> Evaluator<'a> {
             most: Cell::new(MOST_TERMS),
             may_remember: Cell::new(true),
             remembered: RefCell::default(),
+            left_to_remember: Cell::new(MOST_REMEMBERED),
             faults: RefCell::new(Vec::new()),
             reads: RefCell::new(None),
             nudged: Cell::new(None),
@@ -195,9 +200,13 @@ impl<'a> Evaluator<'a> {
 
     /// Asks something as if another number stood in a slot.
     pub(crate) fn nudging<T>(&self, slot: SlotId, number: f64, ask: impl FnOnce() -> T) -> T {
-        self.nudged.set(Some((slot, number)));
+        let before = self.nudged.replace(Some((slot, number)));
+        // there messages answer something else
+        let (remembered, left) = (self.remembered.take(), self.left_to_remember.get());
         let answer = ask();
-        self.nudged.set(None);
+        self.nudged.set(before);
+        self.remembered.replace(remembered);
+        self.left_to_remember.set(left);
         answer
     }
 
@@ -216,11 +225,11 @@ impl<'a> Evaluator<'a> {
         self.may_remember.set(false);
     }
 
-    /// Returns true where a question has taken long, and is asked of the state as it is.
+    /// Returns true where a question has taken long, and no program is being drawn.
     pub(crate) fn remembers(&self) -> bool {
         self.may_remember.get()
             && self.most.get().saturating_sub(self.fuel.get()) > LONG
-            && self.nudged.get().is_none()
+            && self.left_to_remember.get() > 0
             && self.recording.borrow().is_none()
             && self.drawing.borrow().is_empty()
     }
@@ -426,9 +435,14 @@ impl<'a> Evaluator<'a> {
             Answer::List(items) => Ok(items.clone()),
             Answer::Context(context) => Ok(context.result().map(|e| e.answer.clone()).collect()),
             Answer::Thing(t) => match self.class_kind(*t) {
-                ClassKind::List(_) => self.structure.parts(*t).map(|p| self.part(p)).collect(),
+                ClassKind::List(_) => {
+                    let parts = self.structure.parts(*t);
+                    self.burn_several(parts.len() as u64)?;
+                    parts.map(|p| self.part(p)).collect()
+                }
                 ClassKind::Set(_) => {
                     let members = self.structure.sets.get(&self.structure.merged[*t]);
+                    self.burn_several(members.map_or(0, |set| set.len() as u64))?;
                     members.into_iter().flatten().map(|&m| self.part(m)).collect()
                 }
                 ClassKind::Primitive(_) | ClassKind::Composite | ClassKind::Reference(_) => {

@@ -127,17 +127,24 @@ impl<'a> Evaluator<'a> {
         }
         let key = (*thing, std::ptr::from_ref(message).addr());
         if let Some((answer, read)) = self.remembered.borrow().get(&key) {
+            // looking through what was read is work, too
+            self.burn_several(read.len() as u64)?;
             if let Some(reads) = &mut *self.reads.borrow_mut() {
                 reads.extend(read);
             }
             return Ok(answer.clone());
         }
+        let before = self.fuel.get();
         let (answer, read) = self.listening(|| self.compute(to, message, arguments, nearest));
+        let (cost, size) = (before.saturating_sub(self.fuel.get()), read.len() as u64);
         let is_value = matches!(
             answer,
             Ok(Answer::Number(..) | Answer::Bool(_) | Answer::Option(..) | Answer::Text(_))
         );
-        if let (Ok(value), true) = (&answer, is_value) {
+        // what is as soon computed again is not worth it
+        if let (Ok(value), true) = (&answer, is_value && size < cost) {
+            let left = self.left_to_remember.get();
+            self.left_to_remember.set(left.saturating_sub(size + 1));
             self.remembered.borrow_mut().insert(key, (value.clone(), read));
         }
         answer

@@ -100,3 +100,15 @@ fn what_is_allowed_of_a_parameter_stands_where_it_is_written() {
     let row = rows.iter().find(|row| row.name == "d_range").expect("it is listed");
     assert_eq!(row.detail, "1 mm..9 mm");
 }
+
+#[test]
+fn a_false_expectation_of_messages_that_double_says_both_numbers() {
+    let doubled = |i: u32| format!("m{} => m{i} + m{i}\n", i + 1);
+    let text = "x: Real = 1\nm0 => x\n".to_string()
+        + &(0..40).map(doubled).collect::<String>()
+        + "check \"c\" { expect m40 = 5 }\n";
+    let desk = Desk::of(&text);
+    let report = desk.session.run_checks(desk.id);
+    let said: Vec<&str> = report[0].shortfalls.iter().map(|s| s.message.as_str()).collect();
+    assert_eq!(said, ["1099511627776 and 5"]);
+}
