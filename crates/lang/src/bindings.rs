@@ -39,10 +39,9 @@ impl Lowerer<'_> {
                 });
                 for ((at, item), value) in (0..).zip(items).zip(list.elements()) {
                     let path = path.then(Step::Index(at));
-                    let is_of_numbers = element.is_some_and(|e| is_of_numbers(&self.document, e));
-                    // an element that is another thing of numbers is as that is at all times
-                    match is_bare_path(&value) && is_of_numbers {
-                        true => self.bind_part(scope, (&path, element), (&value, item), given),
+                    // an element that is another thing is as that is at all times
+                    match is_bare_path(&value) {
+                        true => self.bind_whole(scope, (&path, element), (&value, item), given),
                         false => self.bind_value(scope, (&path, element), (&value, item), given),
                     }
                 }
@@ -62,9 +61,19 @@ impl Lowerer<'_> {
             }
             _ => {}
         }
-        if class.is_some_and(|class| self.is_thing_itself(scope, class, value)) {
-            return;
+        if !class.is_some_and(|class| self.is_thing_itself(scope, class, value)) {
+            self.bind_whole(scope, (path, class), (value, term), given);
         }
+    }
+
+    /// Binds a part to a value: by its parts and its texts, where it has others than numbers, else as a whole.
+    fn bind_whole(
+        &mut self,
+        scope: &Scope,
+        (path, class): (&Path, Option<ClassId>),
+        (value, term): (&Expr, &Term),
+        given: OriginId,
+    ) {
         let by_parts =
             |&class: &ClassId| is_mixed(&self.document, class) && self.has_few_parts(class);
         if let Some(class) = class.filter(by_parts) {
@@ -181,7 +190,7 @@ impl Lowerer<'_> {
         }
     }
 
-    /// Binds the parts of a thing of numbers and others each by itself: a text that is given stays while a number follows.
+    /// Binds the parts of a thing that has others than numbers each by itself: a text that is given stays while a number follows.
     fn bind_fields(
         &mut self,
         scope: &Scope,
@@ -211,7 +220,7 @@ impl Lowerer<'_> {
                 None => Term::send(term.clone(), name),
             };
             let path = path.then(Step::Part(name.clone()));
-            self.bind_value(scope, (&path, Some(*class)), (value, &of), given);
+            self.bind_whole(scope, (&path, Some(*class)), (value, &of), given);
         }
     }
 
@@ -284,13 +293,11 @@ fn is_of_numbers(document: &Document, class: ClassId) -> bool {
     is_made_of(document, class, is_number, |_| true)
 }
 
-/// Returns true for the classes of things that have numbers and others beside them, at whatever depth, all by name.
+/// Returns true for the classes of things that have others than numbers, at whatever depth, all by name.
 fn is_mixed(document: &Document, class: ClassId) -> bool {
-    let is_other = |p: Primitive| !is_number(p);
     document.classes[class].kind == ClassKind::Composite
         && can_be_bound(document, class)
         && !is_of_numbers(document, class)
-        && !is_made_of(document, class, is_other, |_| true)
 }
 
 /// Returns true for real and whole numbers; not for truth values and options, which are kept as such.
