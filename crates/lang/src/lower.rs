@@ -502,10 +502,16 @@ impl Lowered {
     pub fn keepable(&self) -> usize {
         self.added.iter().flatten().count()
     }
-    /// Returns how many millimetres a unit of the sheet has; one where the text names no unit.
+    /// Returns how many millimetres a unit has in which lengths are stored; a bare number is one where the text neither
+    /// names a unit nor writes lengths with theirs.
     pub fn millimetres_per_unit(&self) -> f64 {
         let is_said = self.effective_parse.outline().any(|(kind, _)| kind == SyntaxKind::UnitLine);
-        if is_said { 1000.0 / self.document.units_per_metre } else { 1.0 }
+        let document = &self.document;
+        let stored = document.scale.factor(expr::Dimension::LENGTH);
+        match is_said || document.writes_lengths {
+            true => 1000.0 / document.units_per_metre / stored,
+            false => 1.0 / stored,
+        }
     }
     /// Turns faults of the structure into diagnostics at the members that they come from.
     pub fn fault_diagnostics(&self, faults: &[Fault]) -> Vec<Diagnostic> {

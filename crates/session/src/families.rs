@@ -383,11 +383,14 @@ pub(crate) fn draw(
         kernel::Vertical::Up => Vertical::Up,
         kernel::Vertical::Down => Vertical::Down,
     };
+    let millimetres_per_unit = state.lowered.millimetres_per_unit();
+    let is_metric = document.units_per_metre != 1.0 || document.writes_lengths;
     let stored = document.scale.factor(expr::Dimension::LENGTH);
-    let millimetres_per_unit = 1000.0 / document.units_per_metre / stored;
-    let is_metric = document.units_per_metre != 1.0;
     let options = svg::SvgOptions {
-        pixels_per_unit: if is_metric { PIXELS_PER_MILLIMETRE * millimetres_per_unit } else { 1.0 },
+        pixels_per_unit: match is_metric {
+            true => PIXELS_PER_MILLIMETRE * millimetres_per_unit,
+            false => 1.0 / stored,
+        },
         margin: 16.0,
         title: Some(&row.name),
         path: &|_| None,
@@ -396,7 +399,6 @@ pub(crate) fn draw(
     if formats.svg {
         outcome.svg = svg::write(&drawing, &options);
     }
-    let millimetres_per_unit = state.lowered.millimetres_per_unit();
     let options = dxf::DxfOptions { millimetres_per_unit, ..dxf::DxfOptions::default() };
     if formats.dxf {
         let sets = tag_sets(&evaluator, &run, &mut drawing);

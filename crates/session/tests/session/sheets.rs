@@ -130,3 +130,16 @@ fn a_circle_drawn_with_a_typed_radius_takes_its_unit_over_and_keeps_it() {
     assert_eq!(shown(&desk, "circle.radius"), "30 mm");
     assert!(desk.text().contains("constraint circle.radius = 30 mm"), "{}", desk.text());
 }
+
+#[test]
+fn a_drawing_is_written_in_millimetres_however_its_text_counts() {
+    let line = "use geometry\nuse constants\nl: Line { p1 = (0 m, 0 m)  p2 = (3 m, 4 m) }\n";
+    let photon = "energy: Energy = constants.h * constants.c / l.length\n";
+    let end = "11\n3000.0\n21\n4000.0\n";
+    for text in [line.to_string(), format!("{line}{photon}")] {
+        let desk = Desk::of(&text);
+        assert!(desk.session.dxf(desk.id).replace('\r', "").contains(end), "{text}");
+    }
+    let bare = Desk::of("use geometry\nl: Line { p1 = (0, 0)  p2 = (3, 4) }\n");
+    assert!(bare.session.dxf(bare.id).replace('\r', "").contains("11\n3.0\n21\n4.0\n"));
+}
