@@ -189,6 +189,11 @@ fn what_nests_overflows_no_stack() {
             Holds,
         ),
         ("open bodies", "{".repeat(20_000), Error("expected-member")),
+        (
+            "braces where a rule stands",
+            format!("constraint {}", "{ ".repeat(20_000)),
+            Error("too-deep"),
+        ),
         ("bodies in bodies", format!("a: Real {}\n", around(5_000, "{ ", "", " }")), Anything),
     ]);
 }
@@ -255,6 +260,13 @@ fn what_is_huge_is_refused_before_it_is_made() {
                 + &lines(60, |i| format!("m{}: Real => m{i} + m{i}", i + 1))
                 + "x: Real\nconstraint x = m60\n",
             Anything,
+        ),
+        (
+            "a sum of many values that is asked for again and again",
+            "xs: List of 2000 Real\ntotal => xs.sum\nouter => (1..900000).map(i => total).sum\n\
+             whole => (1..60000).map(i => i).sum + outer\n"
+                .into(),
+            Holds,
         ),
         (
             "a picture of a million",

@@ -212,7 +212,9 @@ impl Definition {
 pub(super) fn zipped(range: &Expr) -> Option<(Expr, Expr)> {
     let Expr::Field(field) = range else { return None };
     let other = field.args().filter(|_| field.name().is_some_and(|w| w.text() == "zip"))?;
-    Some((field.receiver()?, other.args().next()?.value()?))
+    let (mut others, one) = (other.args(), field.receiver()?);
+    let other = others.next()?.value()?;
+    others.next().is_none().then_some((one, other))
 }
 
 /// Returns true for a term that is worth the same whatever the values are, written with operators and functions alone.

@@ -32,13 +32,15 @@ pub(super) fn constraint(p: &mut Parser<'_>) {
 
 /// A rule: an expression, or `if c { rules } else { rules }`.
 pub(super) fn rule(p: &mut Parser<'_>) {
-    let mut line = 1..=p.line_end() - p.pos();
-    if p.at(LBrace) && !line.any(|n| p.nth(n) == ColonEq) {
+    if p.at(LBrace) && !assigns(p) {
         let hint = "each rule has its own word: `constraint x = 3`".to_string();
         p.expected_hint("expected-expression", "an expression", Some(hint));
-        p.start(Error);
-        rule_block(p);
-        return p.finish();
+        p.nested(|p| {
+            p.start(Error);
+            rule_block(p);
+            p.finish();
+        });
+        return;
     }
     if !p.at(IfKw) {
         let start = p.checkpoint();
@@ -67,6 +69,11 @@ pub(super) fn rule(p: &mut Parser<'_>) {
         p.start_at(start, IfRule);
         p.finish();
     });
+}
+
+/// Returns true where methods stand on the line, `{ x := 3 }`.
+fn assigns(p: &Parser<'_>) -> bool {
+    (1..=p.line_end() - p.pos()).any(|n| p.nth(n) == ColonEq)
 }
 
 /// `{ vout = gain * vin }`
