@@ -11,6 +11,9 @@ use base::Name;
 use kernel::builtin::is_of_each;
 use kernel::{ClassId, Message, Search, ThingId};
 
+/// So many letters of a text take as much room as a slot that was read.
+const LETTERS: u64 = 8;
+
 impl<'a> Evaluator<'a> {
     /// Sends a message, or reads a part. `nearest` is the thing whose message sends it.
     pub(crate) fn send(
@@ -134,17 +137,19 @@ impl<'a> Evaluator<'a> {
             }
             return Ok(answer.clone());
         }
-        let before = self.fuel.get();
+        let (before, faults) = (self.fuel.get(), self.faults.borrow().len());
         let (answer, read) = self.listening(|| self.compute(to, message, arguments, nearest));
         let (cost, size) = (before.saturating_sub(self.fuel.get()), read.len() as u64);
         let is_value = matches!(
             answer,
             Ok(Answer::Number(..) | Answer::Bool(_) | Answer::Option(..) | Answer::Text(_))
         );
-        // what is as soon computed again is not worth it
+        // a part that went wrong is told each time; what is as soon computed again is not worth it
+        let is_value = is_value && self.faults.borrow().len() == faults;
         if let (Ok(value), true) = (&answer, is_value && size < cost) {
+            let letters = if let Answer::Text(text) = value { text.len() as u64 } else { 0 };
             let left = self.left_to_remember.get();
-            self.left_to_remember.set(left.saturating_sub(size + 1));
+            self.left_to_remember.set(left.saturating_sub(1 + size + letters / LETTERS));
             self.remembered.borrow_mut().insert(key, (value.clone(), read));
         }
         answer
