@@ -178,7 +178,7 @@ impl Lowerer<'_> {
                 match self.find_message(*class, &name, None).map(|(c, _)| c) {
                     Some(definer) => self.user_message(scope, (*class, definer), word, args),
                     None if builtin::find(builtin::THING_MESSAGES, &name).is_none()
-                        && let Some(kin) = self.kin_with(*class, &name) =>
+                        && let Some(kin) = self.kin_with(scope, *class, &name) =>
                     {
                         self.message(scope, &Kind::Thing(kin), word, args, to)
                     }

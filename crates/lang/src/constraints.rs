@@ -48,7 +48,7 @@ impl Lowerer<'_> {
         // merged things have the constraints of each
         let class = match self.has_constraint(class, &name) {
             true => class,
-            false => self.kin_that(class, |l, kin| l.has_constraint(kin, &name))?,
+            false => self.kin_that(scope, class, |l, kin| l.has_constraint(kin, &name))?,
         };
         self.refer(Place { file: scope.file, span: word.span() }, &name, class);
         let kind = kind_of(aspect);

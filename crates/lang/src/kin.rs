@@ -3,7 +3,8 @@
 //! Merged things have the parts and messages of each. A name that a class does not know is looked for
 //! in its kin; whether the thing in question is merged so is known once the things are made.
 
-use crate::lower::Lowerer;
+use crate::lower::{Lowerer, OWN};
+use crate::scope::Scope;
 use base::Name;
 use kernel::{ClassId, ClassKind, Document};
 use std::collections::{BTreeMap, BTreeSet};
@@ -14,12 +15,19 @@ pub(crate) struct Kin {
     /// How many merges were looked at.
     merges: usize,
     of: BTreeMap<ClassId, BTreeSet<ClassId>>,
+    /// Whether a used text has asked: what it says depends on what the document merges.
+    pub(crate) is_asked_by_used: bool,
 }
 
 impl Lowerer<'_> {
     /// Returns the nearest kin of a class that has a part or message of this name.
-    pub(crate) fn kin_with(&mut self, class: ClassId, name: &Name) -> Option<ClassId> {
-        self.kin_that(class, |l, kin| {
+    pub(crate) fn kin_with(
+        &mut self,
+        scope: &Scope,
+        class: ClassId,
+        name: &Name,
+    ) -> Option<ClassId> {
+        self.kin_that(scope, class, |l, kin| {
             l.class_of_part(kin, name).is_some() || l.find_message(kin, name, None).is_some()
         })
     }
@@ -29,12 +37,14 @@ impl Lowerer<'_> {
     /// Cost: where merges were lowered since it was last asked, a look at all of them.
     pub(crate) fn kin_that(
         &mut self,
+        scope: &Scope,
         class: ClassId,
         is_wanted: impl Fn(&Self, ClassId) -> bool,
     ) -> Option<ClassId> {
+        self.kin.is_asked_by_used |= scope.file != OWN;
         let merges = self.document.classes.iter().map(|(_, c)| c.merges.len()).sum();
         if self.kin.merges != merges {
-            self.kin = Kin { merges, of: BTreeMap::new() };
+            self.kin = Kin { merges, of: BTreeMap::new(), ..self.kin };
             for owner in self.document.classes.ids().collect::<Vec<_>>() {
                 for i in 0..self.document.classes[owner].merges.len() {
                     let paths = &self.document.classes[owner].merges[i].paths;

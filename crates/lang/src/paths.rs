@@ -101,7 +101,7 @@ impl Lowerer<'_> {
             None if self.find_message(class, &word.name(), None).is_some() => {
                 self.refuse_virtual(scope, word)
             }
-            None => match self.kin_with(class, &word.name()) {
+            None => match self.kin_with(scope, class, &word.name()) {
                 Some(kin) => self.next_step(scope, path, Some(kin), word),
                 None => {
                     self.unknown_part(scope, &Kind::of_class(&self.document, class), word);

@@ -52,6 +52,7 @@ impl<'l> Lowerer<'l> {
             return Some(used.clone());
         }
         let is_plain = self.modifications.is_empty()
+            && !self.kin.is_asked_by_used
             && self.diagnostics.iter().all(|d| d.place.file == OWN)
             && self.replacements.iter().all(|(scope, ..)| scope.file == OWN);
         let classes = self.used_classes();
@@ -92,6 +93,7 @@ impl<'l> Lowerer<'l> {
         self.files.len() == before.files.len()
             && files.map(|((_, a), (_, b))| (a, b)).all(is_same)
             && self.modifications.is_empty()
+            && self.file_things == before.names.file_things
             && used.classes == self.used_classes()
             && (&is.unit, is.vertical, is.scale) == (&was.unit, was.vertical, was.scale)
             && is.units_per_metre.to_bits() == was.units_per_metre.to_bits()
@@ -110,7 +112,8 @@ impl<'l> Lowerer<'l> {
         match was.filter(|was| was.name == is.name && !used.messages.contains(&(class, index))) {
             Some(was) => {
                 is.answer = was.answer.clone();
-                is.class = was.class;
+                // what is said here may be a list's class, which is made anew; what is not is found by the answer
+                is.class = is.class.or(was.class);
                 true
             }
             None => false,

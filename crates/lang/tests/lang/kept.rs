@@ -128,3 +128,70 @@ fn what_a_library_says_is_what_it_says_anew() {
     }
     assert!(compared > 8, "{compared} of them have nothing wrong");
 }
+
+/// What a document says, and what it says then: what used texts say in it is another thing each time.
+const OTHERWISE: [(&str, &str); 5] = [
+    // a thing of a used class is merged with one that has the name, or with none, or with another
+    (
+        "use boxes\nb: Box\nw: Heavy\nmerge b.held = w\nclass Heavy { weight: Real = 3 }",
+        "use boxes\nb: Box\nw: Heavy\nclass Heavy { weight: Real = 3 }",
+    ),
+    (
+        "use boxes\nb: Box\nw: Heavy\nmerge b.held = w\nclass Heavy { weight: Real = 3 }",
+        "use boxes\nb: Box\nw: Heavy\nmerge b.held = w\nclass Heavy { weight: Text = \"no\" }",
+    ),
+    // the things of a used text stand elsewhere
+    ("use alone\nuse things\nk: Spot", "use alone\nk: Spot"),
+    // classes that it makes come sooner
+    (
+        "use geometry\nclass One { }\nclass Two { all: List of 2 One }\nc: Circle",
+        "use geometry\nc: Circle",
+    ),
+    // a name that it uses is declared by the document
+    ("use geometry\nclass Circle { radius: Real = 1 }\nc: Circle", "use geometry\nc: Circle"),
+];
+
+#[test]
+fn what_a_used_text_says_is_read_anew_where_it_is_another_thing() {
+    let load = |name: &str| {
+        match name {
+        "boxes" => Some("class Held { a: Real = 1 }\nclass Box { held: Held  heavy => 2 * held.weight  constraint held.weight = 5 }".into()),
+        "alone" => Some("use things\nclass Lone { spot: Spot }".into()),
+        "things" => Some("constant least: Real = 3\nclass Spot { x: Real = 4  far => 2 * least  constraint x >= least }\nhere: Spot".into()),
+        "geometry" => Some(include_str!("../../../../library/geometry.thing").to_string()),
+        _ => None,
+    }
+    };
+    for (was, is) in OTHERWISE.iter().flat_map(|(one, other)| [(*one, *other), (*other, *one)]) {
+        let before = lower(was, &load, None);
+        assert!(before.diagnostics.is_empty() || lower(is, &load, None).diagnostics.is_empty());
+        is_as_anew(is, &load, &before);
+    }
+}
+
+/// What a text means after another is what it means alone.
+fn is_as_anew(text: &str, load: &dyn Fn(&str) -> Option<String>, before: &Lowered) {
+    let (now, anew) = (lower(text, load, Some(before)), lower(text, load, None));
+    assert_eq!(now.diagnostics, anew.diagnostics, "{text}");
+    if anew.diagnostics.is_empty() {
+        let (now, anew) = (told(&now), told(&anew));
+        let other = now.lines().zip(anew.lines()).find(|(a, b)| a != b);
+        assert!(now == anew, "{text}\n{other:?}");
+    }
+}
+
+#[test]
+fn a_used_text_that_was_edited_says_what_it_says_now() {
+    const USED: [&str; 4] = [
+        "class Held { a: Real = 1  twice => 2 * a  constraint a >= 0 }",
+        "class Held { a: Real = 1  twice => 3 * a  constraint a >= 0 }",
+        "class Held { a: Real = 1  twice => 2 * a  constraint a >= 1 }",
+        "class Other { }\nclass Held { a: Real = 1  twice => 2 * a  constraint a >= 0 }",
+    ];
+    let text = "use held\nh: Held\nconstraint h.twice = 4\n";
+    for (was, is) in USED.iter().flat_map(|was| USED.map(|is| (*was, is))) {
+        let before = lower(text, &|_| Some(was.into()), None);
+        assert!(before.diagnostics.is_empty(), "{:?}", before.diagnostics);
+        is_as_anew(text, &|_| Some(is.into()), &before);
+    }
+}
