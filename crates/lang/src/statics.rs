@@ -122,6 +122,11 @@ impl Lowerer<'_> {
         let name = form(word.text(), parameters.iter().map(|p| p.label.as_str()));
         let class = scope.class();
         let place = Place { file: scope.file, span: word.span() };
+        if message.is_replacing() {
+            let message = "a message to a class has no thing that it could replace".to_string();
+            let d = Diagnostic::error("no-thing", place, message);
+            self.report(d.hint("leave `static` or `replacing` out"));
+        }
         if let Some(&before) = self.named_at.get(&(class, name.clone())) {
             let message = format!("the class answers {} with these labels already", word.text());
             let d = Diagnostic::error("duplicate-name", place, message);

@@ -35,6 +35,7 @@ const WRONG: &[(&str, &str, &str)] = &[
     ("l: List of Reel", "unknown-class", "Reel"),
     ("class A is A { }", "superclass-cycle", "A"),
     ("class A is Real { }", "primitive-superclass", "Real"),
+    ("class A { replacing static of(a: A) => a }", "no-thing", "of"),
     ("class A { inside: A }\na: A", "endless-parts", "inside: A"),
     (
         "class A { n: Real  t: Text  next: A }\nk: Real = 3\nb: A\na: A = if k > 2 then b else b",
