@@ -54,20 +54,30 @@ pub(crate) fn tables(state: &State) -> BTreeSet<String> {
 
 /// Returns a name of a file for each row, without its ending, none twice.
 pub fn file_names(rows: &[FamilyRow]) -> Vec<String> {
+    /// So many bytes leave room for a number and an ending in what file systems take.
+    const LONGEST: usize = 200;
+    // how often each was wanted
     let mut taken: BTreeMap<String, u32> = BTreeMap::new();
     let plain = |c: char| if c.is_alphanumeric() || ".-_".contains(c) { c } else { '-' };
     let name = |row: &FamilyRow| {
         let name: String = row.name.chars().map(plain).collect();
         let words: Vec<&str> = name.split('-').filter(|word| !word.is_empty()).collect();
-        let name = words.join("-");
-        let name = match name.trim_matches('.') {
-            "" => "row".to_string(),
-            // what a file system takes for one name is one
-            name => name.to_lowercase(),
+        // what a file system takes for one name is one
+        let name = words.join("-").to_lowercase();
+        let name = match name[..name.floor_char_boundary(LONGEST)].trim_matches('.') {
+            "" => "row",
+            name => name,
         };
-        let times = taken.entry(name.clone()).or_default();
-        *times += 1;
-        if *times == 1 { name } else { format!("{name}_{times}") }
+        let numbered =
+            |times: u32| if times == 1 { name.into() } else { format!("{name}_{times}") };
+        let mut times = taken.get(name).map_or(1, |times| times + 1);
+        // a row may be called like a numbered one
+        while times > 1 && taken.contains_key(&numbered(times)) {
+            times += 1;
+        }
+        taken.insert(name.into(), times);
+        taken.entry(numbered(times)).or_insert(1);
+        numbered(times)
     };
     rows.iter().map(name).collect()
 }

@@ -1,7 +1,7 @@
 //! Families in the lab: rows changed cell by cell, used, and the map of a program.
 
 use crate::desk::{Desk, gallery};
-use session::view::{FamilyAxis, RowFormats, RowUse};
+use session::view::{FamilyAxis, FamilyRow, RowFormats, RowUse};
 use std::fs;
 
 const DISCS: &str = "\
@@ -26,6 +26,24 @@ family Sold of Disc {
 
 disc: Disc
 ";
+
+#[test]
+fn rows_that_are_called_alike_have_files_of_their_own() {
+    let names = |rows: &[&str]| {
+        let row = |name: &&str| FamilyRow { name: (*name).into(), ..FamilyRow::default() };
+        session::file_names(&rows.iter().map(row).collect::<Vec<_>>())
+    };
+    assert_eq!(
+        names(&["D 10", "d/10", "D\u{fc}\r\n", "", "."]),
+        ["d-10", "d-10_2", "d\u{fc}", "row", "row_2"]
+    );
+    // one is called as another is numbered
+    assert_eq!(names(&["a_2", "a", "a", "a"]), ["a_2", "a", "a_3", "a_4"]);
+    assert_eq!(names(&["a", "a", "a_2", "a"]), ["a", "a_2", "a_2_2", "a_3"]);
+    // what file systems take of a name is 255 bytes
+    let long = names(&[&"\u{fc}".repeat(40_000), &"\u{fc}".repeat(50_000)]);
+    assert!(long[0] != long[1] && long.iter().all(|name| name.len() < 250), "{long:?}");
+}
 
 fn cells(desk: &Desk, family: &str) -> Vec<(String, Vec<String>)> {
     let grid = desk.session.family_grid(desk.id, family, None).expect("there is one");
