@@ -421,7 +421,8 @@ impl Said {
             |text: &str, get: fn(&Declared) -> &String| old.is_some_and(|old| get(old) == text);
         let mut example = new.example.trim().to_string();
         let keeps_example = is_old(&example, |old| &old.example);
-        if !keeps_example {
+        let is_text = new.class.trim() == "Text";
+        if !keeps_example && !is_text {
             // a place that is typed is no expression
             let is_place = typed::expression(&example).is_none();
             let place = typed::pair(&example, ',').filter(|_| is_place);
@@ -434,9 +435,9 @@ impl Said {
             "" => class_of_example(state, &example).map_err(|why| or_a_text(why, &example))?,
             class => class.into(),
         };
-        if class == "Text" && !keeps_example && class_of_example(state, &example).is_err() {
-            // words that name nothing are the text itself
-            example = quoted(&example);
+        if is_text && !keeps_example && class_of_example(state, &example).is_err() {
+            // words that name nothing are the text itself, braces and all
+            example = quoted(&example).replace('{', "{{").replace('}', "}}");
         }
         let mut range = new.range.trim().to_string();
         let keeps_range = is_old(&range, |old| &old.range);

@@ -504,5 +504,16 @@ fn words_that_were_to_be_a_text_are_told_how_it_is_written() {
     new.class = "Text".into();
     desk.session.define_parameter(desk.id, &new).expect("it is said to be a text");
     assert!(desk.text().contains("drawn: Text = \"Anna\""), "{}", desk.text());
+    // nothing of it is read as a place, a truth or a value
+    for (name, words, text) in [
+        ("both", "Anna, Bob", "Anna, Bob"),
+        ("kind", "yes", "yes"),
+        ("bolt", "M{6} \"short\"", "M{{6}} \\\"short\\\""),
+    ] {
+        let new = NewParameter { name: name.into(), example: words.into(), ..new.clone() };
+        desk.session.define_parameter(desk.id, &new).expect("it is said to be a text");
+        let line = format!("{name}: Text = \"{text}\"");
+        assert!(desk.text().contains(&line), "{line}: {}", desk.text());
+    }
     assert_eq!(desk.wrong(), []);
 }
