@@ -330,8 +330,10 @@ impl Lab {
             Ok(command) => {
                 // the first part of a sheet is as large as it is placed by the pointer
                 self.fits.set_value(false);
+                self.list();
                 let before = self.structure.with_untracked(Vec::len);
                 self.apply_as_meant(&command);
+                self.list();
                 self.zoom.set(Some(Zoom::Within));
                 let made = self.structure.with_untracked(|rows| {
                     let mut own =

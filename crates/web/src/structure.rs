@@ -515,6 +515,7 @@ fn toggle_switch(lab: Lab, path: &str, on: bool) {
 
 /// Locks what is unlocked and the other way round.
 pub(crate) fn toggle_lock(lab: Lab, path: &str) {
+    lab.list();
     let held =
         lab.structure.with_untracked(|rows| {
             rows.iter().find(|row| row.path == path).is_some_and(|row| row.anchored)

@@ -123,6 +123,8 @@ async fn a_temperature_converter_is_built_by_the_keyboard_alone() {
     use_by_keys(&visit, "calculator").await;
     for class in ["Times", "Plus", "Constant", "Constant", "Printer", "Printer"] {
         insert_by_keys(&visit, class).await;
+        // no list is in sight at first: what is new is selected all the same
+        visit.until("window.__thinglab.state().selected").await;
     }
     for pair in [
         ["times.result", "plus.operand1"],

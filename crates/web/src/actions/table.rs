@@ -331,6 +331,7 @@ pub const ACTIONS: &[Action] = &[
             if is_something { Ok(()) } else { Err(words::NOTHING_THERE) }
         },
         run: |lab| {
+            lab.list();
             let things = lab.structure.with_untracked(|rows| {
                 rows.iter()
                     .filter(|row| is_own(row))
