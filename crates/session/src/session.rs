@@ -28,6 +28,7 @@ use crate::views;
 use crate::views::listing::Listing;
 use crate::words;
 use kernel::{Command, Path, Step, ThingId};
+use std::cell::RefCell;
 use std::collections::BTreeSet;
 
 /// A set of open documents.
@@ -47,6 +48,8 @@ use std::collections::BTreeSet;
 pub struct Session {
     pub(crate) host: Box<dyn Host>,
     pub(crate) documents: Vec<Open>,
+    /// How the tiles of the bin look.
+    tiles: RefCell<tools::bin::Tiles>,
 }
 
 impl std::fmt::Debug for Session {
@@ -58,7 +61,7 @@ impl std::fmt::Debug for Session {
 impl Session {
     /// Makes a session without documents.
     pub fn new(host: Box<dyn Host>) -> Self {
-        Self { host, documents: Vec::new() }
+        Self { host, documents: Vec::new(), tiles: RefCell::default() }
     }
     /// Opens a document. Never fails: what is wrong with its text, [`Session::text`] says.
     pub fn open(&mut self, name: &str, text: &str) -> DocumentId {
@@ -454,7 +457,7 @@ impl Session {
     }
     /// Returns what can be inserted: the classes in use, each with the picture of its prototype.
     pub fn bin(&self, id: DocumentId) -> Vec<BinEntry> {
-        tools::bin::entries(&self.document(id).state)
+        tools::bin::entries(&self.document(id).state, &mut self.tiles.borrow_mut())
     }
     /// Returns the command that inserts a thing of a class where there is room.
     ///

@@ -1,11 +1,11 @@
 //! Writing back: the values that an edit came to, as the fewest changes of the text.
 //!
 //! In: a state, and the values after an edit. Out: the text whose state has these values. Given
-//! numbers that changed are rewritten where they stand; after a drag without digits that only computing has made; then the text is opened, and while a value
-//! differs from what the edit came to, one that does is given as well: one whose class gives it a
-//! value, else one that the edit was about, else the first. Given numbers that the edit left alone and that come
-//! to other bits, since they give way whenever the text is opened, are written as they are. Where the fewer digits do
-//! not say the same, all are written.
+//! numbers that changed are rewritten where they stand; after a drag without digits that only computing has made; then
+//! the text is opened, and while a value differs from what the edit came to, one that does is given as well: one whose
+//! class gives it a value, else one that the edit was about, else the first. Given numbers that the edit left alone and
+//! that come to other bits, since they give way whenever the text is opened, are written as they are. Where the fewer
+//! digits do not say the same, all are written.
 
 use crate::given_twice;
 use crate::host::Host;
@@ -118,6 +118,10 @@ fn written(
         let is_bound = |slot: &SlotId| state.structure.bound.contains(slot);
         if !missing.iter().all(is_bound) {
             missing.retain(|slot| !is_bound(slot));
+        }
+        // what is off for want of digits is not to be given: then all digits are written
+        if meant.is_some() && !missing.is_empty() && !missing.iter().any(|s| edited.contains(s)) {
+            return (next, planner);
         }
         missing.sort_by_key(rank);
         missing.truncate(more);

@@ -7,10 +7,14 @@ use crate::recognise;
 use crate::state::State;
 use crate::texts::Texts;
 use crate::view::BinEntry;
+use base::Name;
 use drawing::Drawing;
 use eval::Evaluator;
-use kernel::{ClassId, SlotId, Value, Values};
+use expr::Dimension;
+use kernel::{ClassId, Scale, SlotId, Usual, Value, Values, Vertical};
 use plan::{Model, Planner, Plans};
+use std::collections::BTreeMap;
+use std::rc::Rc;
 
 /// The class of an entry, and the toolbox that it lies in.
 type Made<'s> = (ClassId, &'s kernel::Class, Option<usize>);
@@ -40,22 +44,64 @@ pub(crate) fn names(state: &State) -> Vec<String> {
     made(state).into_iter().map(|(_, class, _)| class.name.to_string()).collect()
 }
 
+/// How the classes of libraries look, by file and name: that is the same until one of the files is another, or what
+/// the document says of lengths and its sheet.
+#[derive(Default)]
+pub(crate) struct Tiles {
+    of: Option<Said>,
+    pictures: BTreeMap<(String, String), Drawing>,
+}
+
+/// What tiles of libraries depend on.
+#[derive(PartialEq)]
+struct Said {
+    sheet: (Vertical, f64, Option<Name>, Scale),
+    units: (bool, BTreeMap<(Dimension, Option<Name>), Usual>),
+    libraries: Vec<(String, Rc<str>)>,
+}
+
+impl Said {
+    fn of(state: &State) -> Self {
+        let document = &state.lowered.document;
+        let files = state.lowered.files.iter().map(|(_, file)| file);
+        let libraries = files.filter(|file| !file.name.is_empty());
+        let unit = document.unit.clone();
+        Self {
+            sheet: (document.vertical, document.units_per_metre, unit, document.scale),
+            units: (document.writes_lengths, document.usual.clone()),
+            libraries: libraries.map(|file| (file.name.clone(), file.text.clone())).collect(),
+        }
+    }
+}
+
+impl Tiles {
+    /// The picture of a class of a library; of the document's own, which is edited, anew each time.
+    fn picture(&mut self, state: &State, class: ClassId, library: &str) -> Drawing {
+        if library.is_empty() {
+            return solved(state, class);
+        }
+        let name = state.lowered.document.classes[class].name.to_string();
+        let known = self.pictures.entry((library.into(), name));
+        known.or_insert_with(|| solved(state, class)).clone()
+    }
+}
+
 /// Returns what a document can make things of, in the order of the bin.
-pub(crate) fn entries(state: &State) -> Vec<BinEntry> {
+pub(crate) fn entries(state: &State, tiles: &mut Tiles) -> Vec<BinEntry> {
+    let said = Some(Said::of(state));
+    if tiles.of != said {
+        *tiles = Tiles { of: said, ..Tiles::default() };
+    }
     let boxes = &state.lowered.toolboxes;
     let entry = |(id, class, toolbox): Made<'_>| {
-        let file = state.lowered.place(class.origin).file;
+        let file = state.lowered.files.get(state.lowered.place(class.origin).file);
+        let library = file.map(|file| file.name.clone()).unwrap_or_default();
         BinEntry {
             class: class.name.to_string(),
             doc: class.doc.clone(),
-            library: state
-                .lowered
-                .files
-                .get(file)
-                .map(|file| file.name.clone())
-                .unwrap_or_default(),
+            picture: tiles.picture(state, id, &library),
+            library,
             toolbox: toolbox.map(|b| boxes[b].title.clone()),
-            picture: solved(state, id),
         }
     };
     made(state).into_iter().map(entry).collect()

@@ -155,3 +155,19 @@ fn a_tile_of_the_bin_shows_what_the_constraints_of_its_class_make() {
     let (a, b) = ends("VerticalLine");
     assert!((a.x - b.x).abs() < 1e-9 && a.y != b.y, "{a:?} {b:?}");
 }
+
+#[test]
+fn the_tiles_of_an_edited_document_are_those_of_one_that_is_opened() {
+    let mut desk = Desk::of("use geometry\np: Point = (1, 2)\n");
+    for text in [
+        "use geometry\ny down\np: Point = (1, 2)\n",
+        "use geometry\nunit mm\nclass HorizontalLine is Line { p2 = (7, 9) }\n",
+        "use calculator\n",
+        "use geometry\np: Point = (1, 2)\nclass Sail is Line { p2 = (7, 9) }\n",
+        "use geometry\np: Point = (1, 2)\nclass Sail is Line { p2 = (8, 9) }\n",
+    ] {
+        desk.type_text(text);
+        let fresh = Desk::of(text);
+        assert_eq!(desk.session.bin(desk.id), fresh.session.bin(fresh.id), "{text}");
+    }
+}

@@ -212,3 +212,23 @@ fn what_a_rule_makes_of_a_drag_is_written_as_a_draughtsman_would() {
     assert!(desk.text().contains("radius = 0.3333333333333333"), "{}", desk.text());
     assert_eq!(Desk::of(&desk.text()).bits(), desk.bits());
 }
+
+#[test]
+fn fewer_digits_give_nothing_that_all_digits_do_not() {
+    let mut desk = Desk::of(
+        "use geometry\ncircle: Circle { center = (0, 0)  radius = 150 }\np: Point = (150, 0)\nq: Point\n\
+         constraint circle.passes(through: p)\nanchor circle.center\nanchor circle.radius\n\
+         constraint q.x = 100000 * (p.y - 115.233)\nconstraint q.y = 7 * p.x\n",
+    );
+    let before = desk.moment();
+    desk.drag("p", &[(120.0, 70.0), (100.0, 120.0)]);
+    // a ten-millionth of p is a hundredth of q
+    assert!(desk.text().contains("\nq: Point\n"), "{}", desk.text());
+    assert!(digits(&desk.text()).into_iter().any(|n| n > 11), "{}", desk.text());
+    let after = desk.moment();
+    assert_eq!(Desk::of(&desk.text()).bits(), after.1);
+    desk.undo();
+    assert_eq!(desk.moment(), before);
+    desk.redo();
+    assert_eq!(desk.moment(), after);
+}
