@@ -88,6 +88,14 @@ pub fn called(row: &StructureRow) -> String {
     }
 }
 
+/// The same among all rows: by its path where another says the same, as each of a loop does, or of two things of a class.
+pub fn told_apart(row: &StructureRow, rows: &[StructureRow]) -> String {
+    let is_same = |other: &StructureRow| {
+        other.kind == row.kind && other.detail == row.detail && other.path != row.path
+    };
+    if rows.iter().any(is_same) { row.path.clone() } else { called(row) }
+}
+
 /// Where a thing is written, or else the nearest thing that it is a part of.
 pub fn span_of(rows: &[StructureRow], path: &str) -> Option<(u32, u32)> {
     let mut path = path;

@@ -2,8 +2,8 @@
 //! told what it says.
 
 use crate::state::State;
-use crate::words::{rule_alone, source_name};
-use kernel::DOCUMENT;
+use crate::words::{constraint_path, rule_alone, source_name};
+use kernel::{ConstraintInstance, DOCUMENT};
 use plan::Source;
 
 /// The longest rule that is told, in letters.
@@ -33,10 +33,23 @@ pub(crate) fn unnamed(state: &State, index: u32) -> Option<String> {
     let rule = rule_alone(state, index);
     let is_short = !rule.is_empty() && rule.chars().count() <= LONGEST && !rule.contains('\n');
     let said = is_short.then(|| format!("“{}”", rule_in_words(&rule)))?;
+    if is_of_loop(state, instance) {
+        // each of a loop says the same in words
+        return Some(format!("{} ({said})", constraint_path(state, instance)));
+    }
     Some(match instance.owner {
         DOCUMENT => said,
         owner => format!("{said} of {}", state.structure.path(document, owner)),
     })
+}
+
+/// Whether a constraint is one of those that a loop makes of one line.
+fn is_of_loop(state: &State, instance: ConstraintInstance) -> bool {
+    let constraints = &state.lowered.document.classes[instance.class].constraints;
+    let place = |index: usize| state.lowered.place(constraints[index].origin);
+    let index = instance.index as usize;
+    let own = place(index);
+    (0..constraints.len()).any(|other| other != index && place(other) == own)
 }
 
 /// Returns a rule as a person says it: `a ∥ b` for `a.parallel(to: b)`, `length of a = 30 mm` for `a.length = 30 mm`;
@@ -49,7 +62,7 @@ pub(crate) fn unnamed(state: &State, index: u32) -> Option<String> {
 /// assert_eq!(rule_in_words("a.angle(to: b) = 30 deg"), "angle of a to b = 30 deg");
 /// assert_eq!(rule_in_words("q.side1.length = 30 mm"), "length of q.side1 = 30 mm");
 /// assert_eq!(rule_in_words("a.length = b.length"), "a.length = b.length");
-/// assert_eq!(rule_in_words("a.p1.y = a.p2.y"), "a is horizontal");
+/// assert_eq!(rule_in_words("a.p1.y = a.p2.y"), "a.p1 is level with a.p2");
 /// assert_eq!(rule_in_words("a.p1.x = b.p2.x"), "a.p1 is straight above or below b.p2");
 /// assert_eq!(rule_in_words("x = 30"), "x = 30");
 /// ```
@@ -75,23 +88,15 @@ pub fn rule_in_words(rule: &str) -> String {
     }
 }
 
-/// Says that two places are level, or one above the other: of the two ends of one thing, that it is.
+/// Says that two places are level, or one above the other.
 fn level(left: &str, right: &str) -> Option<String> {
     let ((one, x), (other, y)) = (left.rsplit_once('.')?, right.rsplit_once('.')?);
-    let (way, said) = match (x, y) {
-        ("y", "y") => ("horizontal", "is level with"),
-        ("x", "x") => ("vertical", "is straight above or below"),
+    let said = match (x, y) {
+        ("y", "y") => "is level with",
+        ("x", "x") => "is straight above or below",
         _ => return None,
     };
-    if !is_path(one) || !is_path(other) {
-        return None;
-    }
-    match (one.rsplit_once('.'), other.rsplit_once('.')) {
-        (Some((whole, "p1")), Some((same, "p2"))) if whole == same => {
-            Some(format!("{whole} is {way}"))
-        }
-        _ => Some(format!("{one} {said} {other}")),
-    }
+    (is_path(one) && is_path(other)).then(|| format!("{one} {said} {other}"))
 }
 
 /// Takes apart what is asked of one thing about another: the one, the message with its label, and the other.

@@ -9,7 +9,7 @@ use crate::words;
 use leptos::prelude::*;
 use presentation::numbers::to_read;
 use presentation::paths::covers;
-use presentation::rows::{called, shown_rules};
+use presentation::rows::{shown_rules, told_apart};
 use presentation::sentences::formula;
 use session::Command;
 use session::view::{Offer, RowKind, StructureRow, ValueRow, ValueWithin};
@@ -29,7 +29,8 @@ pub fn Inspector(
         found.or_else(|| computed_rows(lab, &path).into_iter().next())
     });
     let title = move || {
-        let name = row.with(|row| row.as_ref().map(called));
+        let name = row
+            .with(|row| row.as_ref().map(|row| lab.structure.with(|rows| told_apart(row, rows))));
         let several = lab.also.with(Vec::len) + 1;
         if several > 1 {
             return words::several(several);
@@ -246,7 +247,7 @@ fn Rules(lab: Lab) -> impl IntoView {
 
 #[component]
 fn Rule(lab: Lab, row: StructureRow) -> impl IntoView {
-    let label = called(&row);
+    let label = lab.structure.with_untracked(|rows| told_apart(&row, rows));
     let (path, on) = (row.path, row.enabled);
     // what nobody has named is told by what it says
     let rule = (label == path).then(|| (row.detail.clone(), formula(&row.detail)));

@@ -5,7 +5,7 @@ use crate::lab::{Kind, Lab, Told};
 use crate::{icons, words};
 use leptos::prelude::*;
 use presentation::paths::covers;
-use presentation::rows::called;
+use presentation::rows::told_apart;
 use session::jobs::{LongAnswer, LongQuestion};
 use session::view::{
     Advice, Analysis, Choice, ContradictionView, ExplainedStep, Ghost, HeldView, MotionView,
@@ -318,7 +318,7 @@ impl Lab {
     pub fn called(self, path: &str) -> String {
         self.structure.with_untracked(|rows| {
             let rule = |row: &&StructureRow| row.path == path && row.kind == RowKind::Constraint;
-            rows.iter().find(rule).map_or_else(|| path.into(), called)
+            rows.iter().find(rule).map_or_else(|| path.into(), |row| told_apart(row, rows))
         })
     }
 }

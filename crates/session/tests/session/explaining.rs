@@ -325,3 +325,18 @@ fn what_a_message_lists_and_what_has_no_value_is_explained() {
     );
     assert_eq!(why("q"), "there is no q here");
 }
+
+#[test]
+fn what_a_loop_says_of_each_is_told_apart() {
+    let mut desk = Desk::of(
+        "use geometry
+lines: List of 2 Line
+for i in 0..1 { constraint lines[i].length = 10 }
+         constraint lines[0].length = 20
+",
+    );
+    let told = |desk: &mut Desk| desk.session.analysis(desk.id).contradictions[0].message.clone();
+    let message = told(&mut desk);
+    assert!(message.contains("constraint1 (“length of lines[i] = 10”)"), "{message}");
+    assert!(message.contains(", “length of lines[0] = 20” together"), "{message}");
+}
