@@ -97,10 +97,13 @@ fn Open(lab: Lab, menu: Menu) -> impl IntoView {
         e.prevent_default();
         e.stop_propagation();
     };
+    // a finger that opened the menu by lying still clicks what is below it when it is lifted
+    let is_pressed = StoredValue::new(false);
     let items = menu.actions.into_iter().enumerate().map(|(n, action)| {
         let why = Memo::new(move |_| (action.enabled)(lab).err());
-        let go = move |_| {
-            if why.get_untracked().is_none() {
+        let go = move |e: MouseEvent| {
+            let is_meant = e.detail() == 0 || is_pressed.get_value();
+            if is_meant && why.get_untracked().is_none() {
                 close();
                 actions::run(action, lab);
             }
@@ -119,6 +122,7 @@ fn Open(lab: Lab, menu: Menu) -> impl IntoView {
     view! {
         <div class="veil" on:pointerdown=move |_| close() on:contextmenu=|e| e.prevent_default()></div>
         <div class="menu" role="menu" aria-label=menu.label node_ref=list
+            on:pointerdown=move |_| is_pressed.set_value(true)
             style:left=move || format!("{}px", at.get().0)
             style:top=move || format!("{}px", at.get().1)>
             {items.collect_view()}

@@ -65,6 +65,8 @@ struct State {
     alt: bool,
     /// How many fingers have come down so far.
     presses: u32,
+    /// Which of them lies still, and where.
+    still: Option<(u32, (f64, f64))>,
 }
 
 /// A handle to the hand.
@@ -97,6 +99,7 @@ impl Hand {
             shift: false,
             alt: false,
             presses: 0,
+            still: None,
         };
         Self { lab, canvas, state: StoredValue::new(state) }
     }
@@ -287,17 +290,18 @@ impl Hand {
         /// Longer than browsers wait that do.
         const STILL: Duration = Duration::from_millis(700);
         let place = (f64::from(e.client_x()), f64::from(e.client_y()));
-        let press = self.state.try_update_value(|state| {
+        let still = self.state.try_update_value(|state| {
             state.presses += 1;
-            state.presses
+            // of two fingers none asks for the menu, nor does the one that stays
+            state.still = (state.pointers.len() == 1).then_some((state.presses, start));
+            state.still
         });
         let open = move || {
             let is_still = self.state.try_with_value(|state| {
                 let is_held = matches!(state.mode, Mode::Pressed { .. } | Mode::Pan { .. });
-                let rests = matches!(state.pointers[..], [(_, at)] if distance(at, start) < PULL);
-                is_held && rests && Some(state.presses) == press
+                is_held && state.pointers.len() == 1 && Some(state.still) == still
             });
-            if is_still == Some(true) {
+            if still.flatten().is_some() && is_still == Some(true) {
                 self.open_menu(place);
             }
         };
@@ -341,6 +345,8 @@ impl Hand {
             if let Some(pointer) = state.pointers.iter_mut().find(|(id, _)| *id == e.pointer_id()) {
                 pointer.1 = at;
             }
+            // one that has gone away and come back has not lain still
+            state.still = state.still.filter(|(_, start)| distance(at, *start) < PULL);
             (state.shift, state.alt) = (e.shift_key(), e.alt_key());
             state.latest.replace(at).is_some()
         });
