@@ -46,13 +46,20 @@ pub struct Family {
     /// Why something was refused.
     refused: RwSignal<Option<String>>,
     /// What was typed into cells and refused, by the family and the cell's row and column.
-    kept: StoredValue<BTreeMap<(String, usize, usize), String>>,
+    kept: StoredValue<BTreeMap<(Whose, usize, usize), String>>,
 }
 
+/// The document of a family, and its name there.
+type Whose = (Option<String>, String);
+
 impl Family {
+    fn whose(self) -> Whose {
+        (self.lab.current.get_untracked(), self.name.get_untracked())
+    }
+
     /// Keeps what was typed into a cell where it was refused, so that it stands there until it is said otherwise.
     fn keep(self, (row, column): (usize, usize), typed: &str, is_taken: bool) {
-        let cell = (self.name.get_untracked(), row, column);
+        let cell = (self.whose(), row, column);
         let _ = self.kept.try_update_value(|kept| match is_taken {
             true => kept.remove(&cell),
             false => kept.insert(cell, typed.into()),
@@ -61,13 +68,13 @@ impl Family {
 
     /// What was typed into a cell and refused.
     fn kept(self, (row, column): (usize, usize)) -> Option<String> {
-        let cell = (self.name.get_untracked(), row, column);
+        let cell = (self.whose(), row, column);
         self.kept.with_value(|kept| kept.get(&cell).cloned())
     }
 
     /// Forgets what was refused of a row that goes; that of later rows goes up with them.
     fn forget(self, gone: usize) {
-        let own = self.name.get_untracked();
+        let own = self.whose();
         self.kept.update_value(|kept| {
             let stays = std::mem::take(kept)
                 .into_iter()

@@ -257,21 +257,34 @@ impl Lab {
     pub fn renew_document(self) {
         let clean = move || {
             let is_dirty = self.document.with_untracked(|d| d.as_ref().is_none_or(|d| d.dirty));
-            let is_busy = self.dragging.with_untracked(Option::is_some);
-            (!is_dirty && !is_busy).then(|| self.current.get_untracked()).flatten()
+            (!is_dirty && !self.is_at_work()).then(|| self.current.get_untracked()).flatten()
         };
         self.flush_text();
         let Some(path) = clean() else { return };
+        let known = move || self.document.with_untracked(|d| d.as_ref().map(|d| d.version.clone()));
+        let before = known();
         leptos::task::spawn_local(async move {
             let Ok(Some(theirs)) = server::document(&path).await else { return };
-            let known = self.document.with_untracked(|d| d.as_ref().map(|d| d.version.clone()));
-            if clean().as_ref() == Some(&path) && known.is_some_and(|known| known != theirs.version)
-            {
+            self.flush_text();
+            // what was saved here meanwhile is newer than what came
+            let is_newer = before.as_ref() != Some(&theirs.version) && known() == before;
+            if clean().as_ref() == Some(&path) && is_newer {
                 self.conflict.set(Some(Some(theirs)));
                 self.take_theirs();
                 self.notice.set(Some(Notice::Said(words::renewed(&path))));
             }
         });
+    }
+
+    /// Whether something is in the hand or half typed, which another text would take away.
+    fn is_at_work(self) -> bool {
+        self.dragging.with_untracked(Option::is_some)
+            || self.tool.with_untracked(Option::is_some)
+            || self.editing.with_untracked(Option::is_some)
+            || self.wish.with_untracked(Option::is_some)
+            || self.prototype.with_untracked(Option::is_some)
+            || self.attachers.with_untracked(Option::is_some)
+            || self.drafts()
     }
 
     /// Waits until nothing is dragged.
