@@ -457,6 +457,15 @@ fn a_long_answer_is_compressed_for_whoever_takes_that() {
     let short = server.request("GET", "/api/document?path=none.thing", "");
     let short = short.replace("Connection:", "Accept-Encoding: br\r\nConnection:");
     assert!(!exchange(server.connect(), &short).contains("content-encoding"));
+    // what is refused is not sent, however that is written; a table of megabytes holds nobody up
+    let refusing = asking.replace("Connection:", "Accept-Encoding: br; Q=0.\r\nConnection:");
+    assert!(!exchange(server.connect(), &refusing).contains("content-encoding"));
+    fs::write(server.folder.join("root/long.csv"), "1,2\n".repeat(300_000)).unwrap();
+    let long = server.request("GET", "/api/table?path=long.csv", "");
+    let long = long.replace("Connection:", "Accept-Encoding: br\r\nConnection:");
+    let long = exchange(server.connect(), &long);
+    assert!(long.starts_with("HTTP/1.1 200"), "{}", &long[..long.len().min(200)]);
+    assert!(!long.contains("content-encoding"));
 }
 
 #[test]

@@ -93,12 +93,13 @@ fn direction(from: Pixels, to: Pixels) -> Pixels {
 
 /// Returns where annotations stand. What the picture does not show has none.
 pub fn notes(all: &[Annotation], picture: &PictureView, view: &View) -> Vec<Note> {
-    let seen = seen(all, picture, view);
-    let places: Vec<Pixels> = seen.values().map(|seen| seen.middle()).collect();
+    let (seen, edges) = (seen(all, picture, view), edges(all, picture, view));
+    let sides = edges.values().flatten().map(|(a, b)| between(*a, *b));
+    let places: Vec<Pixels> = seen.values().map(|seen| seen.middle()).chain(sides).collect();
     let n = places.len().max(1) as f64;
     let middle = places.iter().fold((0.0, 0.0), |sum, at| (sum.0 + at.0 / n, sum.1 + at.1 / n));
-    let mut desk = Desk { middle, taken: BTreeMap::new() };
-    all.iter().flat_map(|one| desk.place(one, &seen)).collect()
+    let mut desk = Desk { middle, scale: view.scale, taken: BTreeMap::new() };
+    all.iter().flat_map(|one| desk.place(one, &seen, &edges)).collect()
 }
 
 /// What the picture shows of everything that annotations are of.
@@ -127,6 +128,7 @@ fn seen<'a>(all: &'a [Annotation], picture: &PictureView, view: &View) -> BTreeM
                 let turn = atan2(to.1 - from.1, to.0 - from.0);
                 Some(Seen::Round(from, radius * view.scale, turn))
             }
+            // what is said of it stands at its first edge
             Shape::Polyline { points, .. } => match points.as_slice() {
                 [a, b, ..] => Some(Seen::Way(screen(*a), screen(*b))),
                 _ => None,
@@ -139,18 +141,57 @@ fn seen<'a>(all: &'a [Annotation], picture: &PictureView, view: &View) -> BTreeM
     wanted.into_iter().filter_map(|(path, seen)| Some((path, seen?))).collect()
 }
 
+/// Straight edges, by the path of what they are of.
+type Edges<'a> = BTreeMap<&'a str, Vec<(Pixels, Pixels)>>;
+
+/// The edges of what has several: a line with corners, and a whole that draws its sides, as a rectangle.
+fn edges<'a>(all: &'a [Annotation], picture: &PictureView, view: &View) -> Edges<'a> {
+    let of_one = all.iter().filter(|one| one.shows == Shows::Length);
+    let of_one = of_one.filter_map(|one| match one.of.as_slice() {
+        [path] => Some((path.as_str(), Vec::new())),
+        _ => None,
+    });
+    let mut wanted: Edges<'a> = of_one.collect();
+    for element in &picture.drawing.elements {
+        let tag = element.tag.0 as usize;
+        let whole = picture.drawn_by.get(tag).and_then(Option::as_ref);
+        let (path, mut corners) = match &element.shape {
+            Shape::Segment(a, b) => (whole, vec![*a, *b]),
+            Shape::Polyline { points, .. } => (whole.or(picture.paths.get(tag)), points.clone()),
+            _ => continue,
+        };
+        let Some(found) = path.and_then(|path| wanted.get_mut(path.as_str())) else { continue };
+        if let Shape::Polyline { closed: true, .. } = element.shape {
+            corners.extend(corners.first().copied());
+        }
+        let corners: Vec<Pixels> = corners.iter().map(|p| view.screen_from_sheet(*p)).collect();
+        found.extend(corners.windows(2).map(|two| (two[0], two[1])));
+    }
+    wanted.retain(|_, edges| !edges.is_empty());
+    wanted
+}
+
 /// Where notes are put one after the other.
 struct Desk {
     /// The middle of all that they are of: dimensions stand away from it.
     middle: Pixels,
+    /// How many pixels a unit of the sheet has.
+    scale: f64,
     /// How many notes stand at a place already, by the place to the pixel.
-    taken: BTreeMap<(i64, i64, bool), u32>,
+    taken: BTreeMap<Spot, u32>,
+}
+
+/// A place to the pixel, and whether a dimension stands there.
+type Spot = (i64, i64, bool);
+
+fn spot(at: Pixels, is_dimension: bool) -> Spot {
+    (at.0.round() as i64, at.1.round() as i64, is_dimension)
 }
 
 impl Desk {
     /// How many notes of a kind stand at a place already; now one more does.
     fn nth(&mut self, at: Pixels, is_dimension: bool) -> f64 {
-        let key = (at.0.round() as i64, at.1.round() as i64, is_dimension);
+        let key = spot(at, is_dimension);
         let n = self.taken.entry(key).or_default();
         *n += 1;
         f64::from(*n - 1)
@@ -167,12 +208,21 @@ impl Desk {
         if is_outwards { across } else { (dy * -1.0, dx) }
     }
 
-    fn place(&mut self, one: &Annotation, seen: &BTreeMap<&str, Seen>) -> Vec<Note> {
-        let of: Vec<Seen> =
-            one.of.iter().filter_map(|path| seen.get(path.as_str()).copied()).collect();
-        if of.len() < one.of.len() {
-            return Vec::new();
-        }
+    /// The edge that is as long as a dimension says, of several the one with the fewest dimensions yet.
+    fn edge(&self, edges: &[(Pixels, Pixels)], long: f64) -> Option<(Pixels, Pixels)> {
+        let is_so = |(a, b): &(Pixels, Pixels)| {
+            (hypot(b.0 - a.0, b.1 - a.1) - long).abs() <= 1e-6 * long.max(1.0)
+        };
+        let taken = |(a, b): &(Pixels, Pixels)| self.taken.get(&spot(between(*a, *b), true));
+        edges.iter().copied().filter(is_so).min_by_key(taken)
+    }
+
+    fn place(
+        &mut self,
+        one: &Annotation,
+        seen: &BTreeMap<&str, Seen>,
+        edges: &Edges<'_>,
+    ) -> Vec<Note> {
         let note = |at: Pixels, lines: Vec<Vec<Pixels>>| Note {
             path: one.path.clone(),
             words: one.words.clone(),
@@ -180,7 +230,23 @@ impl Desk {
             at,
             lines,
         };
-        match (one.shows, of.as_slice()) {
+        let (shows, of) = match (one.shows, one.of.as_slice(), one.number) {
+            (Shows::Length, [path], Some(number)) if edges.contains_key(path.as_str()) => {
+                let edges = &edges[path.as_str()];
+                match self.edge(edges, number.abs() * self.scale) {
+                    Some((a, b)) => (Shows::Length, vec![Seen::Way(a, b)]),
+                    // what no edge is as long as is said of the whole
+                    None => (Shows::Relation, vec![Seen::Way(edges[0].0, edges[0].1)]),
+                }
+            }
+            (shows, paths, _) => {
+                (shows, paths.iter().filter_map(|path| seen.get(path.as_str()).copied()).collect())
+            }
+        };
+        if of.len() < one.of.len() {
+            return Vec::new();
+        }
+        match (shows, of.as_slice()) {
             (Shows::Length, [Seen::Way(a, b)])
             | (Shows::Length, [Seen::Place(a), Seen::Place(b)]) => {
                 let (at, lines) = self.length((*a, *b), &one.words);
@@ -352,6 +418,7 @@ mod tests {
             shows,
             of: of.iter().map(|path| String::from(*path)).collect(),
             holds: true,
+            number: words.split(' ').next().and_then(|number| number.parse().ok()),
             typed: None,
         }
     }
@@ -397,6 +464,22 @@ mod tests {
         assert!(off.0.abs() < 1e-9 && off.1.abs() < 1e-9, "{angle:?}");
         // the arc, and the first line continued
         assert_eq!(angle.lines.len(), 2);
+    }
+
+    #[test]
+    fn a_box_has_its_width_along_and_its_height_beside_it() {
+        let mut picture = corner();
+        picture.paths = vec!["box.side1".into(), "box.side2".into()];
+        picture.drawn_by = vec![Some("box".into()); 2];
+        let view = View { scale: 2.0, x: 200.0, y: 300.0, ..View::default() };
+        let of = ["60 mm", "100 mm", "320 mm"];
+        let all = of.map(|words| annotation(words, Shows::Length, words, &["box"]));
+        let all = notes(&all, &picture, &view);
+        let [height, width, around] = all.as_slice() else { panic!("three notes: {all:?}") };
+        // outside of the middles of the lower side and of the right one, at (300, 300) and (400, 240)
+        assert_eq!((width.at, height.at), ((300.0, 326.0), (426.0, 240.0)));
+        // what is as long as no side has no arrows
+        assert_eq!((width.lines.len(), height.lines.len(), around.lines.len()), (5, 5, 0));
     }
 
     #[test]

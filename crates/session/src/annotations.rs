@@ -64,8 +64,8 @@ struct Reading {
     words: String,
     /// What it is of, by path as it is written.
     of: Vec<Path>,
-    /// What a dimension is called: `length`.
-    measure: Option<String>,
+    /// What a dimension is called, as `length`, and its number.
+    measure: Option<(String, f64)>,
 }
 
 fn annotation<'a>(
@@ -79,7 +79,8 @@ fn annotation<'a>(
     let reader = Reader { state, evaluator, owner: instance.owner };
     let reading = reader.read(&written.rule)?;
     let of = reading.of.iter().map(|path| pictured(state, path)).collect::<Option<_>>()?;
-    let typed = reading.measure.and_then(|label| {
+    let number = reading.measure.as_ref().map(|(_, number)| *number);
+    let typed = reading.measure.and_then(|(label, _)| {
         let said = numbers.get(&state.lowered.own_span(written.origin)?.end)?;
         let (members, value) =
             (format!("constraint {} = {{}}", said.left), Some(said.value.clone()));
@@ -92,6 +93,7 @@ fn annotation<'a>(
         shows: reading.shows,
         of,
         holds: evaluator.test(instance).is_ok_and(|verdict| verdict.holds),
+        number,
         typed,
     })
 }
@@ -118,8 +120,11 @@ impl<'a> Reader<'a, '_> {
         match rule {
             Term::Binary(BinaryOperator::Equal, left, right) => match (left.path(), right.path()) {
                 (Some(a), Some(b)) => self.equality(&a, &b),
-                _ => self.dimension(left, right).or_else(|| self.dimension(right, left)),
-            },
+                _ => None,
+            }
+            // a number of the document gives a size as a written one does
+            .or_else(|| self.dimension(left, right))
+            .or_else(|| self.dimension(right, left)),
             Term::Send { to, name, arguments, search: None } => {
                 let to = std::iter::once(&**to);
                 let all = to.chain(arguments.iter().map(|argument| &argument.value));
@@ -147,14 +152,16 @@ impl<'a> Reader<'a, '_> {
         };
         let (a, b) = (self.from_document(a), self.from_document(b));
         let ((one, left), (other, right)) = (parted(&a)?, parted(&b)?);
+        // a number of the document is no thing's, whatever it is called
+        let of_things = !one.is_empty() && !other.is_empty();
         let places = is_place(&one) && is_place(&other);
         let (words, of) = match (left, right) {
             ("x", "x") if places => ("V", vec![one, other]),
             ("y", "y") if places => ("H", vec![one, other]),
-            ("length", "length") | ("radius", "radius") => ("=", vec![one, other]),
+            ("length", "length") | ("radius", "radius") if of_things => ("=", vec![one, other]),
             (_, "midpoint") if is_place(&a) => ("M", vec![a.clone(), other]),
             ("midpoint", _) if is_place(&b) => ("M", vec![b.clone(), one]),
-            ("center", "center") => ("◎", vec![one, other]),
+            ("center", "center") if of_things => ("◎", vec![one, other]),
             _ => return None,
         };
         Some(Reading::relation(words, of))
@@ -163,7 +170,8 @@ impl<'a> Reader<'a, '_> {
     /// A rule that gives a length, a distance, a radius or an angle a value.
     fn dimension(&self, measured: &'a Term, value: &'a Term) -> Option<Reading> {
         let Term::Send { to, name, arguments, search: None } = measured else { return None };
-        let mut of = vec![self.at(to)?];
+        // what the document itself says is no thing's
+        let mut of = vec![self.at(to).filter(|path| !path.is_empty())?];
         let (shows, before) = match (&**name, arguments.as_slice()) {
             ("length" | "width" | "height" | "side", []) => (Shows::Length, ""),
             ("radius", []) => (Shows::Radius, "R "),
@@ -190,7 +198,7 @@ impl<'a> Reader<'a, '_> {
             let shown = kernel::show_quantity(x, quantity, &self.state.lowered.document);
             words::with_unit(shown.text, &shown.unit)
         };
-        let measure = Some(name.to_string());
+        let measure = Some((name.to_string(), x));
         Some(Reading { shows, words: format!("{before}{shown}"), of, measure })
     }
 }

@@ -163,21 +163,24 @@ pub(crate) fn said_anew(open: &Open, host: &dyn Host, command: &Command) -> Opti
     }
     let text = &open.state.text;
     let file = syntax::parse(base::FileId(0), text).file();
-    let said = file.members().find_map(|member| match member {
+    let said = file.members().filter_map(|member| match member {
         Member::Constraint(constraint) => {
             classing::equals_number(&open.state, &constraint).filter(|said| said.left == left)
         }
         _ => None,
-    })?;
-    // the number alone, so that all that is said beside it stays
-    let insert = value.trim().to_string();
-    let edited = syntax::edit::apply(text, &[TextEdit { span: said.span, insert }]);
-    let (state, planner) = State::of(edited, Some(&open.state), host, Plans::default());
-    // what is drawn is given where it lies then
-    let (state, mut planner) = settle_places(&open.state, state, planner, host);
-    let is_right = !state.has_errors() && state.status(&mut planner).satisfied;
-    // a constraint that is switched off, or yields, says nothing
-    (is_right && offers::holds(&state, host, &[rule])).then(|| Command::Text(state.text.clone()))
+    });
+    said.take(MOST_REPLACED).find_map(|said| {
+        // the number alone, so that all that is said beside it stays
+        let insert = value.trim().to_string();
+        let edited = syntax::edit::apply(text, &[TextEdit { span: said.span, insert }]);
+        let (state, planner) = State::of(edited, Some(&open.state), host, Plans::default());
+        // what is drawn is given where it lies then
+        let (state, mut planner) = settle_places(&open.state, state, planner, host);
+        let is_right = !state.has_errors() && state.status(&mut planner).satisfied;
+        // a constraint that is switched off, or yields, says nothing: another one does
+        let is_said = is_right && offers::holds(&state, host, &[rule]);
+        is_said.then(|| Command::Text(state.text.clone()))
+    })
 }
 
 /// What a constraint is called; its rule, where it has no name of its own.

@@ -27,8 +27,8 @@ pub struct Annotated {
     pub notes: StoredValue<Vec<Note>>,
     /// Whether the next thing that is clicked is given a size.
     pub sizing: RwSignal<bool>,
-    /// Where the picture was pressed last, in the window: what is asked for is asked there.
-    pub pressed: StoredValue<Option<(f64, f64)>>,
+    /// Where what is given a size was clicked, in the window: it is asked for there.
+    pub clicked: StoredValue<Option<(f64, f64)>>,
 }
 
 impl Annotated {
@@ -39,7 +39,7 @@ impl Annotated {
             all: RwSignal::new(Vec::new()),
             notes: StoredValue::new(Vec::new()),
             sizing: RwSignal::new(false),
-            pressed: StoredValue::new(None),
+            clicked: StoredValue::new(None),
         }
     }
 }
@@ -106,6 +106,7 @@ impl Lab {
         if self.annotated.shown.get() {
             return self.annotated.all.with(|all| of(all));
         }
+        self.text.track();
         of(&self.ask_of_shown(Session::annotations).unwrap_or_default())
     }
 
@@ -127,6 +128,7 @@ impl Lab {
         } else if self.annotated.sizing.get_untracked() {
             self.stop_sizing();
         } else {
+            self.draft_end();
             self.drop_tool();
             self.select(None);
             self.notice.set(None);
@@ -143,9 +145,22 @@ impl Lab {
         was
     }
 
-    /// What was clicked is given a size, alone or with what was clicked before; with Shift another thing may follow.
-    pub fn size_picked(self, path: Option<String>, goes_on: bool) {
+    /// What was clicked at a place of the window is given a size, alone or with what was clicked before; with Shift
+    /// another thing may follow. Of a dimension that stands there another value is typed; a sign is no thing.
+    pub fn size_picked(self, (path, at): (Option<String>, (f64, f64)), goes_on: bool) {
         let Some(path) = path else { return self.select(None) };
+        let ask = |offer: Offer| {
+            self.annotated.clicked.set_value(Some(at));
+            self.take_offer(&offer);
+        };
+        let is_said = |all: &Vec<Annotation>| all.iter().any(|one| one.path == path);
+        if self.annotated.all.with_untracked(is_said) {
+            if let Some(offer) = untrack(|| self.typed_by(&path)) {
+                self.select(Some(path));
+                ask(offer);
+            }
+            return;
+        }
         if self.selected.with_untracked(Option::is_some) {
             self.select_also(&path);
         } else {
@@ -153,7 +168,7 @@ impl Lab {
         }
         let offered = untrack(|| self.offers()).into_iter().find(|offer| offer.value.is_some());
         match offered {
-            Some(offer) if !goes_on => self.take_offer(&offer),
+            Some(offer) if !goes_on => ask(offer),
             Some(_) => {}
             None if self.also.with_untracked(|also| also.len() > 1) => {
                 self.select(None);

@@ -76,7 +76,8 @@ fn Open(lab: Lab, wish: Wish) -> impl IntoView {
     });
     // a size is asked for where the thing is; the next thing is another
     let is_size = matches!(wish, Wish::Dimension(_));
-    let near = lab.annotated.pressed.get_value().filter(|_| is_size);
+    let clicked = lab.annotated.clicked.try_update_value(Option::take).flatten();
+    let near = clicked.or_else(|| lab.seen_at()).filter(|_| is_size);
     on_cleanup(move || {
         if is_size && lab.annotated.sizing.try_get_untracked() == Some(true) {
             lab.select(None);

@@ -495,22 +495,34 @@ impl Lab {
     pub fn open_menu_at_selection(self) {
         let selected = self.selected.get_untracked();
         let context = if selected.is_some() { Context::Thing } else { Context::Sheet };
-        let canvas = document().get_element_by_id("picture");
-        let Some(rect) = canvas.map(|canvas| canvas.get_bounding_client_rect()) else { return };
-        let grip = self.picture.with_untracked(|picture| {
-            let is_part = |path: &str| selected.as_ref().is_some_and(|s| covers(s, path));
-            picture.grips.iter().find(|grip| is_part(&grip.path)).map(|grip| (grip.x, grip.y))
-        });
         // the row that has the keyboard is where one looks
         let row = document().query_selector("[role=treeitem]:focus").ok().flatten();
         if let Some(row) = row.map(|row| row.get_bounding_client_rect()) {
             return menu::open_at(self, (row.left() + 40.0, row.bottom()), context);
         }
-        let (x, y) = match grip {
-            Some((x, y)) => self.view.with_untracked(|view| view.screen_from_sheet(Point { x, y })),
-            None => (rect.width() / 2.0, rect.height() / 2.0),
+        let canvas = document().get_element_by_id("picture");
+        let Some(rect) = canvas.map(|canvas| canvas.get_bounding_client_rect()) else { return };
+        let middle = (rect.left() + rect.width() / 2.0, rect.top() + rect.height() / 2.0);
+        let (x, y) = self.seen_at().unwrap_or(middle);
+        menu::open_at(self, (x + 8.0, y + 8.0), context);
+    }
+
+    /// Where the picture shows what is selected, in the window: a constraint by its words, a thing by its first grip.
+    pub fn seen_at(self) -> Option<(f64, f64)> {
+        let selected = self.selected.get_untracked()?;
+        let rect = document().get_element_by_id("picture")?.get_bounding_client_rect();
+        let note = self.annotated.notes.with_value(|notes| {
+            notes.iter().find(|note| note.path == selected).map(|note| note.at)
+        });
+        let grip = || {
+            let at = self.picture.with_untracked(|picture| {
+                let grip = picture.grips.iter().find(|grip| covers(&selected, &grip.path));
+                grip.map(|grip| Point { x: grip.x, y: grip.y })
+            });
+            at.map(|at| self.view.with_untracked(|view| view.screen_from_sheet(at)))
         };
-        menu::open_at(self, (rect.left() + x + 8.0, rect.top() + y + 8.0), context);
+        let (x, y) = note.or_else(grip)?;
+        Some((rect.left() + x, rect.top() + y))
     }
 
     /// Marks what the pointer is over, in whatever view.

@@ -109,8 +109,9 @@ impl Lab {
         self.tool_view.set(view);
     }
 
-    /// Lays the tool down.
+    /// Lays the tool down, that for sizes as any other.
     pub fn drop_tool(self) {
+        self.stop_sizing();
         self.tell(session::Session::drop_tool);
         self.tool.set(None);
         self.carried.set_value(false);

@@ -10,7 +10,8 @@
 //! - `PUT /api/draft` with `{path, tab, draft}` → `{}` once it is on disk; null for nothing any more
 //! - `GET /api/library` → `[{name, text}]`
 //!
-//! Every error is `{error: sentence}` with its status. Long answers are compressed for whoever takes that.
+//! Every error is `{error: sentence}` with its status. Long answers are compressed for whoever takes that, but for those
+//! of more than a megabyte.
 
 use std::borrow::Cow;
 use std::hash::{DefaultHasher, Hash as _, Hasher as _};
@@ -39,6 +40,8 @@ const BODY_TIME: Duration = Duration::from_secs(60);
 
 /// Answers from so many bytes on are compressed: shorter ones fit into a packet as they are.
 const WORTH_COMPRESSING: usize = 1400;
+/// Longer ones are sent as they are: within a machine that takes less time, and one that is compressed holds up the others.
+const MOST_COMPRESSED: usize = 1 << 20;
 
 /// How hard the compressor tries, as each answer waits for it, and how far back it looks, as a power of two.
 const QUALITY: u32 = 5;
@@ -190,7 +193,7 @@ async fn compressed(answer: Answer) -> Answer {
     let (mut parts, body) = answer.into_parts();
     let Ok(whole) = body.collect().await;
     let plain = whole.to_bytes();
-    if plain.len() < WORTH_COMPRESSING {
+    if !(WORTH_COMPRESSING..=MOST_COMPRESSED).contains(&plain.len()) {
         return Response::from_parts(parts, Full::new(plain));
     }
     let mut bytes = Vec::new();
@@ -213,7 +216,12 @@ fn takes_brotli(headers: &HeaderMap) -> bool {
         taken.split(',').any(|one| {
             let mut parts = one.split(';').map(str::trim);
             let is_br = parts.next().is_some_and(|name| name.eq_ignore_ascii_case("br"));
-            is_br && !parts.any(|weight| matches!(weight, "q=0" | "q=0.0" | "q=0.00" | "q=0.000"))
+            let is_none = |weight: &str| {
+                let number =
+                    weight.strip_prefix(['q', 'Q']).and_then(|rest| rest.strip_prefix('='));
+                number.and_then(|number| number.parse().ok()) == Some(0.0)
+            };
+            is_br && !parts.any(is_none)
         })
     })
 }

@@ -179,7 +179,7 @@ pub struct ValueWithin {
 }
 
 /// What a constraint says, as it stands on a drawing.
-#[derive(Clone, PartialEq, Eq, Debug)]
+#[derive(Clone, PartialEq, Debug)]
 pub struct Annotation {
     /// The constraint's path.
     pub path: String,
@@ -193,6 +193,8 @@ pub struct Annotation {
     pub of: Vec<String>,
     /// Whether it holds.
     pub holds: bool,
+    /// The number that a dimension gives, as the sheet counts.
+    pub number: Option<f64>,
     /// What types another value of a dimension, where it is a number.
     pub typed: Option<Offer>,
 }

@@ -230,11 +230,12 @@ fn a_typed_number_takes_the_place_of_a_number_alone() {
     assert!(text.contains("// As built.\nconstraint a.length = 90 // short\n"), "{text}");
     let formula = said("constraint a.length = 2 * b.length\n");
     assert!(matches!(formula, Command::Edit { .. }), "{formula:?}");
-    let weak = said("weak constraint a.length = 100\nconstraint a.length = 80\n");
-    assert!(
-        !matches!(&weak, Command::Text(t) if !t.contains("constraint a.length = 80")),
-        "{weak:?}"
-    );
+    // one that yields stays; what is in force is another
+    let Command::Text(text) = said("weak constraint a.length = 100\nconstraint a.length = 80\n")
+    else {
+        panic!("the number is replaced");
+    };
+    assert!(text.contains("weak constraint a.length = 100\nconstraint a.length = 90\n"), "{text}");
 }
 
 #[test]
@@ -418,4 +419,36 @@ fn a_dimension_that_stands_is_shown_and_edited() {
     assert!(dimension(&desk, &["c"], "radius").stands);
     take(&mut desk, &["c"], "radius", Some("25"));
     assert!(desk.text().contains("radius = 25") && !desk.text().contains("constraint"));
+}
+
+#[test]
+fn a_named_number_stands_on_the_drawing_as_a_written_one_does() {
+    let desk = Desk::of(
+        "use geometry\nunit mm\nw: Length = 45\nlength: Length = 2 cm\n\
+         a: Line { p1 = (0, 0)  p2 = (45, 0) }\nb: Line { p1 = (0, 20)  p2 = (20, 20) }\n\
+         r: Rectangle { corner = (0, 40)  width = 60  height = 30 }\n\
+         constraint a.length = w\nconstraint length = b.length\nconstraint r.width = 6 cm\n",
+    );
+    let all = desk.session.annotations(desk.id);
+    let seen = all.iter().map(|one| (one.words.as_str(), one.of.join(" "), one.number));
+    let of = |words, of: &str, number| (words, String::from(of), Some(number));
+    assert_eq!(
+        seen.collect::<Vec<_>>(),
+        [of("45 mm", "a", 45.0), of("20 mm", "b", 20.0), of("60 mm", "r", 60.0)]
+    );
+    // beside one that is switched off, the other is typed anew
+    let mut twice = Desk::of(
+        "use geometry\na: Line { p1 = (0, 0)  p2 = (45, 0) }\n\
+         constraint a.length = 20\nconstraint a.length = 45\n",
+    );
+    let off = Command::Enable { path: at("constraint1"), on: false };
+    twice.apply(&off).expect("it is switched off");
+    let said = twice.session.annotations(twice.id).pop().and_then(|one| one.typed);
+    let said = said.expect("it can be typed anew");
+    let command = twice.session.said(twice.id, &said, Some("50")).expect("it fits");
+    twice.apply(&command).expect("it can be said");
+    assert!(twice.text().contains("constraint a.length = 50\n"), "{}", twice.text());
+    assert!(!twice.text().contains("= 45\n"), "{}", twice.text());
+    // what another number gives is not typed here
+    assert_eq!(all.iter().filter(|one| one.typed.is_some()).count(), 1);
 }

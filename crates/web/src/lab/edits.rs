@@ -195,7 +195,10 @@ impl Lab {
         }
         let along = self.ask(|session| session.along_with(id, &parsed));
         if asked.is_some() || along.is_empty() {
-            self.apply(&command);
+            if self.apply(&command) {
+                // the next constraint has its number now
+                self.select(None);
+            }
             return;
         }
         let message = words::goes_along(&path, &along);

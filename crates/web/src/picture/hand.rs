@@ -8,17 +8,20 @@ use crate::js;
 use crate::lab::Lab;
 use crate::menu;
 use crate::sheet::View;
+use drawing::Point;
 use leptos::ev::{MouseEvent, PointerEvent};
 use leptos::html::Canvas;
 use leptos::prelude::*;
 use presentation::band::{Take, banded};
 use presentation::paths::covers;
 use presentation::pick::{pick, pick_word};
-use session::view::{Caught, Pointer};
+use session::view::{Caught, PictureView, Pointer};
 use std::time::Duration;
 
 /// How near a grip the pointer must be, in pixels: a mouse's, a finger's.
 const REACH: (f64, f64) = (10.0, 24.0);
+/// How near a grip under words the pointer must be, in pixels: about as large as it is drawn.
+const GRIP: f64 = 5.0;
 /// How far a pressed pointer moves before it drags, in pixels.
 const STIR: f64 = 2.0;
 /// How far a pressed tool moves before letting go sets its next place, in pixels.
@@ -148,7 +151,7 @@ impl Hand {
     }
 
     fn pick_in(self, at: (f64, f64), chosen: Option<&str>) -> Option<String> {
-        if let Some(constraint) = self.lab.note_at(at) {
+        if let Some(constraint) = self.note_at(at) {
             return Some(constraint);
         }
         let reach = self.reach();
@@ -156,10 +159,19 @@ impl Hand {
         self.lab.picture.with_untracked(|picture| pick(picture, &view, at, (reach, chosen)))
     }
 
+    /// The constraint whose words are at a place on the canvas; a grip under them is taken all the same.
+    fn note_at(self, at: (f64, f64)) -> Option<String> {
+        let note = self.lab.note_at(at)?;
+        let view = self.lab.view.get_untracked();
+        let is_at = |x, y| distance(view.screen_from_sheet(Point { x, y }), at) <= GRIP;
+        let is_gripped =
+            |picture: &PictureView| picture.grips.iter().any(|grip| is_at(grip.x, grip.y));
+        let is_gripped = self.lab.picture.with_untracked(is_gripped);
+        (!is_gripped).then_some(note)
+    }
+
     pub(super) fn down(self, e: &PointerEvent) {
         let at = self.at(e);
-        let pressed = (f64::from(e.client_x()), f64::from(e.client_y()));
-        self.lab.annotated.pressed.set_value(Some(pressed));
         if let Some(canvas) = self.canvas.get_untracked() {
             js::capture(&canvas, e.pointer_id());
         }
@@ -211,7 +223,8 @@ impl Hand {
                 true => self.pick_beside(at),
                 false => self.pick_deeper(at),
             };
-            self.lab.size_picked(picked, e.shift_key());
+            let clicked = (f64::from(e.client_x()), f64::from(e.client_y()));
+            self.lab.size_picked((picked, clicked), e.shift_key());
             // what is asked for has the keyboard
             e.prevent_default();
             self.set_mode(Mode::Idle);
@@ -231,7 +244,7 @@ impl Hand {
             }
             self.set_mode(match picked {
                 // what a constraint says stands where that puts it
-                Some(_) if self.lab.note_at(at).is_some() => Mode::Idle,
+                Some(_) if self.note_at(at).is_some() => Mode::Idle,
                 Some(path) => Mode::Pressed { path, start: at },
                 // a finger moves the sheet
                 None if e.pointer_type() == "touch" => Mode::Pan { last: at },
@@ -246,7 +259,7 @@ impl Hand {
             return;
         }
         let at = on_canvas(self.canvas, (f64::from(e.client_x()), f64::from(e.client_y())));
-        if let Some(constraint) = self.lab.note_at(at) {
+        if let Some(constraint) = self.note_at(at) {
             if let Some(offer) = untrack(|| self.lab.typed_by(&constraint)) {
                 self.lab.take_offer(&offer);
             }
