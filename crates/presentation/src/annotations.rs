@@ -205,7 +205,7 @@ impl Desk {
         let away = (middle.0 - self.middle.0) * across.0 + (middle.1 - self.middle.1) * across.1;
         // a lone line has its dimension above
         let is_outwards = if away.abs() > 1.0 { away > 0.0 } else { across.1 < 0.0 };
-        if is_outwards { across } else { (dy * -1.0, dx) }
+        if is_outwards { across } else { (-dy, dx) }
     }
 
     /// The edge that is as long as a dimension says, of several the one with the fewest dimensions yet.

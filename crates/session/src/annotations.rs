@@ -137,10 +137,10 @@ impl<'a> Reader<'a, '_> {
 
     /// The path from the document of what a term reads.
     fn at(&self, term: &Term) -> Option<Path> {
-        term.path().map(|path| self.from_document(&path))
+        term.path().map(|path| self.absolute(&path))
     }
 
-    fn from_document(&self, path: &Path) -> Path {
+    fn absolute(&self, path: &Path) -> Path {
         self.state.structure.path(&self.state.lowered.document, self.owner).join(path)
     }
 
@@ -150,7 +150,7 @@ impl<'a> Reader<'a, '_> {
         let is_place = |path: &Path| {
             class_at(state, path).is_some_and(|class| state.lowered.document.is_place(class))
         };
-        let (a, b) = (self.from_document(a), self.from_document(b));
+        let (a, b) = (self.absolute(a), self.absolute(b));
         let ((one, left), (other, right)) = (parted(&a)?, parted(&b)?);
         // a number of the document is no thing's, whatever it is called
         let of_things = !one.is_empty() && !other.is_empty();

@@ -4,7 +4,7 @@
 use browser::Visit;
 use browser::hands::{chord, drag, grip, show, state};
 use serde_json::Value;
-use session::{Command, Host, Literal, Session, parse_path};
+use session::{Host, Session, parse_path};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
@@ -281,10 +281,9 @@ async fn the_page_and_the_native_session_give_the_same_bits() {
         }
         let path = parse_path(&grip.path).expect("a path");
         for _ in 0..3 {
-            let now = native.picture(id).grips.into_iter().find(|g| g.path == grip.path);
-            let now = now.expect("the grip is still there");
-            let to = Literal::Tuple(vec![Literal::Number(now.x + 1.0), Literal::Number(now.y)]);
-            let _ = native.apply(id, &Command::Move(vec![(path.clone(), to)]));
+            let Ok((x, y)) = native.press(id, &path) else { continue };
+            native.drag(id, (x + 1.0, y));
+            let _ = native.release(id);
         }
         let expected = bits_of_session(&native, id);
         let mut page = bits_of_page(&state(&visit).await);
