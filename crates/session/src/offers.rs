@@ -256,8 +256,8 @@ impl Offerer<'_> {
             lefts.extend(ends.iter().flat_map(|(a, b)| distances(a, b)));
             let ends =
                 ends.map(|(a, b)| Some((thing_at(self.state, &a)?, thing_at(self.state, &b)?)));
-            let own = thing_at(self.state, &path);
-            let stands = own.or_else(|| ends.flatten().and_then(|(a, b)| self.standing(a, b)));
+            // a number that is only given holds nothing: it is told like any other
+            let stands = ends.flatten().and_then(|(a, b)| self.standing(a, b));
             Some(self.given(stands, self.dimension(name, &lefts, self.written(now))))
         };
         let angle = || {

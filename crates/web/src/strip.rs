@@ -165,10 +165,15 @@ impl Lab {
             return Ok(false);
         };
         let command = said?;
-        Ok(match offer.deed {
+        Ok(match &offer.deed {
             Deed::Add if !matches!(command, Command::Text(_)) => self.apply(&command),
             Deed::Add => self.apply_called(&command, &offer.label),
-            Deed::Give(_) => self.apply(&command),
+            // as where the number itself is typed over, with its unit
+            Deed::Give(path) => {
+                let typed = value.or(offer.value.as_deref()).unwrap_or_default();
+                self.set_typed(&path.to_string(), typed)?;
+                true
+            }
             Deed::Round(_) | Deed::InLines(_) => self.apply_called(&command, &offer.label),
         })
     }
