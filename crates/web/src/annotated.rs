@@ -78,7 +78,7 @@ impl Lab {
                 return Vec::new();
             }
             let view = self.view.get();
-            let made = self.marked.with(|marked| {
+            self.marked.with(|marked| {
                 let shown: Vec<Annotation> = all
                     .iter()
                     .filter(|one| all.len() <= MOST || is_of(one, marked))
@@ -87,8 +87,7 @@ impl Lab {
                 let made = annotations::notes(&shown, picture, &view);
                 annotations::paint(list, &made, &view, |path| mark_of(marked, path));
                 made
-            });
-            made
+            })
         });
         notes.set_value(made);
     }

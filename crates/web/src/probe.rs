@@ -21,10 +21,42 @@ fn object(fields: &[(&str, JsValue)]) -> JsValue {
     object.into()
 }
 
+fn text(words: &str) -> JsValue {
+    JsValue::from(words)
+}
+
+/// The words of the picture and of what constraints say, each where a pointer hits it in the window.
+fn words_seen(lab: Lab, (left, top): (f64, f64)) -> Array {
+    let view = lab.view.get_untracked();
+    lab.picture.with_untracked(|picture| {
+        let word = |element: &drawing::Element| {
+            let drawing::Shape::Text { at, text: shown, .. } = &element.shape else { return None };
+            let (x, y) = view.screen_from_sheet(*at);
+            let path = picture.paths.get(element.tag.0 as usize)?;
+            // where a pointer hits it: a little to the right of where it begins
+            Some(object(&[
+                ("path", text(path)),
+                ("text", text(shown)),
+                ("px", (left + x + 10.0).into()),
+                ("py", (top + y - 4.0).into()),
+            ]))
+        };
+        let said = |note: &presentation::annotations::Note| {
+            object(&[
+                ("path", text(&note.path)),
+                ("text", text(&note.words)),
+                ("px", (left + note.at.0).into()),
+                ("py", (top + note.at.1).into()),
+            ])
+        };
+        let drawn = picture.drawing.elements.iter().filter_map(word);
+        lab.annotated.notes.with_value(|notes| drawn.chain(notes.iter().map(said)).collect())
+    })
+}
+
 fn state(lab: Lab) -> String {
     lab.list();
     let document = lab.document.get_untracked();
-    let text = |t: &str| JsValue::from(t);
     let values: Array = lab.values.with_untracked(|rows| {
         let row = |row: &session::view::ValueRow| {
             object(&[
@@ -58,30 +90,7 @@ fn state(lab: Lab) -> String {
         };
         picture.grips.iter().map(grip).collect()
     });
-    let words: Array = lab.picture.with_untracked(|picture| {
-        let word = |element: &drawing::Element| {
-            let drawing::Shape::Text { at, text: shown, .. } = &element.shape else { return None };
-            let (x, y) = view.screen_from_sheet(*at);
-            let path = picture.paths.get(element.tag.0 as usize)?;
-            // where a pointer hits it: a little to the right of where it begins
-            Some(object(&[
-                ("path", text(path)),
-                ("text", text(shown)),
-                ("px", (left + x + 10.0).into()),
-                ("py", (top + y - 4.0).into()),
-            ]))
-        };
-        let said = |note: &presentation::annotations::Note| {
-            object(&[
-                ("path", text(&note.path)),
-                ("text", text(&note.words)),
-                ("px", (left + note.at.0).into()),
-                ("py", (top + note.at.1).into()),
-            ])
-        };
-        let drawn = picture.drawing.elements.iter().filter_map(word);
-        lab.annotated.notes.with_value(|notes| drawn.chain(notes.iter().map(said)).collect())
-    });
+    let words = words_seen(lab, (left, top));
     let status = lab.status.get_untracked();
     let notice = match lab.notice.get_untracked() {
         Some(Notice::Said(words)) => words,
