@@ -22,10 +22,12 @@
 //! | 14, x, y, x, y, x, y | the ring goes on by a cubic curve |
 //! | 15, opacity | how much of what follows is seen, from 0 to 1 |
 
+mod note;
 mod reach;
 
 use crate::sheet::View;
 use drawing::{Anchoring, Color, Drawing, Element, Layer, Line, Placement, Point, Shape, Style};
+pub(crate) use note::note;
 use reach::Reach;
 use session::view::{Caught, Freedom, MovedView, PictureView, Velocity};
 use std::cell::LazyCell;
@@ -325,37 +327,6 @@ pub fn caught(list: &mut DisplayList, found: &Caught) {
         turn: 0.0,
     };
     begin(list, Hue::Accent as i32, -1, Line::None, 1.0, Space::Screen);
-    shape(list, &text);
-}
-
-/// Adds an annotation: its lines, and its words on a frame of paper.
-pub(crate) fn note(
-    list: &mut DisplayList,
-    (lines, frame): (&[Vec<Point>], &[Point; 4]),
-    (at, words): (Point, &str),
-    (mark, holds): (Mark, bool),
-) {
-    let hue = match (holds, mark) {
-        (false, _) => Hue::Conflict,
-        (true, Mark::None | Mark::Outside) => Hue::Faint,
-        (true, Mark::Hovered | Mark::Selected) => Hue::Accent,
-    };
-    let polyline = |points: &[Point], closed| Shape::Polyline { points: points.to_vec(), closed };
-    begin(list, hue as i32, -1, Line::Solid, 1.0, Space::Sheet);
-    lines.iter().for_each(|line| shape(list, &polyline(line, false)));
-    // what is chosen has a frame, so that it is told by more than its colour; only its own lines lie behind words
-    let rim = if mark == Mark::Selected { hue as i32 } else { -1 };
-    let paper = if lines.is_empty() { -1 } else { Hue::Paper as i32 };
-    begin(list, rim, paper, Line::Solid, 1.0, Space::Sheet);
-    shape(list, &polyline(frame, true));
-    let text = Shape::Text {
-        at,
-        text: String::from(words),
-        anchoring: Anchoring::Center,
-        placement: Placement::OnScreen(crate::annotations::HEIGHT),
-        turn: 0.0,
-    };
-    begin(list, hue as i32, -1, Line::None, 1.0, Space::Screen);
     shape(list, &text);
 }
 
