@@ -550,7 +550,8 @@ fn restructured(open: &mut Open, host: &dyn Host, command: &Command) -> Result<C
             // what holds no more is computed anew, so that no given number has to yield to what is kept
             let mut texts = Texts::new(&state.lowered.document, &state.structure);
             planner.satisfy_since(state.model(), &state.values, &mut values, &mut texts);
-            write_back(&state, &values, &Edited::default(), host, planner.into_plans())
+            let edited = Edited { by_hand: Some(Vec::new()), ..Edited::default() };
+            write_back(&state, &values, &edited, host, planner.into_plans())
         }
         (None, Some(class)) => {
             let (state, planner) = place_new_parts(&before, state, planner, class, host);

@@ -1,8 +1,8 @@
 //! Writing back: the values that an edit came to, as the fewest changes of the text.
 //!
 //! In: a state, and the values after an edit. Out: the text whose state has these values. Given
-//! numbers that changed are rewritten where they stand; after a drag without digits that only computing has made; then
-//! the text is opened, and while a value differs from what the edit came to, one that does is given as well: one whose
+//! numbers that changed are rewritten where they stand, after what is done by hand without digits that only computing
+//! has made; then the text is opened, and while a value differs from what the edit came to, one that does is given as well: one whose
 //! class gives it a value, else one that the edit was about, else the first. Given numbers that the edit left alone and
 //! that come to other bits, since they give way whenever the text is opened, are written as they are. Where the fewer
 //! digits do not say the same, all are written.
@@ -21,9 +21,9 @@ use std::collections::{BTreeMap, BTreeSet};
 pub(crate) struct Edited {
     /// Its slots.
     pub(crate) slots: Vec<SlotId>,
-    /// Where the pointer was, of a drag: that is written to the last digit, and what follows from it to those that
-    /// are more than rounding. What is typed or commanded is written with all that comes of it.
-    pub(crate) pointed: Option<[f64; 2]>,
+    /// The numbers that it gave itself, of what is done by hand: these are written to the last digit, and what follows
+    /// from them to those that are more than rounding. What is set is written with all that comes of it.
+    pub(crate) by_hand: Option<Vec<f64>>,
 }
 
 /// Makes the state whose text gives these values, and its planner.
@@ -37,13 +37,13 @@ pub(crate) fn write_back(
     host: &dyn Host,
     plans: Plans,
 ) -> (State, Planner) {
-    let Some(pointed) = edited.pointed else {
+    let Some(given) = &edited.by_hand else {
         return written(state, wanted, &edited.slots, None, (host, plans));
     };
     let slots = state.structure.slots.ids();
     let stays = |slot: &SlotId| wanted.get(*slot).same_bits(&state.values.get(*slot));
     let kept = slots.filter(stays).map(|slot| wanted.numbers[slot]);
-    let meant: BTreeSet<u64> = kept.chain(pointed).map(f64::to_bits).collect();
+    let meant: BTreeSet<u64> = kept.chain(given.iter().copied()).map(f64::to_bits).collect();
     let (next, mut planner) = written(state, wanted, &edited.slots, Some(&meant), (host, plans));
     if is_as_exact(&next, wanted, &mut planner) {
         return (next, planner);
@@ -192,9 +192,14 @@ pub(crate) fn settle_places(
     let path = |t: ThingId| state.structure.path(document, written_at(&state, t));
     let writes: Vec<(Path, Literal)> =
         units.iter().map(|&t| (path(t), literal(&state, t, &state.values))).collect();
-    let edits = lang::write_values(&state.lowered, &writes);
-    let text = syntax::edit::apply(&state.text, &edits);
-    let (next, planner) = State::written(text, &state, host, planner.into_plans());
+    let apply = |edits: &[syntax::TextEdit]| syntax::edit::apply(&state.text, edits);
+    let short = apply(&lang::write_rounded(&state.lowered, &writes, &BTreeSet::new()));
+    let (next, mut planner) = State::written(short, &state, host, planner.into_plans());
+    if is_as_exact(&next, &state.values, &mut planner) {
+        return (next, planner);
+    }
+    let whole = apply(&lang::write_values(&state.lowered, &writes));
+    let (next, planner) = State::written(whole, &state, host, planner.into_plans());
     match is_same(&next, &state) {
         true => (next, planner),
         false => State::of(state.text, Some(before), host, planner.into_plans()),

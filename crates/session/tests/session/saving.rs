@@ -214,6 +214,24 @@ fn what_a_rule_makes_of_a_drag_is_written_as_a_draughtsman_would() {
 }
 
 #[test]
+fn what_a_dimension_makes_of_what_is_drawn_is_written_as_a_draughtsman_would() {
+    let mut desk = Desk::of(
+        "use geometry\nline: Line { p1 = (-300, -193)  p2 = (-240, -43) }\n\
+         line2: Line { p2 = (0, 7) }\nmerge line.p2 = line2.p1\n",
+    );
+    for members in ["constraint line.length = 160", "constraint line2.length = 250"] {
+        let members = String::from(members);
+        desk.apply(&Command::Edit { target: session::Path::default(), members }).expect("it is free");
+    }
+    let text = desk.text();
+    assert!(digits(&text).into_iter().all(|n| n <= 11), "{text}");
+    let ends = ["line.p1.x", "line.p1.y", "line.p2.x", "line.p2.y"].map(|path| desk.number(path));
+    let length = base::number::hypot(ends[2] - ends[0], ends[3] - ends[1]);
+    assert!((length - 160.0).abs() < 1e-8, "{length}");
+    assert_eq!(Desk::of(&text).bits(), desk.bits());
+}
+
+#[test]
 fn fewer_digits_give_nothing_that_all_digits_do_not() {
     let mut desk = Desk::of(
         "use geometry\ncircle: Circle { center = (0, 0)  radius = 150 }\np: Point = (150, 0)\nq: Point\n\
