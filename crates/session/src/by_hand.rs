@@ -12,8 +12,8 @@ use crate::outlines;
 use crate::session::{parse_path, thing_at};
 use crate::state::State;
 use crate::view::{
-    Annotation, BinEntry, ClassItem, ClassPlan, Deed, DocumentId, Offer, Question, Refusal,
-    ValueRow, ValueWithin,
+    Affected, Annotation, BinEntry, Change, ClassItem, ClassPlan, Deed, DocumentId, Offer,
+    Question, Refusal, ValueRow, ValueWithin,
 };
 use crate::ways_out;
 use crate::{Session, tools, views, words};
@@ -33,6 +33,40 @@ impl Session {
             collect(state, thing, &mut Vec::new(), &mut Vec::new(), &mut found);
         }
         found
+    }
+
+    /// Locks parts at the values that they have, or lets them go. One step.
+    ///
+    /// # Errors
+    /// Why one of them cannot be; then nothing has changed.
+    pub fn hold(&mut self, id: DocumentId, paths: &[Path], held: bool) -> Result<Change, Refusal> {
+        let home = self.home(id);
+        let command = |path: &Path| self.at_home(id, &Command::Anchor { path: path.clone(), held });
+        let commands: Vec<Command> = paths.iter().map(command).collect::<Result<_, _>>()?;
+        self.document_mut(id).drag = None;
+        let (open, beside) = self.beside_others(home);
+        open.drag = None;
+        let since = open.done.len();
+        let mut change = open.tried(|open| {
+            let mut all = Change::default();
+            for command in &commands {
+                let change = apply::apply(open, &beside, command)?;
+                all.structure |= change.structure;
+                all.edits.extend(change.edits);
+            }
+            Ok::<_, Refusal>(all)
+        })?;
+        open.one_step(since);
+        let names: Vec<String> = paths.iter().map(Path::to_string).collect();
+        change.label =
+            format!("{} {}", if held { "lock" } else { "unlock" }, words::listed(&names));
+        open.label_last(change.label.clone());
+        change.documents = self.reach(home);
+        if home != id {
+            self.renew_pane(id);
+            change.documents.push(Affected { document: home, unsatisfied: Vec::new() });
+        }
+        Ok(change)
     }
 
     /// Returns the path of the value that a word in the picture of a thing shows, or without a word of the one that

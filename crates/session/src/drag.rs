@@ -683,7 +683,8 @@ impl Drag {
         let is_apart = whole.as_ref().is_some_and(|whole| {
             state.values.changed(&self.values).any(|slot| !whole.contains(&slot))
         });
-        let edited = Edited { slots: whole.unwrap_or(self.slots), by_hand: Some(self.wish.to_vec()) };
+        let edited =
+            Edited { slots: whole.unwrap_or(self.slots), by_hand: Some(self.wish.to_vec()) };
         let steps = open.done.len();
         let kept = apply::keep(open, host, label, edited, &self.values, &report.undecided)?;
         if let Some(step) = open.done.get_mut(steps) {

@@ -71,22 +71,10 @@ impl Session {
         let none = || words::refuse(format!("{thing} is no placed thing of a program"));
         self.is_held_in_place(id, thing).ok_or_else(none)?;
         let path = parse_path(thing).ok_or_else(none)?;
-        let (open, beside) = self.beside_others(id);
-        open.drag = None;
-        let since = open.done.len();
-        let edits = open.tried(|open| {
-            let mut edits = Vec::new();
-            for name in PLACE {
-                let command = Command::Anchor { path: path.then(part(name)), held };
-                edits.extend(apply::apply(open, &beside, &command)?.edits);
-            }
-            Ok::<_, Refusal>(edits)
-        })?;
-        let mut change = Change { edits, ..Change::default() };
+        let place: Vec<Path> = PLACE.into_iter().map(|name| path.then(part(name))).collect();
+        let change = self.hold(id, &place, held)?;
         let label = if held { "hold" } else { "let go" };
-        open.one_step(since);
-        open.label_last(format!("{label} {thing}"));
-        change.documents = self.reach(id);
+        self.document_mut(id).label_last(format!("{label} {thing}"));
         Ok(change)
     }
 

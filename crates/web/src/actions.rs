@@ -8,6 +8,7 @@ use wasm_bindgen::JsCast;
 use wasm_bindgen::closure::Closure;
 
 mod conditions;
+pub(crate) use conditions::lockable;
 mod instances;
 mod table;
 pub use table::ACTIONS;

@@ -106,7 +106,7 @@ pub fn Lock(
             title=move || if anchored.get() { words::LOCKED } else { words::UNLOCKED }
             on:click=move |e: leptos::ev::MouseEvent| {
                 e.stop_propagation();
-                structure::toggle_lock(lab, &path.get_untracked());
+                structure::toggle_lock(lab, &[path.get_untracked()]);
             }>
             {move || if anchored.get() { icons::locked() } else { icons::unlocked() }}
         </button>

@@ -3,7 +3,7 @@
 use crate::actions;
 use crate::dialog::Wish;
 use crate::lab::{Lab, Notice};
-use crate::{keyboard, words};
+use crate::{keyboard, structure, words};
 use leptos::prelude::*;
 use presentation::numbers::to_read;
 use session::Command;
@@ -28,8 +28,13 @@ pub fn Strip(
     let held = Memo::new(move |_| found.with(|(_, held)| held.clone()));
     let is_idle =
         move || lab.tool.with(Option::is_none) && lab.drafting.prompt.with(Option::is_none);
+    let lockable = Memo::new(move |_| is_idle().then(|| actions::lockable(lab).ok()).flatten());
+    let is_locked = Memo::new(move |_| {
+        lockable.with(|paths| paths.iter().flatten().all(|path| structure::is_locked(lab, path)))
+    });
     let is_shown = move || {
-        let something = !(offers.with(Vec::is_empty) && held.with(Vec::is_empty));
+        let something = !(offers.with(Vec::is_empty) && held.with(Vec::is_empty))
+            || lockable.with(Option::is_some);
         // several things can be a class, whatever else can be said of them
         let several = lab.also.with(|also| !also.is_empty()) && lab.dragging.with(Option::is_none);
         something || (lab.touch.get() || several) && is_idle() && lab.selected.with(Option::is_some)
@@ -54,6 +59,12 @@ pub fn Strip(
                 <For each=move || held.get() key=Clone::clone let(label)>
                     <span class="held" title=words::HOLDS_ALREADY>"✓ "{label}</span>
                 </For>
+                <Show when=move || lockable.with(Option::is_some)>
+                    <button data-action="lock" title=words::LOCK aria-pressed=move || is_locked.get().to_string()
+                        on:click=move |_| actions::run(actions::named("lock"), lab)>
+                        {move || if is_locked.get() { words::UNLOCK_IT } else { words::LOCK_IT }}
+                    </button>
+                </Show>
                 <button data-action="class-of" title=words::CLASS_OF
                     on:click=move |_| actions::run(actions::named("class-of"), lab)>{words::CLASS}</button>
             </div>

@@ -513,14 +513,19 @@ fn toggle_switch(lab: Lab, path: &str, on: bool) {
     }
 }
 
-/// Locks what is unlocked and the other way round.
-pub(crate) fn toggle_lock(lab: Lab, path: &str) {
+/// Locks all of some parts, or lets them go where all are locked.
+pub(crate) fn toggle_lock(lab: Lab, paths: &[String]) {
+    lab.flush_text();
     lab.list();
-    let held =
-        lab.structure.with_untracked(|rows| {
-            rows.iter().find(|row| row.path == path).is_some_and(|row| row.anchored)
-        }) || lab.values.with_untracked(|rows| rows.iter().any(|r| r.path == path && r.anchored));
-    if let Some(path) = session::parse_path(path) {
-        lab.apply(&Command::Anchor { path, held: !held });
+    let held = !untrack(|| paths.iter().all(|path| is_locked(lab, path)));
+    let paths: Option<Vec<_>> = paths.iter().map(|path| session::parse_path(path)).collect();
+    if let Some(paths) = paths {
+        lab.settle(lab.tell(|session, id| session.hold(id, &paths, held)));
     }
+}
+
+/// Whether a part is locked.
+pub(crate) fn is_locked(lab: Lab, path: &str) -> bool {
+    lab.structure.with(|rows| rows.iter().any(|row| row.path == path && row.anchored))
+        || lab.values.with(|rows| rows.iter().any(|row| row.path == path && row.anchored))
 }

@@ -225,6 +225,13 @@ async fn things_of_which_nothing_else_can_be_said_are_a_class_from_the_strip() {
     visit.script("document.getElementById('picture').focus()").await;
     chord(&visit, &[key::CONTROL], 'a').await;
     visit.until("window.__thinglab.state().also.length === 2").await;
+    // all are locked in one step, and let go in one
+    let lock = "document.querySelector('.strip [data-action=lock]')";
+    visit.until(&format!("{lock}?.innerText === 'lock'")).await;
+    visit.script(&format!("{lock}.click()")).await;
+    visit.until(&format!("{lock}.innerText === 'unlock' && window.__thinglab.state().text.match(/anchor/g).length === 3")).await;
+    visit.script(&format!("{lock}.click()")).await;
+    visit.until("!window.__thinglab.state().text.includes('anchor')").await;
     visit.until("document.querySelector('.strip [data-action=class-of]')").await;
     visit.script("document.querySelector('.strip [data-action=class-of]').click()").await;
     visit.until("document.activeElement.id === 'asked'").await;

@@ -220,3 +220,26 @@ fn a_slider_comes_to_short_numbers() {
     assert_eq!(desk.session.at_step(desk.id, &at("l"), 0.034_567, 0.001), Some(0.035));
     assert_eq!(desk.session.at_step(desk.id, &at("nothing"), 1.0, 0.1), None);
 }
+
+#[test]
+fn several_parts_are_locked_and_let_go_in_one_step_each() {
+    let mut desk = Desk::of(
+        "use geometry\nline: Line { p1 = (0, 0)  p2 = (30, 40) }\nline2: Line { p1 = (90, 0)  p2 = (60, 40) }\n",
+    );
+    let grounds = ["line.p1", "line2.p1"].map(at);
+    let before = desk.moment();
+    let change = desk.session.hold(desk.id, &grounds, true).expect("they are free");
+    assert_eq!(change.label, "lock line.p1, line2.p1");
+    let locked = |desk: &Desk| ["line.p1.x", "line2.p1.y"].map(|path| desk.row(path).anchored);
+    assert_eq!(locked(&desk), [true, true]);
+    desk.undo();
+    assert_eq!(desk.moment(), before);
+    desk.redo();
+    desk.session.hold(desk.id, &grounds, false).expect("they are locked");
+    assert_eq!(locked(&desk), [false, false]);
+    // what cannot be locked leaves the others as they are
+    let before = desk.moment();
+    let refused = desk.session.hold(desk.id, &[at("line.p1"), at("line.nothing")], true);
+    assert!(refused.is_err());
+    assert_eq!(desk.moment(), before);
+}

@@ -221,7 +221,8 @@ fn what_a_dimension_makes_of_what_is_drawn_is_written_as_a_draughtsman_would() {
     );
     for members in ["constraint line.length = 160", "constraint line2.length = 250"] {
         let members = String::from(members);
-        desk.apply(&Command::Edit { target: session::Path::default(), members }).expect("it is free");
+        desk.apply(&Command::Edit { target: session::Path::default(), members })
+            .expect("it is free");
     }
     let text = desk.text();
     assert!(digits(&text).into_iter().all(|n| n <= 11), "{text}");

@@ -36,6 +36,16 @@ pub(super) fn several(lab: Lab) -> Result<Vec<String>, &'static str> {
     if selection.is_empty() { Err(words::NOTHING_SELECTED) } else { Ok(selection) }
 }
 
+/// The paths of what is selected, where all are parts that can be locked.
+pub(crate) fn lockable(lab: Lab) -> Result<Vec<String>, &'static str> {
+    let selection = several(lab)?;
+    let is_part = |path: &String| {
+        lab.structure
+            .with(|rows| rows.iter().any(|row| row.path == *path && row.kind == RowKind::Part))
+    };
+    if selection.iter().all(is_part) { Ok(selection) } else { Err(words::IS_A_CONSTRAINT) }
+}
+
 /// The thing that a program draws which is selected, or of which something is.
 pub(super) fn drawn(lab: Lab) -> Result<String, &'static str> {
     document(lab)?;

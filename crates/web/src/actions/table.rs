@@ -1,7 +1,7 @@
 //! The table of what can be done.
 
 use super::conditions::{
-    class, constraint, document, drawn, instance, is_own, is_thing, selected, several,
+    class, constraint, document, drawn, instance, is_own, is_thing, lockable, selected, several,
 };
 use super::{Action, Context, Group};
 use crate::dialog::Wish;
@@ -107,15 +107,10 @@ pub const ACTIONS: &[Action] = &[
         contexts: &[Context::Thing],
         label: words::LOCK,
         keys: &["Shift+L"],
-        enabled: |lab| match selected(lab)?.kind {
-            RowKind::Part => Ok(()),
-            RowKind::Virtual | RowKind::Constraint | RowKind::Merge | RowKind::Side => {
-                Err(words::IS_A_CONSTRAINT)
-            }
-        },
+        enabled: |lab| lockable(lab).map(drop),
         run: |lab| {
-            if let Some(path) = lab.selected.get_untracked() {
-                structure::toggle_lock(lab, &path);
+            if let Ok(paths) = untrack(|| lockable(lab)) {
+                structure::toggle_lock(lab, &paths);
             }
         },
     },
