@@ -172,7 +172,7 @@ fn run(seed: u64, edits: usize) -> Result<usize, String> {
         if both[0].iter().any(|(_, x)| *x != 0.0 && !(1e-3..1e4).contains(&x.abs())) {
             return Ok(count);
         }
-        let good = ids.map(|id| session.status(id).satisfied);
+        let good = ids.map(|id| session.standing(id).satisfied);
         if good[0] != good[1] {
             let told = "all holds in one order and not in the other";
             return Err(format!("{told} before step {step}\n{log}{}\n{}", texts[0], texts[1]));
@@ -194,7 +194,7 @@ fn run(seed: u64, edits: usize) -> Result<usize, String> {
         count += usize::from(made[0]);
         for id in ids {
             let complaints = session.complaints(id);
-            if made[0] && session.status(id).satisfied && !complaints.is_empty() {
+            if made[0] && session.standing(id).satisfied && !complaints.is_empty() {
                 let before: Vec<String> =
                     both[0].iter().map(|(path, x)| format!("{path} = {x}")).collect();
                 let before = before.join(", ");

@@ -71,7 +71,7 @@ fn differences(cases: Vec<(&'static str, String, Said)>) -> String {
             let diagnostics = session.text(id).diagnostics;
             let errors: Vec<String> =
                 diagnostics.into_iter().filter(|d| d.severity == "error").map(|d| d.code).collect();
-            let holds = session.status(id).satisfied
+            let holds = session.standing(id).satisfied
                 && session.run_checks(id).iter().all(|check| check.passed);
             let is_so = match said {
                 Holds => errors.is_empty() && holds,

@@ -142,7 +142,7 @@ impl Desk {
         (self.session.text(self.id).source, bits)
     }
     /// Everything that is shown, but for what can be undone.
-    fn shown(&self) -> impl PartialEq + Debug + use<> {
+    fn shown(&mut self) -> impl PartialEq + Debug + use<> {
         let Self { session, id, .. } = self;
         let status = Status { undo: None, redo: None, ..session.status(*id) };
         (session.text(*id), session.values(*id), session.structure(*id), status)
@@ -214,13 +214,13 @@ fn edited(text: &str, change: &Change) -> String {
 
 /// The constraints that the checker says do not hold.
 fn broken(desk: &Desk) -> BTreeSet<String> {
-    let unmet = desk.session.status(desk.id).unmet.into_iter();
+    let unmet = desk.session.standing(desk.id).unmet.into_iter();
     unmet.filter(|u| u.strength == "required").map(|u| u.constraint).collect()
 }
 
 fn step(desk: &mut Desk, act: &Act) -> Result<(), TestCaseError> {
     let before = desk.moment();
-    let held = desk.session.status(desk.id).satisfied;
+    let held = desk.session.standing(desk.id).satisfied;
     let result = match act {
         Act::Drag(i, along) => {
             let Some(path) = picked(i, &desk.grips()) else { return Ok(()) };
@@ -269,7 +269,7 @@ fn step(desk: &mut Desk, act: &Act) -> Result<(), TestCaseError> {
         _ => {}
     }
     let complaints = desk.session.complaints(desk.id);
-    let satisfied = desk.session.status(desk.id).satisfied;
+    let satisfied = desk.session.standing(desk.id).satisfied;
     if matches!(act, Act::Set(..) | Act::SetText(..) | Act::Move(..) | Act::Drag(..)) && held {
         prop_assert!(complaints.is_empty(), "{act:?}: {complaints:?}, satisfied {satisfied}");
     }
@@ -277,7 +277,7 @@ fn step(desk: &mut Desk, act: &Act) -> Result<(), TestCaseError> {
     prop_assert_eq!(satisfied, complaints.is_empty(), "{:?} and {:?}", broken, complaints);
     // where a member has an error its last good version stays in force, which the text does not tell
     if !desk.session.text(desk.id).diagnostics.iter().any(|d| d.severity == "error") {
-        let anew = Desk::of(&after.0);
+        let mut anew = Desk::of(&after.0);
         prop_assert!(anew.shown() == desk.shown(), "{:?}\n{:?}", anew.shown(), desk.shown());
     }
     Ok(())

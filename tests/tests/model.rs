@@ -423,8 +423,8 @@ fn run(seed: u64, steps: usize) -> Result<usize, String> {
             return Err(fail("opened from its text it differs".into()));
         }
         let status =
-            |session: &Session, id| Status { undo: None, redo: None, ..session.status(id) };
-        let (is, was) = (status(&anew, again), status(&session, id));
+            |session: &mut Session, id| Status { undo: None, redo: None, ..session.status(id) };
+        let (is, was) = (status(&mut anew, again), status(&mut session, id));
         if is != was {
             return Err(fail(format!("opened from its text its status is {is:?}, not {was:?}")));
         }

@@ -83,7 +83,7 @@ pub use diagnose::combination::{Combination, Said};
 pub use diagnose::conflict::{Certainty, Contradiction};
 pub use diagnose::held::Held;
 pub use diagnose::motion::{Freedom, Motion, MotionKind};
-pub use diagnose::redundancy::{Redundancy, Redundant, RedundantKind};
+pub use diagnose::redundancy::{Redundancy, Redundant, RedundantKind, Surplus};
 pub use diagnose::repair::Repair;
 pub use drag::Press;
 pub use edit::{Conflict, EditKind, EditReport, NotDecided, RefusalReason, Target};

@@ -1,6 +1,5 @@
-//! Status: what holds, what can still move, what says nothing new.
+//! Status: what holds, what can still move.
 
-use crate::diagnose::redundancy::{Redundancy, Redundant};
 use crate::host::Host;
 use crate::planner::{Model, Planner, Unmet};
 use crate::rule::Source;
@@ -16,12 +15,13 @@ pub struct Status {
     /// True if every required constraint holds.
     pub satisfied: bool,
     /// In how many independent ways the numbers can still move, given numbers and anchors held; what is of layout
-    /// alone is not counted.
+    /// alone is not counted. Where constraints follow from others by a theorem, there are `more`.
     pub freedom: usize,
+    /// How many more there are, where it is seen without solving anything that there are none, or once
+    /// [`Planner::surplus`] has told.
+    pub more: Option<usize>,
     /// The constraints of any strength that do not hold, in order of declaration.
     pub unmet: Vec<Unmet>,
-    /// Required constraints that hold and say nothing new, in order of declaration.
-    pub redundant: Vec<Redundant>,
     /// The state of every slot.
     pub slots: IdVec<SlotId, SlotState>,
 }
@@ -41,7 +41,8 @@ impl Planner {
     /// Says how the document stands while nothing is edited.
     ///
     /// Plans what was not planned yet; after that, linear in the rules. Of a component in the state
-    /// that opening it came to, of which there was nothing to tell before, that is known.
+    /// that opening it came to, of which there was nothing to tell before, that is known. Nothing is solved: what
+    /// constraints follow from others is asked by [`Planner::surplus`].
     pub fn status(&mut self, model: Model<'_>, values: &Values, host: &mut dyn Host) -> Status {
         let structure = model.structure;
         self.plan_resting(structure);
@@ -56,15 +57,13 @@ impl Planner {
         let unmet = self.unmet(model, rules, values, host);
         let required = unmet.iter().filter(|u| u.level == Level::Required);
         let is_unmet: BTreeSet<Source> = required.map(|u| u.source).collect();
-        let mut redundancy = Redundancy::default();
+        let mut may_be_more = false;
         for (i, task) in tasks.iter().enumerate().filter(|(i, _)| !is_quiet[*i]) {
-            let found = self.redundant(model, task, values, &is_unmet, host);
-            if matches!(&found, (redundant, 0) if redundant.is_empty())
-                && let (Some(Some(came)), Some(plan)) = (self.came.get(i), task.number())
-            {
+            if self.may_follow(model, task, values, &is_unmet, host) {
+                may_be_more |= !task.is_of_layout(structure);
+            } else if let (Some(Some(came)), Some(plan)) = (self.came.get(i), task.number()) {
                 self.plans.past.note_quiet(*came, plan, task.numbers(&values.numbers));
             }
-            redundancy.add(i, found);
         }
         let mut slots = IdVec::filled(SlotState::Fixed, structure.slots.len());
         let mut freedom = 0;
@@ -75,14 +74,11 @@ impl Planner {
                 freedom += usize::from(s.primitive.is_number() && !s.is_layout);
             }
         }
-        for (i, task) in tasks.iter().enumerate() {
+        for task in &tasks {
             let in_mode = task.by_values(self, model, values, host);
             let task = in_mode.as_ref().unwrap_or(task);
-            if !task.is_of_layout(structure) {
-                freedom += redundancy.theorems.get(&i).copied().unwrap_or_default();
-                if !matches!(task.course, Course::Search(_)) {
-                    freedom += task.plan.report.freedom;
-                }
+            if !task.is_of_layout(structure) && !matches!(task.course, Course::Search(_)) {
+                freedom += task.plan.report.freedom;
             }
             for slot in task.movable() {
                 slots[slot] = SlotState::Free;
@@ -97,8 +93,8 @@ impl Planner {
         Status {
             satisfied: unmet.iter().all(|u| u.level != Level::Required),
             freedom,
+            more: (!may_be_more).then_some(0),
             unmet,
-            redundant: redundancy.sorted().constraints,
             slots,
         }
     }

@@ -28,7 +28,7 @@ struct View {
 
 /// Returns the views that make the opening of a document lighter.
 pub(crate) fn advice(open: &Open, host: &dyn Host) -> Vec<Advice> {
-    let now = Open::of(&open.name, open.state.text.clone(), host);
+    let mut now = Open::of(&open.name, open.state.text.clone(), host);
     let kind = now.planner.latest_kind();
     if !matches!(kind, PlanKind::Block | PlanKind::Relaxation) {
         return Vec::new();
@@ -37,6 +37,7 @@ pub(crate) fn advice(open: &Open, host: &dyn Host) -> Vec<Advice> {
     if things.is_empty() {
         return Vec::new();
     }
+    let freedom = now.counted();
     let (state, document) = (&now.state, &now.state.lowered.document);
     let mut advice = Vec::new();
     let classes = document.classes.iter().filter(|&(id, class)| is_candidate(state, id, class));
@@ -48,12 +49,11 @@ pub(crate) fn advice(open: &Open, host: &dyn Host) -> Vec<Advice> {
         let merges = view.parts.iter();
         let merges = merges.map(|(part, t)| format!("merge {} = {name}.{part}\n", path(*t)));
         let members: String = std::iter::once(format!("{name}: {class}\n")).chain(merges).collect();
-        let trial = Open::of(&open.name, format!("{}\n{members}", state.text), host);
+        let mut trial = Open::of(&open.name, format!("{}\n{members}", state.text), host);
         let is_lighter = trial.planner.latest_kind() < kind;
-        let is_harmless = trial.state.diagnostics.len() == state.diagnostics.len()
-            && trial.status.satisfied
-            && trial.status.freedom == now.status.freedom;
-        if is_lighter && is_harmless {
+        let is_harmless =
+            trial.state.diagnostics.len() == state.diagnostics.len() && trial.status.satisfied;
+        if is_lighter && is_harmless && trial.counted() == freedom {
             let parts: Vec<String> = view.parts.iter().map(|p| path(p.1)).collect();
             let parts = words::listed(&parts);
             let message = format!(

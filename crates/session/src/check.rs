@@ -298,7 +298,7 @@ impl Run<'_> {
             }
             Expectation::Moved(paths) => self.expect_moved(state, paths),
             Expectation::Free(n) => {
-                let found = self.open.status.freedom;
+                let found = self.open.counted();
                 let message = || format!("{found} degrees of freedom, not {n}");
                 if found as u64 == *n { Ok(()) } else { Err(message()) }
             }

@@ -32,6 +32,8 @@ pub(crate) struct Open {
     pub(crate) planner: Planner,
     /// What holds and what is free.
     pub(crate) status: plan::Status,
+    /// How much more was free than the form says in the state before, where only values are others since then.
+    pub(crate) presumed: Option<usize>,
     /// What it was before each step, the latest last.
     pub(crate) done: Vec<Step>,
     /// What it was after each step that was taken back, the latest last.
@@ -92,6 +94,7 @@ impl Open {
             state: Rc::new(state),
             planner,
             status,
+            presumed: None,
             done: Vec::new(),
             undone: Vec::new(),
             tool: None,
@@ -140,6 +143,7 @@ impl Open {
         edited: Vec<SlotId>,
         (state, planner, status): (State, Planner, plan::Status),
     ) {
+        self.presumed = self.presumed_in(&state);
         let state = std::mem::replace(&mut self.state, Rc::new(state));
         let status = std::mem::replace(&mut self.status, status);
         self.done.push(Step { label, state, status, edited, wishes: Vec::new() });
@@ -148,19 +152,50 @@ impl Open {
     }
     /// Takes a step back or does it again; returns its label, or nothing if there is none.
     pub(crate) fn travel(&mut self, direction: Direction) -> Option<String> {
-        let (from, to) = match direction {
-            Direction::Back => (&mut self.done, &mut self.undone),
-            Direction::Forth => (&mut self.undone, &mut self.done),
+        let step = match direction {
+            Direction::Back => self.done.pop()?,
+            Direction::Forth => self.undone.pop()?,
         };
-        let step = from.pop()?;
+        self.presumed = self.presumed_in(&step.state);
         let state = std::mem::replace(&mut self.state, step.state);
         let status = std::mem::replace(&mut self.status, step.status);
         let label = step.label.clone();
+        let to = match direction {
+            Direction::Back => &mut self.undone,
+            Direction::Forth => &mut self.done,
+        };
         to.push(Step { state, status, ..step });
         let plans = self.planner.take_plans();
         (self.planner, _) = Planner::new(self.state.model(), plans);
         self.back_on_course();
         Some(label)
+    }
+    /// Returns how much more is presumed to be free than the form says in a state that comes after the present one.
+    fn presumed_in(&self, next: &State) -> Option<usize> {
+        self.status.more.or(self.presumed).filter(|_| next.has_form_of(&self.state))
+    }
+    /// Returns how much is free, and whether that is all as far as is known: there may be more until it is counted.
+    pub(crate) fn freedom(&self) -> (usize, bool) {
+        let more = self.status.more.or(self.presumed);
+        (self.status.freedom + more.unwrap_or_default(), more.is_some())
+    }
+    /// Returns a document of the same text.
+    pub(crate) fn copied(&self, host: &dyn Host) -> Self {
+        let text = self.state.text.clone();
+        Self::again(&self.name, text, Some(&self.state), host, Plans::default())
+    }
+    /// Counts how much is free, which may take a solve for each component; returns what is superfluous.
+    pub(crate) fn count(&mut self) -> Vec<plan::Source> {
+        let found = self.state.surplus(&mut self.planner, &self.status);
+        self.status.more = Some(found.motions);
+        found.constraints
+    }
+    /// Returns how much is free, counted where that was not done yet.
+    pub(crate) fn counted(&mut self) -> usize {
+        if self.status.more.is_none() {
+            self.count();
+        }
+        self.freedom().0
     }
     /// Has the planner on the course of the present state, whatever was tried with it.
     pub(crate) fn back_on_course(&mut self) {
@@ -222,6 +257,7 @@ impl Open {
         self.drag = None;
         let plans = self.planner.take_plans();
         let (state, planner) = State::of(text, Some(&self.state), host, plans);
+        self.presumed = None;
         self.state = Rc::new(state);
         self.planner = planner;
         self.status = self.state.status(&mut self.planner);

@@ -26,6 +26,8 @@ pub struct Job {
 pub enum LongQuestion {
     /// What is free, superfluous and contradictory.
     Analysis,
+    /// How much more is free than the form says.
+    More,
     /// What comes of rows of a family.
     Rows {
         /// The family.
@@ -51,6 +53,8 @@ pub enum LongQuestion {
 pub enum LongAnswer {
     /// To [`LongQuestion::Analysis`].
     Analysis(Analysis),
+    /// To [`LongQuestion::More`].
+    More(u32),
     /// Of [`LongQuestion::Rows`] the next one.
     Row(RowOutcome),
     /// To [`LongQuestion::Map`]; or why there is none.
@@ -61,16 +65,17 @@ plain_struct!(Job { name, text, files, question });
 plain_enum!(LongQuestion {
     0: Analysis,
     1: Rows { family, rows, formats },
-    2: Map { family, thing, axes }
+    2: Map { family, thing, axes },
+    3: More
 });
-plain_enum!(LongAnswer { 0: Analysis(analysis), 1: Row(outcome), 2: Map(map) });
+plain_enum!(LongAnswer { 0: Analysis(analysis), 1: Row(outcome), 2: Map(map), 3: More(more) });
 
 impl LongQuestion {
     /// In how many parts it is answered.
     pub fn parts(&self) -> usize {
         match self {
             Self::Rows { rows, .. } => rows.len(),
-            Self::Analysis | Self::Map { .. } => 1,
+            Self::Analysis | Self::More | Self::Map { .. } => 1,
         }
     }
 }
@@ -135,6 +140,11 @@ impl Session {
         match question {
             _ if part >= question.parts() => None,
             LongQuestion::Analysis => Some(LongAnswer::Analysis(self.analysis(id))),
+            LongQuestion::More => {
+                let open = self.document_mut(id);
+                open.count();
+                Some(LongAnswer::More(open.status.more.unwrap_or_default() as u32))
+            }
             LongQuestion::Rows { family, rows, formats } => {
                 let drawn = self.draw_row(id, family, rows.get(part)?, *formats);
                 Some(LongAnswer::Row(drawn.unwrap_or_default()))

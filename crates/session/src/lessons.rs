@@ -238,7 +238,7 @@ fn missing(
     for (at, source) in sources.iter().enumerate() {
         let said = source.strip_prefix("expect ").unwrap_or(source).trim();
         let found = match statements.get(at).map(|s| &s.kind) {
-            Some(StatementKind::Expect(expectation)) => expected(open, expectation),
+            Some(StatementKind::Expect(expectation)) => expected(open, host, expectation),
             _ => Err(message.clone().unwrap_or_else(|| "this means nothing here".into())),
         };
         missing.extend(found.err().map(|why| format!("not yet: {said} ({why})")));
@@ -247,7 +247,7 @@ fn missing(
 }
 
 /// Tests what a lesson may expect.
-fn expected(open: &Open, expectation: &Expectation) -> Result<(), String> {
+fn expected(open: &Open, host: &dyn Host, expectation: &Expectation) -> Result<(), String> {
     match expectation {
         Expectation::Rule { rule, within } => expect_rule(&open.state, rule, within.as_ref()),
         Expectation::Satisfied => {
@@ -255,7 +255,10 @@ fn expected(open: &Open, expectation: &Expectation) -> Result<(), String> {
             if status.satisfied { Ok(()) } else { Err(status.message) }
         }
         Expectation::Free(n) => {
-            let found = open.status.freedom;
+            let found = match open.status.more {
+                Some(_) => open.freedom().0,
+                None => open.copied(host).counted(),
+            };
             let is_so = found as u64 == *n;
             if is_so { Ok(()) } else { Err(format!("{found} degrees of freedom, not {n}")) }
         }

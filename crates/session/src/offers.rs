@@ -443,12 +443,13 @@ pub(crate) fn told_apart(
         return (offers, Vec::new());
     }
     let mut trial = Open::of(&open.name, state.text.clone(), host);
+    let before = trial.counted();
     let adds = |trial: &mut Open, offer: &Offer| {
         let added = apply::apply(trial, host, &offer.command(None)).is_ok();
         let holds = added && trial.status.satisfied && is_unmoved(state, &trial.state);
-        let freedom = trial.status.freedom;
+        let is_as_free = holds && trial.counted() == before;
         while trial.travel(Direction::Back).is_some() {}
-        match (holds, freedom == open.status.freedom) {
+        match (holds, is_as_free) {
             (false, _) => Adds::Much,
             (true, true) => Adds::Nothing,
             (true, false) => Adds::Rank,

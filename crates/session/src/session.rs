@@ -664,8 +664,19 @@ impl Session {
     pub fn tokens(&self, id: DocumentId) -> Vec<TokenView> {
         views::text::tokens(&self.document(id).state)
     }
-    /// Returns what the status line says.
-    pub fn status(&self, id: DocumentId) -> Status {
+    /// Returns what the status line says, once it is counted how much is free and what is superfluous.
+    pub fn status(&mut self, id: DocumentId) -> Status {
+        let found = self.document_mut(id).count();
+        let state = &self.document(id).state;
+        let redundant = found.into_iter().filter_map(|s| words::source_name(state, s)).collect();
+        Status { redundant, ..self.standing(id) }
+    }
+    /// Takes over how much more is free than the form says, as a copy of the document counted it.
+    pub fn note_more(&mut self, id: DocumentId, more: u32) {
+        self.document_mut(id).status.more = Some(more as usize);
+    }
+    /// Returns what the status line says at once: what may take long is not counted.
+    pub fn standing(&self, id: DocumentId) -> Status {
         let (undo, redo) = self.history(id);
         let [undo, redo] = [undo, redo].map(|steps| steps.into_iter().next());
         Status { undo, redo, ..views::status::view(self.document(id)) }

@@ -9,7 +9,7 @@ use base::Diagnostic;
 use eval::{Evaluator, Known};
 use kernel::{OriginId, SlotId, Strength, Structure, ThingId, Value, Values};
 use lang::Lowered;
-use plan::{Model, Planner, Plans, Source, Status, Unmet};
+use plan::{Model, Planner, Plans, Source, Status, Surplus, Unmet};
 use solve::Level;
 use std::collections::BTreeSet;
 use std::rc::Rc;
@@ -137,6 +137,11 @@ impl State {
             }
         }
         status
+    }
+    /// Returns how many constraints are superfluous in a state that stands like this, and what is free because of it.
+    pub(crate) fn surplus(&self, planner: &mut Planner, status: &Status) -> Surplus {
+        let mut texts = Texts::new(&self.lowered.document, &self.structure);
+        planner.surplus(self.model(), &self.values, &status.unmet, &mut texts)
     }
     /// Returns an evaluator of this state, or of other values of it.
     pub(crate) fn evaluator<'a>(&'a self, values: &'a Values) -> Evaluator<'a> {

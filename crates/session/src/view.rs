@@ -481,9 +481,11 @@ pub struct Status {
     pub satisfied: bool,
     /// The degrees of freedom: in how many ways the things can still move.
     pub freedom: u32,
+    /// Whether these are counted; until then there may be more.
+    pub counted: bool,
     /// The constraints that do not hold, by path and name, with their errors.
     pub unmet: Vec<Unmet>,
-    /// Constraints that say nothing new.
+    /// Constraints that say nothing new, once they are looked for.
     pub redundant: Vec<String>,
     /// What else is worth knowing of the solution: a double root, given numbers that gave way.
     pub notes: Vec<String>,

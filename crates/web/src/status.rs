@@ -1,6 +1,6 @@
 //! The status line, and what the lab has to say.
 
-use crate::lab::{Lab, Notice};
+use crate::lab::{Kind, Lab, Notice};
 use crate::marked::marked;
 use crate::player::NowPlaying;
 use crate::why::listed;
@@ -99,7 +99,10 @@ fn Busy(
 ) -> impl IntoView {
     /// So long nobody has to be told.
     const UNSEEN: Duration = Duration::from_millis(300);
-    let begun = Memo::new(move |_| lab.jobs.going.get().map(|going| going.begun));
+    let begun = Memo::new(move |_| {
+        let going = lab.jobs.going.get().filter(|going| going.kind != Kind::Freedom);
+        going.map(|going| going.begun)
+    });
     let seen = RwSignal::new(None::<f64>);
     Effect::new(move |_| {
         if let Some(now) = begun.get() {

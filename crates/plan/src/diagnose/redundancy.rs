@@ -15,6 +15,7 @@ use crate::rule::{Body, Source};
 use crate::task::{Course, Holding, Task};
 use kernel::{SlotId, Structure, Values};
 use solve::{Level, PATIENCE};
+use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A required constraint that holds and says nothing new.
@@ -61,6 +62,25 @@ impl Redundancy {
     }
 }
 
+/// How many constraints are superfluous, and how much more is free since some follow from others by a theorem.
+#[derive(Clone, PartialEq, Debug, Default)]
+pub struct Surplus {
+    /// The constraints, in order of declaration.
+    pub constraints: Vec<Source>,
+    /// How many more motions there are than [`crate::Status::freedom`] counts.
+    pub motions: usize,
+}
+
+/// What is superfluous in one component.
+struct Found {
+    /// By its form.
+    surplus: Vec<Redundant>,
+    /// By a theorem.
+    theorems: BTreeMap<u32, Candidate>,
+    /// How many more motions there are than its form says.
+    motions: usize,
+}
+
 /// Up to so many slots of a component it is asked which rules imply another.
 const MOST_ASKED: usize = 60;
 /// Of so many rules of a component.
@@ -94,20 +114,101 @@ impl Planner {
         out.sorted()
     }
 
-    /// Finds the required constraints of one component at rest that say nothing new, and how many more motions
-    /// there are than its form says; those that do not hold are `unmet`.
-    pub(crate) fn redundant(
+    /// Finds what says nothing new, and how much more is free because of it, and asks no further which constraints
+    /// imply another. Plans what was not planned yet; otherwise the cost is that of [`Planner::redundancy`] less that.
+    pub fn surplus(
+        &mut self,
+        model: Model<'_>,
+        values: &Values,
+        unmet: &[Unmet],
+        host: &mut dyn Host,
+    ) -> Surplus {
+        let required = unmet.iter().filter(|u| u.level == Level::Required);
+        let unmet: BTreeSet<Source> = required.map(|u| u.source).collect();
+        self.plan_resting(model.structure);
+        let tasks = self.take_resting();
+        let mut out = Surplus::default();
+        for task in &tasks {
+            let in_mode = task.by_values(self, model, values, host);
+            let task = in_mode.as_ref().unwrap_or(task);
+            let found = self.found(model, task, values, &unmet, host);
+            let theorems = found.theorems.keys().map(|&rule| self.rules.source(rule));
+            out.constraints.extend(found.surplus.into_iter().map(|r| r.source).chain(theorems));
+            if !task.is_of_layout(model.structure) {
+                out.motions += found.motions;
+            }
+        }
+        self.give_resting(tasks);
+        out.constraints.sort();
+        out
+    }
+
+    /// Returns true if some constraint of a component at rest may follow from others by a theorem: if some row depends
+    /// on others here, though not by its form. Solves nothing.
+    pub(crate) fn may_follow(
+        &self,
+        model: Model<'_>,
+        task: &Task,
+        values: &Values,
+        unmet: &BTreeSet<Source>,
+        host: &mut dyn Host,
+    ) -> bool {
+        if self.fails(task, unmet) {
+            return false;
+        }
+        let in_mode = task.by_values(self, model, values, host);
+        let task = in_mode.as_ref().unwrap_or(task);
+        let resting = (task, Self::resting_hold as Hold);
+        let none = BTreeSet::new();
+        if !may_follow_from_given(model, task) {
+            return self.some_depend(&none, model, resting, values, host);
+        }
+        let given = (task, hold_given as Hold);
+        // what depends on nothing while given numbers are held does not where they may yield
+        if !self.some_depend(&none, model, given, values, host) {
+            return false;
+        }
+        let everywhere = self.dependent_elsewhere(model, given, values, host);
+        everywhere.is_empty()
+            || self.some_depend(&everywhere, model, given, values, host)
+            || self.some_depend(&none, model, resting, values, host)
+    }
+
+    /// Returns true if some row depends on others here, though not by its form, without some rows that are known to.
+    fn some_depend(
+        &self,
+        known: &BTreeSet<(u32, u32)>,
+        model: Model<'_>,
+        setting: (&Task, Hold),
+        values: &Values,
+        host: &mut dyn Host,
+    ) -> bool {
+        let rejected = rejected_rows(setting.0);
+        let whole = self.wholly_rejected(&rejected);
+        let mut depend =
+            |core: &[(u32, u32)]| !candidates(self, model, setting, core, values, host).is_empty();
+        depend(&self.core_of_accepted(model, setting, &(&rejected | known)))
+            || whole.len() < rejected.len()
+                && depend(&core(self, model, setting, &(&whole | known)))
+    }
+
+    /// Returns true if a component has a constraint that is unmet.
+    fn fails(&self, task: &Task, unmet: &BTreeSet<Source>) -> bool {
+        let fails = |&r: &u32| unmet.contains(&self.rules.source(r));
+        !unmet.is_empty() && task.component.rules().iter().any(fails)
+    }
+
+    /// Finds the required constraints of one component at rest that say nothing new; those that do not hold are
+    /// `unmet`.
+    fn found(
         &mut self,
         model: Model<'_>,
         task: &Task,
         values: &Values,
         unmet: &BTreeSet<Source>,
         host: &mut dyn Host,
-    ) -> (Vec<Redundant>, usize) {
-        let in_mode = task.by_values(self, model, values, host);
-        let task = in_mode.as_ref().unwrap_or(task);
-        let fails = |&r: &u32| unmet.contains(&self.rules.source(r));
-        let fails = !unmet.is_empty() && task.component.rules().iter().any(fails);
+    ) -> Found {
+        let fails = self.fails(task, unmet);
         let (theorems, with_given) = match fails {
             true => Default::default(),
             false => self.theorems_and_motions(model, task, values, host),
@@ -118,8 +219,8 @@ impl Planner {
         let left = left.map(|left| left.by_values(self, model, values, host).unwrap_or(left));
         let left = left.as_ref().unwrap_or(task);
         let is_theorem = |source: Source| rules.iter().any(|&r| self.rules.source(r) == source);
-        let mut found = surplus(self, left);
-        found.retain(|r| !unmet.contains(&r.source) && !is_theorem(r.source));
+        let mut surplus = surplus(self, left);
+        surplus.retain(|r| !unmet.contains(&r.source) && !is_theorem(r.source));
         if fails {
             // what speaks of the same as one that does not hold may be what it stands against
             let slots = |is_of: &dyn Fn(Source) -> bool| -> BTreeSet<SlotId> {
@@ -127,8 +228,27 @@ impl Planner {
                 own.flat_map(|&r| self.rules.get(r).slots.iter().copied()).collect()
             };
             let off = slots(&|source| unmet.contains(&source));
-            found.retain(|r| slots(&|source| source == r.source).is_disjoint(&off));
+            surplus.retain(|r| slots(&|source| source == r.source).is_disjoint(&off));
         }
+        let motions = left.plan.report.freedom.saturating_sub(task.plan.report.freedom);
+        Found { surplus, theorems, motions: motions + with_given }
+    }
+
+    /// Finds the required constraints of one component at rest that say nothing new, with what implies them, and how
+    /// many more motions there are than its form says; those that do not hold are `unmet`.
+    fn redundant(
+        &mut self,
+        model: Model<'_>,
+        task: &Task,
+        values: &Values,
+        unmet: &BTreeSet<Source>,
+        host: &mut dyn Host,
+    ) -> (Vec<Redundant>, usize) {
+        let in_mode = task.by_values(self, model, values, host);
+        let task = in_mode.as_ref().unwrap_or(task);
+        let Found { surplus: mut found, theorems, motions } =
+            self.found(model, task, values, unmet, host);
+        let rules: BTreeSet<u32> = theorems.keys().copied().collect();
         let may_ask = task.component.slots().len() <= MOST_ASKED;
         for (count, (rule, Candidate { circuit, .. })) in theorems.into_iter().enumerate() {
             let implied_by = match may_ask && count < MOST_ASKED_RULES {
@@ -140,8 +260,7 @@ impl Planner {
             let implied_by = implied_by.filter(|s| *s != source).collect();
             found.push(Redundant { source, kind: RedundantKind::Theorem, implied_by });
         }
-        let motions = left.plan.report.freedom.saturating_sub(task.plan.report.freedom);
-        (found, motions + with_given)
+        (found, motions)
     }
 
     /// Returns the rules of a component that follow from others by a theorem, and how many motions there are because
@@ -223,16 +342,10 @@ impl Planner {
     ) -> Theorems {
         let setting = (task, hold);
         let rejected = rejected_rows(task);
-        let find = || core(self, model, setting, &(&rejected | known));
-        let is_resting = std::ptr::fn_addr_eq(hold, Self::resting_hold as Hold);
-        let core_of_accepted = if is_resting { task.core(find) } else { find().into() };
+        let core_of_accepted = self.core_of_accepted(model, setting, &(&rejected | known));
         let found = self.theorems_of(model, setting, &core_of_accepted, values, host);
         // a part of a rule that depends on others at a generic point may be what makes one of these superfluous
-        let whole: BTreeSet<(u32, u32)> = rejected
-            .iter()
-            .copied()
-            .filter(|&(rule, _)| self.is_surplus(rule, &rejected))
-            .collect();
+        let whole = self.wholly_rejected(&rejected);
         let with_parts = (whole.len() < rejected.len()).then(|| {
             let core = core(self, model, setting, &(&whole | known));
             self.theorems_of(model, setting, &core, values, host)
@@ -245,6 +358,25 @@ impl Planner {
         // what depends on others at a generic point may say here what these do not say
         let core = core(self, model, setting, known);
         self.theorems_of(model, setting, &core, values, host).unwrap_or_default()
+    }
+
+    /// Returns the rows that may depend on others at some state, but for those that are left out: all that are rejected
+    /// at least. While nothing is edited they are found once for all components that are alike.
+    fn core_of_accepted<'t>(
+        &self,
+        model: Model<'_>,
+        (task, hold): (&'t Task, Hold),
+        left_out: &BTreeSet<(u32, u32)>,
+    ) -> Cow<'t, [(u32, u32)]> {
+        let find = || core(self, model, (task, hold), left_out);
+        let is_resting = std::ptr::fn_addr_eq(hold, Self::resting_hold as Hold);
+        if is_resting { task.core(find) } else { find().into() }
+    }
+
+    /// Returns of the rows that are rejected those of rules that are so as a whole.
+    fn wholly_rejected(&self, rejected: &BTreeSet<(u32, u32)>) -> BTreeSet<(u32, u32)> {
+        let is_whole = |&&(rule, _): &&(u32, u32)| self.is_surplus(rule, rejected);
+        rejected.iter().filter(is_whole).copied().collect()
     }
 
     /// Returns true if all rows of a rule are among these.

@@ -167,6 +167,12 @@ impl Lab {
         let mut host = Terms { document: &self.document, structure: &self.structure };
         self.planner.status(model, &self.values, &mut host)
     }
+    pub(crate) fn redundancy(&mut self) -> plan::Redundancy {
+        let unmet = self.status().unmet;
+        let model = Model { document: &self.document, structure: &self.structure };
+        let mut host = Terms { document: &self.document, structure: &self.structure };
+        self.planner.redundancy(model, &self.values, &unmet, &mut host)
+    }
     pub(crate) fn contradictions(&mut self) -> Vec<plan::Contradiction> {
         let unmet = self.status().unmet;
         let model = Model { document: &self.document, structure: &self.structure };

@@ -31,10 +31,10 @@ fn an_unmet_document_is_conflicting_and_a_repeated_rule_redundant() {
         kind: RedundantKind::Form,
         implied_by: vec![Source::Constraint(2)],
     };
-    assert_eq!(status.redundant, vec![again]);
+    assert_eq!(lab.redundancy().constraints, vec![again]);
     assert_eq!(status.slots[lab.slot("x")], SlotState::Conflicting);
     assert_eq!(status.slots[lab.slot("y")], SlotState::Free);
-    assert_eq!(status.freedom, 1);
+    assert_eq!((status.freedom, status.more), (1, Some(0)));
     let conflicts = lab.opened.conflicts;
     assert!(conflicts.iter().all(|c| c.source != Source::Constraint(3)), "{conflicts:?}");
 }

@@ -11,27 +11,26 @@ use solve::Level;
 /// How many numbers that gave way are named.
 const MOST_NAMED: usize = 3;
 
-/// Returns what the status line says.
+/// Returns what the status line says at once: what is superfluous is not looked for.
 pub(crate) fn view(open: &Open) -> Status {
     let state = &open.state;
     let status = &open.status;
     let unmet: Vec<Unmet> = status.unmet.iter().filter_map(|u| unmet(open, u)).collect();
-    let redundant: Vec<String> =
-        status.redundant.iter().filter_map(|r| words::source_name(state, r.source)).collect();
     let satisfied = status.unmet.iter().all(|u| u.level != Level::Required);
     let errors = state.diagnostics.iter().filter(|d| d.severity == base::Severity::Error).count();
     let notes: Vec<String> = double_roots(state).into_iter().chain(yielded(state)).collect();
     let said: Vec<String> =
         status.unmet.iter().filter_map(|u| crate::rules::told(state, u.source)).collect();
-    let mut message = sentence(satisfied, &said, status.freedom, errors);
+    let mut message = sentence(satisfied, &said, open.freedom(), errors);
     for note in &notes {
         message = format!("{message}; {note}");
     }
     Status {
         satisfied,
-        freedom: status.freedom as u32,
+        freedom: open.freedom().0 as u32,
+        counted: status.more.is_some(),
         unmet,
-        redundant,
+        redundant: Vec::new(),
         notes,
         message,
         undo: open.done.last().map(|s| s.label.clone()),
@@ -86,7 +85,12 @@ fn unmet(open: &Open, u: &plan::Unmet) -> Option<Unmet> {
     })
 }
 
-fn sentence(satisfied: bool, unmet: &[String], freedom: usize, errors: usize) -> String {
+fn sentence(
+    satisfied: bool,
+    unmet: &[String],
+    (freedom, is_all): (usize, bool),
+    errors: usize,
+) -> String {
     let holds = match (satisfied, unmet.len()) {
         (true, 0) => "all constraints hold".to_string(),
         (true, 1) => "all required constraints hold, one softer one does not".to_string(),
@@ -94,10 +98,13 @@ fn sentence(satisfied: bool, unmet: &[String], freedom: usize, errors: usize) ->
         (false, 1) => format!("{} does not hold", unmet[0]),
         (false, _) => format!("{} do not hold", words::listed(unmet)),
     };
-    let free = match freedom {
-        0 => "nothing is free".to_string(),
-        1 => "1 degree of freedom".to_string(),
-        n => format!("{n} degrees of freedom"),
+    let free = match (freedom, is_all) {
+        (0, true) => "nothing is free".to_string(),
+        (0, false) => "what is free is being counted".to_string(),
+        (1, true) => "1 degree of freedom".to_string(),
+        (1, false) => "at least 1 degree of freedom".to_string(),
+        (n, true) => format!("{n} degrees of freedom"),
+        (n, false) => format!("at least {n} degrees of freedom"),
     };
     match errors {
         0 => format!("{holds}; {free}"),

@@ -4,7 +4,7 @@ use crate::desk::{Desk, at};
 use session::{Command, Relations};
 
 fn holds(desk: &Desk) {
-    let status = desk.session.status(desk.id);
+    let status = desk.session.standing(desk.id);
     assert!(status.satisfied, "{}", status.message);
 }
 

@@ -124,7 +124,7 @@ impl Desk {
         (self.text(), self.bits())
     }
     pub(crate) fn undo_label(&self) -> Option<String> {
-        self.session.status(self.id).undo
+        self.session.standing(self.id).undo
     }
     /// The codes and lines of what is wrong with the text.
     pub(crate) fn wrong(&self) -> Vec<(String, u32)> {

@@ -26,7 +26,7 @@ fn shown(desk: &Desk, path: &str) -> String {
 }
 
 fn holds(desk: &Desk) {
-    let status = desk.session.status(desk.id);
+    let status = desk.session.standing(desk.id);
     assert!(status.satisfied, "{}", status.message);
     assert_eq!(desk.session.complaints(desk.id), Vec::<String>::new());
     assert_eq!(desk.wrong(), []);

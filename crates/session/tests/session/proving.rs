@@ -2,6 +2,7 @@
 //! search of all there are.
 
 use crate::desk::Desk;
+use session::jobs::LongQuestion;
 
 fn told(text: &str) -> Vec<String> {
     let mut desk = Desk::of(text);
@@ -134,4 +135,29 @@ fn a_repair_tells_texts_in_quotes_and_nothing_of_a_written_number() {
             "set b to 60 deg"
         ]
     );
+}
+
+/// A beam between two joints, and one that hangs from it: along both their pulls say the same twice.
+#[test]
+fn what_may_be_free_besides_is_told_as_the_least_until_it_is_counted() {
+    let text = "use bridges\na: FixedJoint { at = (0, 0) }\nb, c: FreeJoint\n\
+        ab: Beam { rest = 80 }\nmerge a = ab.a.joint\nmerge b = ab.b.joint\n\
+        bc: Beam { rest = 80 }\nmerge b = bc.a.joint\nmerge c = bc.b.joint\n\
+        b.at = (80, 0)\nc.at = (160, 0)\n";
+    let mut desk = Desk::of(text);
+    let least = desk.session.standing(desk.id);
+    assert!(!least.counted);
+    assert_eq!(least.message, "all constraints hold; what is free is being counted");
+    // each turns around the joint before it
+    assert_eq!(desk.session.status(desk.id).freedom, 2);
+    let counted = desk.session.standing(desk.id);
+    assert!(counted.counted);
+    assert_eq!(counted.message, "all constraints hold; 2 degrees of freedom");
+    desk.drag("c.at", &[(150.0, 30.0), (130.0, 60.0)]);
+    // the form is as it was: what was counted is told until it is counted again
+    let presumed = desk.session.standing(desk.id);
+    assert_eq!((presumed.counted, presumed.freedom), (false, 2));
+    assert_eq!(presumed.message, "all constraints hold; 2 degrees of freedom");
+    let more = desk.session.answer(desk.id, &LongQuestion::More, 0);
+    assert_eq!(desk.session.standing(desk.id).freedom, 2, "{more:?}");
 }

@@ -41,7 +41,7 @@ impl Lab {
         let done = self.apply_as_meant(command);
         if done && matches!(command, Command::Text(_)) {
             self.tell(|session, id| session.label_last(id, label));
-            let status = self.ask_of_shown(Session::status);
+            let status = self.ask_of_shown(Session::standing);
             self.status.set(status.unwrap_or_default());
         }
         done

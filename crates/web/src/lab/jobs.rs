@@ -24,6 +24,8 @@ const LONG: f64 = 400.0;
 pub enum Kind {
     /// What is free, superfluous, contradictory.
     Analysis,
+    /// How much is free, where that was not said at once; nobody waits for it.
+    Freedom,
     /// What comes of the rows of a family.
     Rows,
     /// The map of a program.
@@ -104,7 +106,8 @@ impl Lab {
     /// Asks something of the shown document that may take long.
     pub fn ask_long(self, kind: Kind, question: LongQuestion, tell: impl Fn(Told) + 'static) {
         let going = self.jobs.going.get_untracked();
-        if let Some(going) = going.filter(|going| going.kind == kind) {
+        // nobody waits for the count
+        if let Some(going) = going.filter(|g| g.kind == kind || g.kind == Kind::Freedom) {
             match js::now() - going.begun > LONG {
                 true => self.end_worker(),
                 false => self.jobs.queue.update_value(|queue| {
@@ -117,6 +120,7 @@ impl Lab {
         self.jobs.queue.update_value(|queue| {
             queue.tasks.retain(|task| task.kind != kind);
             queue.tasks.push(task);
+            queue.tasks.sort_by_key(|task| task.kind == Kind::Freedom);
         });
         self.next_job();
     }
@@ -134,7 +138,7 @@ impl Lab {
 
     /// Stops what goes on; returns whether there was something.
     pub fn stop_job(self) -> bool {
-        if self.jobs.going.get_untracked().is_none() {
+        if self.jobs.going.get_untracked().is_none_or(|going| going.kind == Kind::Freedom) {
             return false;
         }
         self.end_worker();

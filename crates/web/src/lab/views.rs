@@ -4,10 +4,12 @@
 //! at a time, where no more than values are others or no list of them is in the page; whoever has to know them all before asks for them by
 //! [`Lab::list`]. During a drag only what is in sight is made.
 
+use super::jobs::{Kind, Told};
 use super::{Lab, Zoom};
 use crate::js;
 use leptos::prelude::*;
 use session::Listing;
+use session::jobs::{LongAnswer, LongQuestion};
 use session::view::{DocumentId, MovedView, PictureView, RowKind, StructureRow};
 use std::collections::BTreeMap;
 use std::time::Duration;
@@ -91,7 +93,7 @@ impl Lab {
     /// Says how the document stands, and keeps its text as a draft.
     fn tell_state(self, id: DocumentId) {
         let (text, status, title) =
-            self.ask(|session| (session.text(id), session.status(id), session.title(id)));
+            self.ask(|session| (session.text(id), session.standing(id), session.title(id)));
         self.status.set(status);
         self.update_document(|document| {
             document.dirty = document.saved != text.source;
@@ -173,5 +175,29 @@ impl Lab {
         self.value_rows.update(|n| *n += 1);
         self.structure.set(structure);
         self.dragged_values.update(BTreeMap::clear);
+        self.count_freedom();
+    }
+
+    /// Has it counted how much is free, where that could not be said at once; until then there is at least so much.
+    fn count_freedom(self) {
+        if self.status.with_untracked(|status| status.counted) {
+            return;
+        }
+        let number = self.listing.with_value(|rows| rows.number);
+        self.ask_long(Kind::Freedom, LongQuestion::More, move |told| {
+            let is_it = self.listing.try_with_value(|rows| rows.number == number) == Some(true);
+            if let (true, Told::Part(LongAnswer::More(more)), Some(id)) = (is_it, told, self.id()) {
+                let status = self.order(|session| {
+                    session.note_more(id, more);
+                    session.standing(id)
+                });
+                let is_as_said = self.status.with_untracked(|s| s.message == status.message);
+                // nobody has to hear of what they were told before
+                match is_as_said {
+                    true => drop(self.status.try_update_untracked(|s| *s = status)),
+                    false => self.status.set(status),
+                }
+            }
+        });
     }
 }

@@ -20,6 +20,7 @@ pub const FILES_STOPPED: &str = "The files were not made: the drawing was stoppe
 pub fn job(kind: Kind) -> &'static str {
     match kind {
         Kind::Analysis => "Analysing",
+        Kind::Freedom => "Counting what is free",
         Kind::Rows => "Drawing rows",
         Kind::Map => "Making the map",
         Kind::Files => "Drawing the files of a family",
