@@ -66,6 +66,10 @@ fn many_unknown_classes_are_reported() {
     assert_eq!(codes(&lines(5_000, |i| format!("p{i}: Kind{i}"))), ["unknown-class"]);
 }
 #[test]
+fn many_values_of_which_nothing_is_left_are_reported_in_a_moment() {
+    assert_eq!(codes(&lines(50_000, |i| format!("p{i}: Real = )"))), ["expected-expression"]);
+}
+#[test]
 fn many_lists_are_read_in_a_moment() {
     let text = lines(5_000, |i| format!("class C{i} {{ x: List of 1 C{} }}", i + 1));
     assert_eq!(codes(&text), ["unknown-class"]);

@@ -2,6 +2,8 @@
 
 use crate::host::Host;
 use base::{Diagnostic, FileId, Place, Span};
+use std::cell::OnceCell;
+use std::collections::BTreeSet;
 use syntax::ast::{AstNode, Member};
 use syntax::edit::{Spot, insert_member};
 
@@ -22,7 +24,7 @@ pub(crate) fn add_uses(text: &str, diagnostics: &mut [Diagnostic], host: &dyn Ho
     let unknown = |d: &&mut Diagnostic| {
         matches!(d.code, "unknown-class" | "unknown-name") && d.place.file == own
     };
-    let mut libraries: Option<Vec<(String, String)>> = None;
+    let mut libraries: Option<Vec<Library>> = None;
     for diagnostic in diagnostics.iter_mut().filter(unknown) {
         let word = text.get(diagnostic.place.span.range()).unwrap_or_default();
         let is_visible = diagnostic.hint.as_ref().is_some_and(|h| h.starts_with("it is a class"));
@@ -31,12 +33,13 @@ pub(crate) fn add_uses(text: &str, diagnostics: &mut [Diagnostic], host: &dyn Ho
         }
         let libraries = libraries.get_or_insert_with(|| {
             let names = host.libraries().into_iter();
-            names.filter_map(|name| host.read(&name).map(|text| (name, text))).collect()
+            names.filter_map(|name| host.read(&name).map(|text| Library::of(name, &text))).collect()
         });
         // what was used already would have been found
-        for (name, _) in libraries.iter().filter(|(_, library)| declares(library, word)) {
-            let (at, insert) = line_at_head(text, &format!("use {name}"));
+        for library in libraries.iter().filter(|library| library.classes.contains(word)) {
+            let name = &library.name;
             let title = format!("use {name}");
+            let (at, insert) = library.line.get_or_init(|| line_at_head(text, &title)).clone();
             let place = Place { file: own, span: at };
             *diagnostic = diagnostic.clone().hint(format!("{name} has it: `use {name}`"));
             *diagnostic = diagnostic.clone().fix(title, [(place, insert)]);
@@ -44,13 +47,24 @@ pub(crate) fn add_uses(text: &str, diagnostics: &mut [Diagnostic], host: &dyn Ho
     }
 }
 
-/// Returns true if a text declares a class of this name.
-fn declares(text: &str, class: &str) -> bool {
-    text.contains(class)
-        && syntax::parse(FileId(0), text).file().members().any(|m| match m {
-            Member::Class(c) => c.name().is_some_and(|w| w.text() == class),
-            _ => false,
-        })
+/// A library that may have what is missing.
+struct Library {
+    name: String,
+    /// The names of the classes that it declares.
+    classes: BTreeSet<String>,
+    /// The line that brings it, and where that goes; found when first asked for.
+    line: OnceCell<(Span, String)>,
+}
+
+impl Library {
+    fn of(name: String, text: &str) -> Self {
+        let class = |member| match member {
+            Member::Class(class) => class.name().map(|word| word.text().to_string()),
+            _ => None,
+        };
+        let classes = syntax::parse(FileId(0), text).file().members().filter_map(class).collect();
+        Self { name, classes, line: OnceCell::new() }
+    }
 }
 
 /// Returns where a line goes that stands behind what is used, and before all else.

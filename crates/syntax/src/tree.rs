@@ -6,7 +6,7 @@ use crate::kind::{self, SyntaxElement, SyntaxKind, SyntaxNode, SyntaxToken};
 use crate::lexer::lex;
 use crate::parser::Parser;
 use base::{Diagnostic, FileId, Span};
-use rowan::{GreenNode, GreenNodeData, Language as _, NodeOrToken};
+use rowan::{GreenNode, GreenNodeData, Language as _, NodeOrToken, TextRange};
 use std::fmt::Write;
 
 /// A text as a tree, and what is wrong with it. Cheap to copy, and free to cross threads.
@@ -110,8 +110,12 @@ pub fn span_of_token(token: &SyntaxToken) -> Span {
 
 /// Returns the token that begins at a byte, or that the byte lies in.
 pub fn token_from(node: &SyntaxNode, at: u32) -> Option<SyntaxToken> {
-    let is_inside = u32::from(node.text_range().end()) >= at;
-    is_inside.then(|| node.token_at_offset(at.into()).right_biased()).flatten()
+    let (start, end) = (node.text_range().start(), node.text_range().end());
+    // behind the last token is what ends there; among children of one parent it is found by halves
+    let at = if u32::from(end) == at { at.checked_sub(1)? } else { at };
+    let place = TextRange::at(at.into(), 1.into());
+    let is_inside = start <= place.start() && place.end() <= end;
+    is_inside.then(|| node.covering_element(place).into_token()).flatten()
 }
 
 /// Shows a tree for tests: each node with its children in brackets, tokens as they are written.

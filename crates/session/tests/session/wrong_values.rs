@@ -65,6 +65,15 @@ fn thousands_of_equal_numbers_are_one_in_a_moment() {
     assert_eq!(desk.number("x0"), 7.0);
 }
 
+#[test]
+fn thousands_of_things_of_a_library_that_is_not_used_are_told_in_a_moment() {
+    let text: String = (0..5_000).map(|i| format!("x{i}: Circle\n")).collect();
+    let desk = Desk::of(&text);
+    let told = desk.session.text(desk.id).diagnostics;
+    assert_eq!(told.len(), 5_000);
+    assert!(told.iter().all(|d| d.hint.as_deref() == Some("geometry has it: `use geometry`")));
+}
+
 /// What is wrong before anything is solved, and right after, is right.
 #[test]
 fn what_is_given_in_terms_of_what_is_computed_is_read_after_that() {
