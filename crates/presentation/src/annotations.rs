@@ -1,7 +1,8 @@
 //! Annotations in the picture: dimension lines, and signs beside what constraints speak of.
 //!
 //! In: what the session says stands on the drawing, the picture, and where the sheet lies on the screen. Out: notes in
-//! pixels, each with its words, its lines and its box, which are painted and picked.
+//! pixels, each with its words, its lines and its box, which are painted and picked. A hand may have moved some from
+//! where they stand by themselves.
 
 use crate::paint::{DisplayList, Mark, note};
 use crate::sheet::View;
@@ -22,8 +23,14 @@ const ROOM: f64 = 4.0;
 const ASIDE: f64 = 26.0;
 /// How far a sign is from its thing.
 const BESIDE: f64 = 14.0;
-/// The radius of an angle's arc.
+/// The radius of an angle's arc, and the least that a hand leaves it.
 const ARC: f64 = 26.0;
+const LEAST_ARC: f64 = 10.0;
+/// Words give way to so many grips at most, and so often.
+const MOST_GRIPS: usize = 500;
+const TURNS: u32 = 6;
+/// How far words give way to a grip at once.
+const STEP: f64 = 14.0;
 
 /// What is painted of an annotation at one place.
 #[derive(Clone, PartialEq, Debug)]
@@ -38,7 +45,14 @@ pub struct Note {
     pub at: Pixels,
     /// Lines, each by its corners, in pixels.
     pub lines: Vec<Vec<Pixels>>,
+    /// What it is known by when a hand moves it: what it shows, and of what.
+    pub key: String,
+    /// The first axis along which it is moved; the second is a quarter turn further.
+    axis: Pixels,
 }
+
+/// How far hands have moved notes, by their keys: along their axes, in pixels.
+pub type Moved = BTreeMap<String, Pixels>;
 
 impl Note {
     /// Whether a place on the screen is on its words.
@@ -48,14 +62,30 @@ impl Note {
     }
 }
 
+impl Note {
+    /// A way on the screen along its axes.
+    fn along_axes(&self, (x, y): Pixels) -> Pixels {
+        let (ax, ay) = self.axis;
+        (x * ax + y * ay, y * ax - x * ay)
+    }
+}
+
 /// Half the size of the box of some words, in pixels.
 fn half(words: &str) -> Pixels {
     (metrics::text_width(words, HEIGHT) / 2.0 + ROOM, HEIGHT / 2.0 + ROOM)
 }
 
-/// Returns the path of the constraint whose words are at a place on the screen.
-pub fn at(notes: &[Note], place: Pixels) -> Option<&str> {
-    notes.iter().rev().find(|note| note.is_at(place)).map(|note| note.path.as_str())
+/// Returns the note whose words are at a place on the screen.
+pub fn at(notes: &[Note], place: Pixels) -> Option<&Note> {
+    notes.iter().rev().find(|note| note.is_at(place))
+}
+
+/// Moves a note on, as far as a hand went on the screen.
+pub fn shift(notes: &[Note], key: &str, way: Pixels, moved: &mut Moved) {
+    let Some(note) = notes.iter().find(|note| note.key == key) else { return };
+    let (x, y) = note.along_axes(way);
+    let far = moved.entry(String::from(key)).or_default();
+    *far = (far.0 + x, far.1 + y);
 }
 
 /// What the picture shows of a thing, in pixels.
@@ -92,13 +122,16 @@ fn direction(from: Pixels, to: Pixels) -> Pixels {
 }
 
 /// Returns where annotations stand. What the picture does not show has none.
-pub fn notes(all: &[Annotation], picture: &PictureView, view: &View) -> Vec<Note> {
+pub fn notes(all: &[Annotation], picture: &PictureView, view: &View, moved: &Moved) -> Vec<Note> {
     let (seen, edges) = (seen(all, picture, view), edges(all, picture, view));
     let sides = edges.values().flatten().map(|(a, b)| between(*a, *b));
     let places: Vec<Pixels> = seen.values().map(|seen| seen.middle()).chain(sides).collect();
     let n = places.len().max(1) as f64;
     let middle = places.iter().fold((0.0, 0.0), |sum, at| (sum.0 + at.0 / n, sum.1 + at.1 / n));
-    let mut desk = Desk { middle, scale: view.scale, taken: BTreeMap::new() };
+    let grips = picture.grips.iter().take(MOST_GRIPS);
+    let grips = grips.map(|grip| view.screen_from_sheet(Point { x: grip.x, y: grip.y }));
+    let grips: Vec<Pixels> = grips.collect();
+    let mut desk = Desk { middle, scale: view.scale, taken: BTreeMap::new(), grips, moved };
     all.iter().flat_map(|one| desk.place(one, &seen, &edges)).collect()
 }
 
@@ -172,14 +205,23 @@ fn edges<'a>(all: &'a [Annotation], picture: &PictureView, view: &View) -> Edges
 }
 
 /// Where notes are put one after the other.
-struct Desk {
+struct Desk<'m> {
     /// The middle of all that they are of: dimensions stand away from it.
     middle: Pixels,
     /// How many pixels a unit of the sheet has.
     scale: f64,
     /// How many notes stand at a place already, by the place to the pixel.
     taken: BTreeMap<Spot, u32>,
+    /// What the words of a dimension leave in sight.
+    grips: Vec<Pixels>,
+    moved: &'m Moved,
 }
+
+/// Where a note stands: the middle of its words, its lines, and its first axis.
+type Stand = (Pixels, Vec<Vec<Pixels>>, Pixels);
+
+/// The first axis of what is moved as the screen runs.
+const LEVEL: Pixels = (1.0, 0.0);
 
 /// A place to the pixel, and whether a dimension stands there.
 type Spot = (i64, i64, bool);
@@ -188,7 +230,27 @@ fn spot(at: Pixels, is_dimension: bool) -> Spot {
     (at.0.round() as i64, at.1.round() as i64, is_dimension)
 }
 
-impl Desk {
+impl Desk<'_> {
+    /// How far a hand has moved a note.
+    fn moved(&self, key: &str) -> Pixels {
+        self.moved.get(key).copied().unwrap_or_default()
+    }
+
+    /// The first of some stands whose words lie on no grip; where a hand has put them, they stand.
+    fn clear(&self, (key, words): (&str, &str), stand: impl Fn(f64) -> Stand) -> Stand {
+        let (wide, high) = half(words);
+        let is_clear = |(at, ..): &Stand| {
+            let is_under = |(x, y): &Pixels| (x - at.0).abs() <= wide && (y - at.1).abs() <= high;
+            !self.grips.iter().any(is_under)
+        };
+        let first = stand(0.0);
+        if self.moved.contains_key(key) || is_clear(&first) {
+            return first;
+        }
+        let others = (1..=TURNS).map(|n| stand(STEP * f64::from(n)));
+        others.into_iter().find(is_clear).unwrap_or(first)
+    }
+
     /// How many notes of a kind stand at a place already; now one more does.
     fn nth(&mut self, at: Pixels, is_dimension: bool) -> f64 {
         let key = spot(at, is_dimension);
@@ -223,12 +285,15 @@ impl Desk {
         seen: &BTreeMap<&str, Seen>,
         edges: &Edges<'_>,
     ) -> Vec<Note> {
-        let note = |at: Pixels, lines: Vec<Vec<Pixels>>| Note {
+        let key = |n: usize| format!("{:?} {} {n}", one.shows, one.of.join(" "));
+        let note = |n: usize, (at, lines, axis): Stand| Note {
             path: one.path.clone(),
             words: one.words.clone(),
             holds: one.holds,
             at,
             lines,
+            key: key(n),
+            axis,
         };
         let (shows, of) = match (one.shows, one.of.as_slice(), one.number) {
             (Shows::Length, [path], Some(number)) if edges.contains_key(path.as_str()) => {
@@ -246,11 +311,11 @@ impl Desk {
         if of.len() < one.of.len() {
             return Vec::new();
         }
+        let said = (&*key(0), &*one.words);
         match (shows, of.as_slice()) {
             (Shows::Length, [Seen::Way(a, b)])
             | (Shows::Length, [Seen::Place(a), Seen::Place(b)]) => {
-                let (at, lines) = self.length((*a, *b), &one.words);
-                vec![note(at, lines)]
+                vec![note(0, self.length((*a, *b), said))]
             }
             (
                 Shows::Length,
@@ -258,48 +323,77 @@ impl Desk {
             ) => {
                 let (dx, dy) = direction(*b, *c);
                 let far = (a.0 - b.0) * dx + (a.1 - b.1) * dy;
-                let (at, lines) = self.length((*a, along(*b, (dx, dy), far)), &one.words);
-                vec![note(at, lines)]
+                vec![note(0, self.length((*a, along(*b, (dx, dy), far)), said))]
             }
             (Shows::Radius, [Seen::Round(center, radius, turn)]) => {
-                let turn = turn + 0.5 * self.nth(*center, true);
-                let way = (cos(turn), sin(turn));
-                let (edge, end) =
-                    (along(*center, way, *radius), along(*center, way, radius + ASIDE));
-                let side = if way.0 < 0.0 { -1.0 } else { 1.0 };
-                let (half, _) = half(&one.words);
-                let lines = [vec![vec![edge, end]], vec![head(edge, end)]].concat();
-                vec![note((end.0 + side * half, end.1), lines)]
+                vec![note(0, self.radius((*center, *radius, *turn), said))]
             }
-            (Shows::Angle, [Seen::Way(a, b), Seen::Way(c, d)]) => {
-                let (at, lines) = angle((*a, *b), (*c, *d));
-                vec![note(at, lines)]
+            (Shows::Angle([is_turned, is_other_turned]), [Seen::Way(a, b), Seen::Way(c, d)]) => {
+                let side = |a, b, is_turned| if is_turned { (b, a) } else { (a, b) };
+                let sides = (side(*a, *b, is_turned), side(*c, *d, is_other_turned));
+                let off = self.moved(said.0);
+                vec![note(0, self.clear(said, |further| angle(sides, off, further)))]
             }
             // level or upright: once, between the two
             (_, [Seen::Place(a), Seen::Place(b)]) => {
-                let at = self.beside(*a, *b);
-                vec![note(at, Vec::new())]
+                let (at, off) = (self.beside(*a, *b), self.moved(said.0));
+                vec![note(0, ((at.0 + off.0, at.1 + off.1), Vec::new(), LEVEL))]
             }
-            (_, of) => of.iter().map(|seen| note(self.sign(*seen), Vec::new())).collect(),
+            (_, of) => {
+                let sign = |(n, seen): (usize, &Seen)| {
+                    let (at, off) = (self.sign(*seen), self.moved(&key(n)));
+                    note(n, ((at.0 + off.0, at.1 + off.1), Vec::new(), LEVEL))
+                };
+                of.iter().enumerate().map(sign).collect()
+            }
         }
     }
 
-    /// The middle of the words and the lines of a dimension between two places.
-    fn length(&mut self, (a, b): (Pixels, Pixels), words: &str) -> (Pixels, Vec<Vec<Pixels>>) {
+    /// A radius or a diameter: a leader from the edge to its words.
+    fn radius(&mut self, (center, radius, turn): (Pixels, f64, f64), said: (&str, &str)) -> Stand {
+        let turn = turn + 0.5 * self.nth(center, true);
+        let (half, _) = half(said.1);
+        let off = self.moved(said.0);
+        self.clear(said, |further| {
+            let end = along(center, (cos(turn), sin(turn)), radius + ASIDE + further);
+            let end = (end.0 + off.0, end.1 + off.1);
+            let way = direction(center, end);
+            let edge = along(center, way, radius);
+            let side = if way.0 < 0.0 { -1.0 } else { 1.0 };
+            ((end.0 + side * half, end.1), vec![vec![edge, end], head(edge, end)], LEVEL)
+        })
+    }
+
+    /// A dimension between two places; it is moved across and along the way.
+    fn length(&mut self, (a, b): (Pixels, Pixels), said: (&str, &str)) -> Stand {
         /// What is left of the line on each side of the words, at least, in pixels.
         const LEFT: f64 = 10.0;
         let out = self.outwards(a, b);
-        let far = ASIDE * (1.0 + self.nth(between(a, b), true));
-        let (p, q) = (along(a, out, far), along(b, out, far));
-        let leader = |from| vec![along(from, out, 4.0), along(from, out, far + 4.0)];
-        let lines = vec![leader(a), leader(b), vec![p, q], head(p, q), head(q, p)];
-        // what does not fit into the line stands beyond it
-        let (wide, high) = half(words);
-        let (dx, dy) = direction(p, q);
-        let taken = (wide / dx.abs()).min(high / dy.abs());
-        let fits = hypot(q.0 - p.0, q.1 - p.1) >= 2.0 * (taken + LEFT);
-        let beyond = if fits { 0.0 } else { wide * out.0.abs() + high * out.1.abs() + ROOM };
-        (along(between(p, q), out, beyond), lines)
+        // a quarter turn from outwards, as notes are moved
+        let on = (-out.1, out.0);
+        let (aside, slide) = self.moved(said.0);
+        let far = ASIDE * (1.0 + self.nth(between(a, b), true)) + aside;
+        let (wide, high) = half(said.1);
+        self.clear(said, |further| {
+            let far = far + further;
+            let (p, q) = (along(a, out, far), along(b, out, far));
+            let middle = along(between(p, q), on, slide);
+            let ends = if far < 0.0 { -4.0 } else { 4.0 };
+            let leader = |from| vec![along(from, out, ends), along(from, out, far + ends)];
+            let long = hypot(q.0 - p.0, q.1 - p.1);
+            let mut lines = vec![leader(a), leader(b), vec![p, q], head(p, q), head(q, p)];
+            // what does not fit into the line stands beyond it, or at its end
+            let taken = (wide / on.0.abs()).min(high / on.1.abs());
+            let is_past = slide.abs() > 0.5 * long;
+            if is_past {
+                let way = (q.0 - p.0) * on.0 + (q.1 - p.1) * on.1;
+                lines.push(vec![if (way > 0.0) == (slide > 0.0) { q } else { p }, middle]);
+            }
+            let fits = is_past || long >= 2.0 * (taken + LEFT + slide.abs());
+            let past = wide * out.0.abs() + high * out.1.abs() + ROOM;
+            let beyond = if fits { 0.0 } else { past.copysign(far) };
+            (along(middle, out, beyond), lines, out)
+        })
     }
 
     /// A place beside the middle of a way, on its inner side.
@@ -336,12 +430,17 @@ fn head(tip: Pixels, from: Pixels) -> Vec<Pixels> {
     vec![along(back, (dy, -dx), 3.0), tip, along(back, (-dy, dx), 3.0)]
 }
 
-/// The words and the arc of an angle between two lines.
-fn angle((a, b): (Pixels, Pixels), (c, d): (Pixels, Pixels)) -> (Pixels, Vec<Vec<Pixels>>) {
+/// The words and the arc of an angle between two lines, moved by a hand or further from the corner.
+fn angle(
+    ((a, b), (c, d)): ((Pixels, Pixels), (Pixels, Pixels)),
+    off: Pixels,
+    further: f64,
+) -> Stand {
     let ((ux, uy), (vx, vy)) = (direction(a, b), direction(c, d));
     let cross = ux * vy - uy * vx;
     if cross.abs() < 1e-9 {
-        return (between(between(a, b), between(c, d)), Vec::new());
+        let at = between(between(a, b), between(c, d));
+        return ((at.0 + off.0, at.1 + off.1), Vec::new(), LEVEL);
     }
     let far = ((c.0 - a.0) * vy - (c.1 - a.1) * vx) / cross;
     let corner = along(a, (ux, uy), far);
@@ -355,18 +454,23 @@ fn angle((a, b): (Pixels, Pixels), (c, d): (Pixels, Pixels)) -> (Pixels, Vec<Vec
     }
     /// An arc has so many corners.
     const PARTS: u32 = 16;
+    /// The words are so many times as far from the corner as the arc.
+    const WORDS: f64 = 1.9;
     let on = |turn: f64, radius: f64| along(corner, (cos(turn), sin(turn)), radius);
-    let part = |n: u32| on(from + sweep * f64::from(n) / f64::from(PARTS), ARC);
+    let middle = on(from + sweep / 2.0, WORDS * ARC + further);
+    let at = (middle.0 + off.0, middle.1 + off.1);
+    let arc = (hypot(at.0 - corner.0, at.1 - corner.1) / WORDS).max(LEAST_ARC);
+    let part = |n: u32| on(from + sweep * f64::from(n) / f64::from(PARTS), arc);
     // where a line does not reach the arc it is continued
     let leader = |(p, q): (Pixels, Pixels), turn: f64| {
-        let end = on(turn, ARC + 6.0);
+        let end = on(turn, arc + 6.0);
         let past = |r: Pixels| (r.0 - corner.0) * cos(turn) + (r.1 - corner.1) * sin(turn);
-        let reaches = past(p).max(past(q)) >= ARC && past(p).min(past(q)) <= ARC;
+        let reaches = past(p).max(past(q)) >= arc && past(p).min(past(q)) <= arc;
         (!reaches).then(|| vec![corner, end])
     };
     let mut lines = vec![(0..=PARTS).map(part).collect()];
     lines.extend(leader((a, b), from).into_iter().chain(leader((c, d), to)));
-    (on(from + sweep / 2.0, 1.9 * ARC), lines)
+    (at, lines, LEVEL)
 }
 
 /// Adds notes to what is painted, marked where their constraints are.
@@ -384,10 +488,10 @@ pub fn paint(list: &mut DisplayList, notes: &[Note], view: &View, mark: impl Fn(
 
 #[cfg(test)]
 mod tests {
-    use super::{Note, at, notes};
+    use super::{Moved, Note, at, notes, shift};
     use crate::sheet::View;
     use drawing::{Drawing, Element, Layer, Point, Shape, Style, Tag};
-    use session::view::{Annotation, PictureView, Shows};
+    use session::view::{Annotation, Grip, PictureView, Shows};
 
     /// A line of 100 from the origin to the right, and one of 60 from its end upwards.
     fn corner() -> PictureView {
@@ -426,7 +530,7 @@ mod tests {
     fn made(all: &[Annotation]) -> Vec<Note> {
         // a sheet whose origin is at (200, 300), y up, two pixels a unit
         let view = View { scale: 2.0, x: 200.0, y: 300.0, ..View::default() };
-        notes(all, &corner(), &view)
+        notes(all, &corner(), &view, &Moved::new())
     }
 
     #[test]
@@ -437,7 +541,7 @@ mod tests {
         let places: Vec<(f64, f64)> = all.iter().map(|note| note.at).collect();
         // below the line that runs along the bottom, to the right of the upright one
         assert_eq!(places, [(300.0, 326.0), (300.0, 352.0), (426.0, 240.0)]);
-        assert_eq!(at(&all, (303.0, 350.0)), Some("c2"));
+        assert_eq!(at(&all, (303.0, 350.0)).map(|note| &*note.path), Some("c2"));
         assert_eq!(at(&all, (300.0, 300.0)), None);
     }
 
@@ -454,7 +558,7 @@ mod tests {
     fn a_relation_has_a_sign_beside_each_thing_and_an_angle_one_arc() {
         let all = made(&[
             annotation("c1", Shows::Relation, "=", &["a", "b"]),
-            annotation("c2", Shows::Angle, "90 deg", &["a", "b"]),
+            annotation("c2", Shows::Angle([false; 2]), "90 deg", &["a", "b"]),
         ]);
         let [first, second, angle] = all.as_slice() else { panic!("three notes: {all:?}") };
         assert_eq!((first.at, second.at), ((300.0, 286.0), (386.0, 240.0)));
@@ -474,7 +578,7 @@ mod tests {
         let view = View { scale: 2.0, x: 200.0, y: 300.0, ..View::default() };
         let of = ["60 mm", "100 mm", "320 mm"];
         let all = of.map(|words| annotation(words, Shows::Length, words, &["box"]));
-        let all = notes(&all, &picture, &view);
+        let all = notes(&all, &picture, &view, &Moved::new());
         let [height, width, around] = all.as_slice() else { panic!("three notes: {all:?}") };
         // outside of the middles of the lower side and of the right one, at (300, 300) and (400, 240)
         assert_eq!((width.at, height.at), ((300.0, 326.0), (426.0, 240.0)));
@@ -483,8 +587,55 @@ mod tests {
     }
 
     #[test]
+    fn a_note_stands_where_a_hand_has_put_it() {
+        let view = View { scale: 2.0, x: 200.0, y: 300.0, ..View::default() };
+        let all = [
+            annotation("c1", Shows::Length, "100 mm", &["a"]),
+            annotation("c2", Shows::Length, "60 mm", &["b"]),
+            annotation("c3", Shows::Angle([true, false]), "90 deg", &["a", "b"]),
+        ];
+        let mut moved = Moved::new();
+        let first = notes(&all, &corner(), &view, &moved);
+        for (note, way) in first.iter().zip([(20.0, 30.0), (-66.0, 0.0), (-10.0, -10.0)]) {
+            shift(&first, &note.key, way, &mut moved);
+        }
+        let now = notes(&all, &corner(), &view, &moved);
+        for (one, (was, way)) in
+            now.iter().zip(first.iter().zip([(20.0, 30.0), (-66.0, 0.0), (-10.0, -10.0)]))
+        {
+            let off = (one.at.0 - was.at.0 - way.0, one.at.1 - was.at.1 - way.1);
+            assert!(off.0.abs() < 1e-9 && off.1.abs() < 1e-9, "{one:?}");
+        }
+        // the line of the first lies 56 below what it measures, the second's on the other side of its own
+        assert_eq!(now[0].lines[2], [(200.0, 356.0), (400.0, 356.0)]);
+        assert_eq!(now[1].lines[2], [(360.0, 300.0), (360.0, 180.0)]);
+        // the arc is between the side that runs back and the one that runs up, and larger
+        let ends = [now[2].lines[0][0], *now[2].lines[0].last().expect("an arc")];
+        assert!(ends[0].0 < 400.0 - 26.0 && ends[1].1 < 300.0 - 26.0, "{ends:?}");
+        // in another view as many pixels away
+        let nearer = View { scale: 4.0, ..view };
+        let nearer = notes(&all, &corner(), &nearer, &moved);
+        assert_eq!(nearer[0].lines[2], [(200.0, 356.0), (600.0, 356.0)]);
+    }
+
+    #[test]
+    fn words_of_a_dimension_leave_grips_in_sight() {
+        let mut picture = corner();
+        let grip = Grip { path: "p".into(), x: 50.0, y: 13.0, ..Grip::default() };
+        picture.grips.push(grip);
+        let view = View { scale: 2.0, x: 200.0, y: 300.0, ..View::default() };
+        let all = [annotation("c1", Shows::Length, "100 mm", &["a"])];
+        let all = notes(&all, &picture, &view, &Moved::new());
+        // the grip is at (300, 274), where the words would stand
+        assert_eq!(all[0].at, (300.0, 260.0));
+    }
+
+    #[test]
     fn what_the_picture_does_not_show_has_no_note() {
         assert_eq!(made(&[annotation("c1", Shows::Length, "5", &["elsewhere"])]), []);
-        assert_eq!(made(&[annotation("c1", Shows::Angle, "5", &["a", "elsewhere"])]), []);
+        assert_eq!(
+            made(&[annotation("c1", Shows::Angle([false; 2]), "5", &["a", "elsewhere"])]),
+            []
+        );
     }
 }

@@ -38,10 +38,13 @@ pub fn meant_in(words: &str, unit: &str) -> String {
 }
 
 /// What is meant by the words of a field that begins with a value as it is shown: where they are still those, the value
-/// itself with all its digits.
+/// itself with all its digits. A bare number is one of degrees, where the value is; of a length the sheet says which.
 pub fn exactly(typed: &str, value: &str) -> String {
-    let is_same = typed.trim() == to_read(value);
-    String::from(if is_same { value } else { typed.trim() })
+    match typed.trim() == to_read(value) {
+        true => String::from(value),
+        false if value.ends_with(" deg") => meant_in(typed, "deg"),
+        false => String::from(typed.trim()),
+    }
 }
 
 /// A value as a button and the field that asks for it show it, to six digits.
@@ -63,6 +66,9 @@ mod tests {
         assert_eq!(to_read(value), "252.982 mm");
         assert_eq!(exactly(" 252.982 mm", value), value);
         assert_eq!(exactly("252.98 mm ", value), "252.98 mm");
+        assert_eq!(exactly("252", value), "252");
+        assert_eq!(exactly(" 75", "59.826 deg"), "75 deg");
+        assert_eq!(exactly("pi() / 3", "59.826 deg"), "pi() / 3");
     }
 
     #[test]

@@ -7,7 +7,7 @@
 use crate::by_hand::class_at;
 use crate::classing::{self, EqualsNumber};
 use crate::document::Open;
-use crate::offers::words_of;
+use crate::offers::{REVERSED, words_of};
 use crate::session::thing_at;
 use crate::state::State;
 use crate::view::{Annotation, Offer, Shows};
@@ -170,6 +170,7 @@ impl<'a> Reader<'a, '_> {
     /// A rule that gives a length, a distance, a radius or an angle a value.
     fn dimension(&self, measured: &'a Term, value: &'a Term) -> Option<Reading> {
         let Term::Send { to, name, arguments, search: None } = measured else { return None };
+        let (to, is_turned) = turned(to);
         // what the document itself says is no thing's
         let mut of = vec![self.at(to).filter(|path| !path.is_empty())?];
         let (shows, before) = match (&**name, arguments.as_slice()) {
@@ -182,8 +183,9 @@ impl<'a> Reader<'a, '_> {
                 (Shows::Length, "")
             }
             ("angle", [to]) => {
-                of.push(self.at(&to.value)?);
-                (Shows::Angle, "")
+                let (to, is_other_turned) = turned(&to.value);
+                of.push(self.at(to)?);
+                (Shows::Angle([is_turned, is_other_turned]), "")
             }
             _ => return None,
         };
@@ -191,7 +193,7 @@ impl<'a> Reader<'a, '_> {
             return None;
         };
         let quantity = kernel::Quantity { dimension, ..kernel::Quantity::default() };
-        let is_angle = matches!(shows, Shows::Angle) || &**name == "direction";
+        let is_angle = matches!(shows, Shows::Angle(_)) || &**name == "direction";
         let shown = if is_angle {
             format!("{}°", base::number::significant(x * 180.0 / PI, DIGITS))
         } else {
@@ -206,6 +208,18 @@ impl<'a> Reader<'a, '_> {
 impl Reading {
     fn relation(words: &str, of: Vec<Path>) -> Self {
         Self { shows: Shows::Relation, words: words.into(), of, measure: None }
+    }
+}
+
+/// What a term is of, and whether it is turned round: `-line` runs the other way.
+fn turned(term: &Term) -> (&Term, bool) {
+    match term {
+        Term::Send { to, name, arguments, search: None }
+            if **name == *REVERSED && arguments.is_empty() =>
+        {
+            (to, true)
+        }
+        _ => (term, false),
     }
 }
 

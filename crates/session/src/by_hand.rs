@@ -178,6 +178,11 @@ impl Session {
         let open = self.document(id);
         match &offer.deed {
             Deed::Add => {
+                if let Some(refusal) =
+                    value.and_then(|value| offers::between::beyond(open, offer, value))
+                {
+                    return Err(refusal);
+                }
                 let command = offer.command(value);
                 let is_dimension = offer.value.is_some();
                 let anew = is_dimension.then(|| ways_out::said_anew(open, &beside, &command));

@@ -29,8 +29,12 @@ use kernel::{
 use std::collections::BTreeSet;
 use syntax::ast::Member;
 
+pub(crate) mod between;
+
 /// The most things that offers are made for.
 const MOST: usize = 8;
+/// What `-line` asks of a line.
+pub(crate) const REVERSED: &str = "reversed";
 
 /// A selected thing, or a figure that is computed.
 struct Selected {
@@ -65,7 +69,9 @@ pub(crate) fn offers(state: &State, paths: &[Path]) -> Vec<Offer> {
     offers.extend(offerer.middles());
     offers.extend(offerer.dimensions());
     offers.extend(offerer.classes(&offers));
-    offers.extend(offerer.joint(paths).filter(|_| !of_places));
+    // three wholes that are to be one are a slip of the hand
+    let are_many = paths.len() > 2 && paths.iter().all(|path| path.0.len() == 1);
+    offers.extend(offerer.joint(paths).filter(|_| !of_places && !are_many));
     offers
 }
 
@@ -260,13 +266,6 @@ impl Offerer<'_> {
             let stands = ends.flatten().and_then(|(a, b)| self.standing(a, b));
             Some(self.given(stands, self.dimension(name, &lefts, self.written(now))))
         };
-        let angle = || {
-            let [a, b] = self.things else { return None };
-            self.message(a.class, "angle").filter(|m| m.parameters.len() == 1)?;
-            let (radians, _) = self.number(&asked(a, "angle", "to", b))?;
-            let left = format!("{}.angle(to: {})", a.path, b.path);
-            Some(self.dimension("angle", &[left], in_degrees(radians)))
-        };
         let direction = || {
             let [one] = self.things else { return None };
             self.message(one.class, "direction").filter(|m| m.parameters.is_empty())?;
@@ -276,7 +275,7 @@ impl Offerer<'_> {
         };
         let singles =
             ["length", "radius", "side", "width", "height"].into_iter().filter_map(single);
-        let angles = angle().into_iter().chain(direction());
+        let angles = self.angles().into_iter().chain(direction());
         distance().into_iter().chain(singles).chain(angles).collect()
     }
 

@@ -60,6 +60,7 @@ fn is_of_loop(state: &State, instance: ConstraintInstance) -> bool {
 /// assert_eq!(rule_in_words("a.perpendicular(to: b.side1)"), "a ⟂ b.side1");
 /// assert_eq!(rule_in_words("circle.passes(through: line.p2)"), "circle passes through line.p2");
 /// assert_eq!(rule_in_words("a.angle(to: b) = 30 deg"), "angle of a to b = 30 deg");
+/// assert_eq!(rule_in_words("b.angle(to: -a) = 60 deg"), "angle between b and a = 60 deg");
 /// assert_eq!(rule_in_words("q.side1.length = 30 mm"), "length of q.side1 = 30 mm");
 /// assert_eq!(rule_in_words("a.length = b.length"), "a.length = b.length");
 /// assert_eq!(rule_in_words("a.p1.y = a.p2.y"), "a.p1 is level with a.p2");
@@ -78,6 +79,9 @@ pub fn rule_in_words(rule: &str) -> String {
             });
         }
     };
+    if let Some((one, other)) = corner(measured) {
+        return format!("angle between {one} and {other} = {value}");
+    }
     if let Some((one, verb, other)) = asked(measured) {
         let (what, way) = verb.split_once(' ').unwrap_or((&verb, "and"));
         return format!("{what} of {one} {way} {other} = {value}");
@@ -97,6 +101,16 @@ fn level(left: &str, right: &str) -> Option<String> {
         _ => return None,
     };
     (is_path(one) && is_path(other)).then(|| format!("{one} {said} {other}"))
+}
+
+/// The two sides of an angle of which one is turned round at least, so that both run from their corner.
+fn corner(measured: &str) -> Option<(&str, &str)> {
+    let (one, other) = measured.strip_suffix(')')?.split_once(".angle(to: ")?;
+    let first = one.strip_prefix("(-").and_then(|one| one.strip_suffix(')'));
+    let second = other.strip_prefix('-');
+    let is_turned = first.is_some() || second.is_some();
+    let (one, other) = (first.unwrap_or(one), second.unwrap_or(other));
+    (is_turned && is_path(one) && is_path(other)).then_some((one, other))
 }
 
 /// Takes apart what is asked of one thing about another: the one, the message with its label, and the other.

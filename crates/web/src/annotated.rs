@@ -3,7 +3,7 @@
 use crate::lab::{Lab, Notice};
 use crate::{theme, words};
 use leptos::prelude::*;
-use presentation::annotations::{self, Note};
+use presentation::annotations::{self, Moved, Note};
 use presentation::marks::Marked;
 use presentation::paint::{DisplayList, Mark};
 use presentation::paths::covers;
@@ -25,6 +25,8 @@ pub struct Annotated {
     all: RwSignal<Vec<Annotation>>,
     /// Where they were painted last.
     pub notes: StoredValue<Vec<Note>>,
+    /// How far a hand has moved them, while the page shows the document.
+    moved: RwSignal<Moved>,
     /// Whether the next thing that is clicked is given a size.
     pub sizing: RwSignal<bool>,
     /// Where what is given a size was clicked, in the window: it is asked for there.
@@ -38,6 +40,7 @@ impl Annotated {
             shown: RwSignal::new(theme::keep(KEY).is_none_or(|kept| kept != "off")),
             all: RwSignal::new(Vec::new()),
             notes: StoredValue::new(Vec::new()),
+            moved: RwSignal::new(Moved::new()),
             sizing: RwSignal::new(false),
             clicked: StoredValue::new(None),
         }
@@ -52,6 +55,10 @@ impl Default for Annotated {
 
 /// Keeps what the constraints say up to date; during a drag they say what they said.
 pub fn follow(lab: Lab) {
+    Effect::new(move |_| {
+        lab.current.track();
+        lab.annotated.moved.set(Moved::new());
+    });
     Effect::new(move |_| {
         lab.text.track();
         lab.values.track();
@@ -84,7 +91,8 @@ impl Lab {
                     .filter(|one| all.len() <= MOST || is_of(one, marked))
                     .cloned()
                     .collect();
-                let made = annotations::notes(&shown, picture, &view);
+                let moved = self.annotated.moved;
+                let made = moved.with(|m| annotations::notes(&shown, picture, &view, m));
                 annotations::paint(list, &made, &view, |path| mark_of(marked, path));
                 made
             })
@@ -92,9 +100,42 @@ impl Lab {
         notes.set_value(made);
     }
 
-    /// The constraint whose words are at a place on the canvas.
-    pub fn note_at(self, at: (f64, f64)) -> Option<String> {
-        self.annotated.notes.with_value(|notes| annotations::at(notes, at).map(String::from))
+    /// The note whose words are at a place on the canvas.
+    pub fn note_at(self, at: (f64, f64)) -> Option<Note> {
+        self.annotated.notes.with_value(|notes| annotations::at(notes, at).cloned())
+    }
+
+    /// Where a hand has moved notes so far.
+    pub fn moved_notes(self) -> Moved {
+        self.annotated.moved.get_untracked()
+    }
+
+    /// Puts notes where they were.
+    pub fn put_notes_back(self, moved: Moved) {
+        self.annotated.moved.set(moved);
+    }
+
+    /// Moves a note on, as far as a hand went on the canvas.
+    pub fn move_note(self, key: &str, way: (f64, f64)) {
+        self.annotated.notes.with_value(|notes| {
+            self.annotated.moved.update(|moved| annotations::shift(notes, key, way, moved));
+        });
+    }
+
+    /// Moves the words of the constraint that is selected; returns whether it has any.
+    pub fn nudge_note(self, way: (f64, f64)) -> bool {
+        let Some(selected) = self.selected.get_untracked() else { return false };
+        let key = self.annotated.notes.with_value(|notes| {
+            notes.iter().find(|note| note.path == selected).map(|note| note.key.clone())
+        });
+        key.inspect(|key| self.move_note(key, way)).is_some()
+    }
+
+    /// Says, when the first one has been moved, how long it stands there.
+    pub fn note_moved(self, before: &Moved) {
+        if before.is_empty() {
+            self.notice.set(Some(Notice::Said(String::from(words::NOTE_MOVED))));
+        }
     }
 
     /// What types another value of the dimension that a constraint gives; also says it to a panel, as it changes.

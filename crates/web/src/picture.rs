@@ -556,7 +556,14 @@ fn selected_grip(lab: Lab) -> Option<Grip> {
 
 /// Moves what is selected from where it is now; `dy` runs down the screen.
 fn nudge(lab: Lab, dx: f64, dy: f64) -> bool {
+    /// What a constraint says goes so many pixels with each key.
+    const PIXELS: f64 = 4.0;
+    if lab.nudge_note((PIXELS * dx, PIXELS * dy)) {
+        return true;
+    }
     let Some(selected) = lab.selected.get_untracked() else { return false };
+    // what was said just now counts already
+    lab.list();
     let selected = lab.structure.with_untracked(|rows| first_path(rows, selected));
     let Some((x, y)) = lab.press(&selected) else { return true };
     let down = match lab.view.get_untracked().vertical {

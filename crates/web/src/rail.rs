@@ -303,7 +303,7 @@ impl Lab {
     /// The pointer of the keyboard: where the arrow keys, or the mouse, have brought it.
     fn keyboard_pointer(self, size: (f64, f64)) -> Pointer {
         let at = self.cursor.get_untracked().unwrap_or((size.0 / 2.0, size.1 / 2.0));
-        self.pointer_at(at, 12.0, false)
+        Pointer { seen: self.in_sight(size), ..self.pointer_at(at, 12.0, false) }
     }
 
     /// A pointer at a place of the canvas, which finds what is so many pixels from it.
@@ -321,6 +321,15 @@ impl Lab {
                 ..Pointer::default()
             }
         })
+    }
+
+    /// Two opposite corners of what a canvas of a size shows, on the sheet.
+    pub fn in_sight(self, (width, height): (f64, f64)) -> Option<[(f64, f64); 2]> {
+        let corner = |at| {
+            let p = self.view.with_untracked(|view| view.sheet_from_screen(at));
+            (p.x, p.y)
+        };
+        (width > 0.0).then(|| [corner((0.0, 0.0)), corner((width, height))])
     }
 
     /// Inserts a thing of a class where there is room.

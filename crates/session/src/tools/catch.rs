@@ -99,7 +99,8 @@ pub(crate) fn find(sight: &Sight<'_>, pointer: &Pointer) -> Catch {
     if pointer.alone {
         return Catch::at(pointer.at);
     }
-    let found = at_point(sight, pointer).or_else(|| touching(sight, pointer));
+    let found = at_point(sight, pointer).or_else(|| at_body(sight, pointer));
+    let found = found.or_else(|| touching(sight, pointer));
     let found = found.or_else(|| at_shape(sight, pointer)).or_else(|| level(sight, pointer));
     let found = found.or_else(|| aligned(sight, pointer));
     let found = found.unwrap_or_else(|| beside(sight, pointer, Catch::at(pointer.at), [true; 2]));
@@ -144,6 +145,35 @@ fn at_point(sight: &Sight<'_>, pointer: &Pointer) -> Option<Catch> {
             ..at
         })
     })
+}
+
+/// What is no place becomes one with what is like it, wherever that is taken: a relation's line with any line.
+fn at_body(sight: &Sight<'_>, pointer: &Pointer) -> Option<Catch> {
+    let class = sight.class?;
+    if sight.is_reach || sight.state.lowered.document.is_place(class) {
+        return None;
+    }
+    let near = |element: &Element| {
+        let foot = match &element.shape {
+            Shape::Segment(a, b) => on_segment(pointer.at, *a, *b)?,
+            Shape::Circle { center, radius } | Shape::Arc { center, radius, .. } => {
+                on_circle(pointer.at, *center, *radius)?
+            }
+            _ => return None,
+        };
+        let far = hypot(foot.0 - pointer.at.0, foot.1 - pointer.at.1);
+        (far <= pointer.reach).then_some((far, foot))
+    };
+    let elements = sight.picture.drawing.elements.iter();
+    let found = elements.filter_map(|element| {
+        let (far, foot) = near(element)?;
+        let path = parse_path(sight.path(element)?)?;
+        thing_at(sight.state, &path)?;
+        Some((far, foot, joining::partner_of(sight.state, class, &path)?))
+    });
+    let (_, foot, joined) = found.min_by(|a, b| a.0.total_cmp(&b.0))?;
+    let word = Some(format!("joins {joined}"));
+    Some(Catch { word, joins: Some(joined), ..Catch::at(foot) })
 }
 
 /// The rule that what is drawn from the last place to one that it joins is level, or upright, where it is so exactly: the
@@ -261,7 +291,8 @@ fn beside(sight: &Sight<'_>, pointer: &Pointer, found: Catch, free: [bool; 2]) -
     let mut words = Vec::new();
     for axis in [0, 1].into_iter().filter(|&axis| free[axis]) {
         let here = coordinates(pointer.at);
-        let grips = sight.picture.grips.iter().map(|g| (coordinates((g.x, g.y)), &g.path));
+        let grips = sight.picture.grips.iter().filter(|g| pointer.sees((g.x, g.y)));
+        let grips = grips.map(|g| (coordinates((g.x, g.y)), &g.path));
         // of those with the nearest coordinate the nearest
         let least = grips
             .map(|(grip, path)| {

@@ -17,6 +17,16 @@ pub struct Pointer {
     pub angle: Option<f64>,
     /// The grid to which a free place of a construction goes, on the sheet: 1, 2 or 5 of a power of ten; 0 for none.
     pub grid: f64,
+    /// Two opposite corners of what is in view, on the sheet: what lies elsewhere is no guide. All of it, without.
+    pub seen: Option<[(f64, f64); 2]>,
+}
+
+impl Pointer {
+    /// Whether a place is in view.
+    pub(crate) fn sees(&self, (x, y): (f64, f64)) -> bool {
+        let is_within = |x: f64, a: f64, b: f64| a.min(b) <= x && x <= a.max(b);
+        self.seen.is_none_or(|[a, b]| is_within(x, a.0, b.0) && is_within(y, a.1, b.1))
+    }
 }
 
 /// A length as it was typed: `30`, `3 cm`.
@@ -206,8 +216,8 @@ pub enum Shows {
     Length,
     /// At the end of a line from a circle's edge.
     Radius,
-    /// Between two lines.
-    Angle,
+    /// Between two lines, each with whether it is turned round.
+    Angle([bool; 2]),
     /// As a sign beside each thing.
     Relation,
 }

@@ -55,6 +55,10 @@ fn a_selection_is_offered_what_fits_it() {
     has(&["p", "c"], &["on"]);
     has(&["a.p2", "b.p1"], &["merge", "horizontal", "vertical", "distance"]);
     has(&["c", "d"], &["equal radius", "concentric"]);
+    let three = "use geometry\na: Line\nb: Line { p1 = (0, 90) }\nc: Line { p1 = (90, 0) }\n";
+    let three = labels(&Desk::of(three), &["a", "b", "c"]);
+    assert!(three.iter().any(|l| l == "equal length"), "{three:?}");
+    assert!(three.iter().all(|l| l != "merge"), "{three:?}");
     has(&["c"], &["radius"]);
     let of_point = labels(&desk, &["p"]);
     assert!(of_point.iter().all(|l| l != "horizontal"), "{of_point:?}");
@@ -366,7 +370,7 @@ fn what_constraints_say_stands_on_the_drawing_and_is_typed_anew() {
             of("⟂", Shows::Relation, "a b", false),
             of("R 5 mm", Shows::Radius, "c", true),
             of("=", Shows::Relation, "d c", false),
-            of("-90°", Shows::Angle, "b a", true),
+            of("-90°", Shows::Angle([false; 2]), "b a", true),
         ]
     );
     assert!(all.iter().all(|one| one.holds));
@@ -381,6 +385,43 @@ fn what_constraints_say_stands_on_the_drawing_and_is_typed_anew() {
     desk.apply(&Command::Enable { path: at("constraint2"), on: false })
         .expect("it is switched off");
     assert_eq!(desk.session.annotations(desk.id).len(), 6);
+}
+
+#[test]
+fn an_angle_between_two_lines_is_the_one_at_their_corner() {
+    let triangle = "use geometry\na: Line { p1 = (0, 0)  p2 = (100, 0) }\n\
+        b: Line { p1 = (100, 0)  p2 = (50, 86.6025403784439) }\nmerge a.p2 = b.p1\n";
+    let of_angle = |desk: &Desk| {
+        let found = offers(desk, &["a", "b"]).into_iter();
+        found.filter(|offer| ["angle", "supplement"].contains(&&*offer.label)).collect::<Vec<_>>()
+    };
+    let mut desk = Desk::of(triangle);
+    // from one direction to the other it is 120 deg
+    let offered = of_angle(&desk);
+    let values: Vec<Option<&str>> = offered.iter().map(|offer| offer.value.as_deref()).collect();
+    assert_eq!(values, [Some("60 deg"), Some("120 deg")]);
+    take(&mut desk, &["a", "b"], "angle", Some("90 deg"));
+    assert!(desk.text().contains("constraint b.angle(to: -a) = 90 deg\n"), "{}", desk.text());
+    // the corner at (100, 0) is a right angle now
+    let [x, y] = ["b.p2.x", "b.p2.y"].map(|path| desk.number(path));
+    assert!((x - 100.0).abs() < 1e-9 && y > 0.0, "({x}, {y})");
+    let [note] = &*desk.session.annotations(desk.id) else { panic!("one stands") };
+    assert_eq!((&*note.words, note.shows), ("90°", Shows::Angle([false, true])));
+    // told anew it is the same constraint, and the other way round as well
+    for lines in [["a", "b"], ["b", "a"]] {
+        let again: Vec<_> = offers(&desk, &lines).into_iter().filter(|o| o.stands).collect();
+        assert_eq!(again.len(), 1, "{again:?}");
+        assert_eq!(again[0].value.as_deref(), Some("90 deg"));
+    }
+    let more = of_angle(&desk)[0].clone();
+    let refused =
+        desk.session.said(desk.id, &more, Some("200 deg")).expect_err("no angle is so large");
+    assert_eq!(refused.message, "the angle is at most 180 deg: 200 deg is -160 deg");
+    // what a text says from direction to direction stands as well
+    let mut desk = Desk::of(&format!("{triangle}constraint a.angle(to: b) = 120 deg\n"));
+    assert!(of_angle(&desk)[0].stands);
+    take(&mut desk, &["b", "a"], "angle", Some("100 deg"));
+    assert!(desk.text().ends_with("constraint a.angle(to: b) = 100 deg\n"), "{}", desk.text());
 }
 
 #[test]

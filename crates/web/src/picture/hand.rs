@@ -12,6 +12,7 @@ use drawing::Point;
 use leptos::ev::{MouseEvent, PointerEvent};
 use leptos::html::Canvas;
 use leptos::prelude::*;
+use presentation::annotations::{Moved, Note};
 use presentation::band::{Take, banded};
 use presentation::paths::covers;
 use presentation::pick::{pick, pick_word};
@@ -50,6 +51,8 @@ enum Mode {
     Band { start: (f64, f64) },
     /// A band is drawn over what is to be selected, besides what is selected already.
     Select { start: (f64, f64), besides: Vec<String> },
+    /// What a constraint says is pressed, and moved with the hand: by its key, and where all were at first.
+    Note { key: String, last: (f64, f64), before: Moved, is_moved: bool },
     /// Two fingers: their middle and their distance.
     Pinch { middle: (f64, f64), distance: f64 },
 }
@@ -151,16 +154,16 @@ impl Hand {
     }
 
     fn pick_in(self, at: (f64, f64), chosen: Option<&str>) -> Option<String> {
-        if let Some(constraint) = self.note_at(at) {
-            return Some(constraint);
+        if let Some(note) = self.note_at(at) {
+            return Some(note.path);
         }
         let reach = self.reach();
         let view = self.lab.view.get_untracked();
         self.lab.picture.with_untracked(|picture| pick(picture, &view, at, (reach, chosen)))
     }
 
-    /// The constraint whose words are at a place on the canvas; a grip under them is taken all the same.
-    fn note_at(self, at: (f64, f64)) -> Option<String> {
+    /// The note whose words are at a place on the canvas; a grip under them is taken all the same.
+    fn note_at(self, at: (f64, f64)) -> Option<Note> {
         let note = self.lab.note_at(at)?;
         let view = self.lab.view.get_untracked();
         let is_at = |x, y| distance(view.screen_from_sheet(Point { x, y }), at) <= GRIP;
@@ -242,13 +245,15 @@ impl Hand {
             } else if picked.as_ref().is_none_or(|path| self.together(path).is_none()) {
                 self.lab.select(picked.clone());
             }
-            self.set_mode(match picked {
-                // what a constraint says stands where that puts it
-                Some(_) if self.note_at(at).is_some() => Mode::Idle,
-                Some(path) => Mode::Pressed { path, start: at },
+            let before = || self.lab.moved_notes();
+            self.set_mode(match (self.note_at(at), picked) {
+                (Some(Note { key, .. }), _) => {
+                    Mode::Note { key, last: at, before: before(), is_moved: false }
+                }
+                (None, Some(path)) => Mode::Pressed { path, start: at },
                 // a finger moves the sheet
-                None if e.pointer_type() == "touch" => Mode::Pan { last: at },
-                None => Mode::Select { start: at, besides: self.lab.selection_untracked() },
+                (None, None) if e.pointer_type() == "touch" => Mode::Pan { last: at },
+                (None, None) => Mode::Select { start: at, besides: self.lab.selection_untracked() },
             });
         }
     }
@@ -259,8 +264,8 @@ impl Hand {
             return;
         }
         let at = on_canvas(self.canvas, (f64::from(e.client_x()), f64::from(e.client_y())));
-        if let Some(constraint) = self.note_at(at) {
-            if let Some(offer) = untrack(|| self.lab.typed_by(&constraint)) {
+        if let Some(note) = self.note_at(at) {
+            if let Some(offer) = untrack(|| self.lab.typed_by(&note.path)) {
                 self.lab.take_offer(&offer);
             }
             return;
@@ -284,7 +289,10 @@ impl Hand {
         if self.lab.keyed.with_untracked(Option::is_some) {
             self.lab.keyed.set(None);
         }
-        self.lab.pointer_at(at, self.reach(), alone)
+        let size = self.canvas.get_untracked().map(|canvas| canvas.get_bounding_client_rect());
+        let size = size.map(|rect| (rect.width(), rect.height())).unwrap_or_default();
+        let seen = self.lab.in_sight(size);
+        Pointer { seen, ..self.lab.pointer_at(at, self.reach(), alone) }
     }
 
     /// Opens the menu of what lies under the pointer, and selects it; of a tool's hand it is laid down.
@@ -311,7 +319,10 @@ impl Hand {
         });
         let open = move || {
             let is_still = self.state.try_with_value(|state| {
-                let is_held = matches!(state.mode, Mode::Pressed { .. } | Mode::Pan { .. });
+                let is_held = matches!(
+                    state.mode,
+                    Mode::Pressed { .. } | Mode::Pan { .. } | Mode::Note { is_moved: false, .. }
+                );
                 is_held && state.pointers.len() == 1 && Some(state.still) == still
             });
             if still.flatten().is_some() && is_still == Some(true) {
@@ -388,6 +399,12 @@ impl Hand {
                 }
             }
             Mode::Drag { .. } => self.drag_to(at),
+            Mode::Note { key, last, before, is_moved } => {
+                if is_moved || distance(at, last) >= STIR {
+                    self.lab.move_note(&key, (at.0 - last.0, at.1 - last.1));
+                    self.set_mode(Mode::Note { key, last: at, before, is_moved: true });
+                }
+            }
             Mode::Band { start } => self.lab.show_band(start, at),
             Mode::Select { start, .. } => {
                 if distance(start, at) >= STIR {
@@ -526,6 +543,7 @@ impl Hand {
             {
                 self.lab.select(Some(path));
             }
+            Mode::Note { before, is_moved: true, .. } => self.lab.note_moved(&before),
             // Escape may have ended the drag already.
             Mode::Drag { .. } if self.lab.dragging.with_untracked(Option::is_some) => {
                 match self.lab.dropping.get_untracked() {
@@ -538,7 +556,11 @@ impl Hand {
     }
 
     pub(super) fn lost(self, e: &PointerEvent) {
-        let dragged = matches!(self.mode(), Mode::Drag { .. });
+        let mode = self.mode();
+        let dragged = matches!(mode, Mode::Drag { .. });
+        if let Mode::Note { before, .. } = mode {
+            self.lab.put_notes_back(before);
+        }
         self.lab.band.set(None);
         self.let_go(e);
         if dragged {

@@ -6,6 +6,8 @@ pub const EMPTY_SHEET: &str = "The sheet is empty. Draw with a tool of the rail,
 pub const SIZING: &str = "Dimension: click a line, a circle or two points; with Shift two lines, for their angle; Esc: done";
 /// What constraints say, on the drawing.
 pub const ANNOTATIONS: &str = "Show or hide dimensions and signs";
+/// What is said once words have been moved on the drawing.
+pub const NOTE_MOVED: &str = "Moved for as long as this page shows the document: the text does not say where dimensions stand";
 /// A value that a constraint gives.
 pub const TYPE_VALUE: &str = "Type another value (D)";
 /// A dimension that only reads.
