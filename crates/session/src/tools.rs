@@ -31,7 +31,7 @@ use drawing::{Color, Element, Layer, Line, Point, Shape, Style, Tag};
 use kernel::{Command, Literal, Path, Step};
 use stages::{Stage, stages};
 use std::cell::RefCell;
-use syntax::ast::{AstNode, Member};
+use syntax::ast::{AstNode, Expr, Member, Value};
 
 /// A tool in the hand.
 pub(crate) struct Tool {
@@ -305,12 +305,24 @@ impl Tool {
         host: &dyn Host,
     ) -> Result<ToolView, Refusal> {
         let catch = self.catch(state, pointer);
+        if let Some(kind) = self.wanted().filter(|_| catch.joins.is_none()) {
+            let message = format!("{} sticks to a {kind}: there is none here", self.class);
+            return Err(words::refuse(message));
+        }
         self.set_to(catch, host)?;
         let mut view = self.view();
         if self.set.len() == self.stages.len() {
             view.command = Some(self.command(host));
         }
         Ok(view)
+    }
+
+    /// The class of what must be there, where the tool makes what nobody would see by itself: a relation of things.
+    fn wanted(&self) -> Option<Name> {
+        let stage = self.stages.get(self.set.len())?;
+        let is_unseen = || self.view().preview.elements.is_empty();
+        stage.whole().filter(|_| is_unseen())?;
+        stage.class(&self.trial.state, &self.name)
     }
 
     fn set_to(&mut self, catch: Catch, host: &dyn Host) -> Result<(), Refusal> {
@@ -366,6 +378,9 @@ impl Tool {
             && !self.trial.state.structure.constraints.is_empty();
         let sorts = if is_free { &[SOLVED, COMPUTED][..] } else { &[COMPUTED] };
         let mut members = digits::without_noise(&self.trial, &self.name, sorts, host);
+        let joined = self.stages.iter().zip(&self.set).filter(|(_, catch)| catch.joins.is_some());
+        let wholes = joined.filter_map(|(stage, _)| stage.whole());
+        members = without_sizes(&members, &wholes.map(ToString::to_string).collect::<Vec<_>>());
         for (stage, catch) in self.stages.iter().zip(&self.set) {
             if let Some(other) = &catch.joins {
                 members.push_str(&format!("\nmerge {other} = {}", self.own(stage)));
@@ -506,6 +521,28 @@ pub(crate) fn member_of(text: &str, name: &str) -> String {
     };
     let member = { file.members() }.find(is_it);
     member.map(|m| m.syntax().text().to_string().trim().to_string()).unwrap_or_default()
+}
+
+/// Takes away what a thing's text gives of parts that are joined to others, but for places, which may be these others'
+/// own: the radius of a circle that is a circle of the sheet.
+fn without_sizes(member: &str, parts: &[String]) -> String {
+    let file = syntax::parse(base::FileId(0), member).file();
+    let body = file.members().find_map(|member| match member {
+        Member::Part(part) => part.body(),
+        _ => None,
+    });
+    let is_size = |said: &Member| match said {
+        Member::Assign(assign) if !matches!(assign.value(), Some(Value::Expr(Expr::Tuple(_)))) => {
+            let target = assign.target().map(|target| target.syntax().text().to_string());
+            let target = target.unwrap_or_default();
+            let rest = parts.iter().find_map(|part| target.trim().strip_prefix(part.as_str()));
+            rest.is_some_and(|rest| rest.starts_with('.'))
+        }
+        _ => false,
+    };
+    let gone = body.into_iter().flat_map(|body| body.members()).filter(is_size);
+    let edits: Vec<_> = gone.map(|said| syntax::edit::delete_member(said.syntax())).collect();
+    syntax::edit::apply(member, &edits)
 }
 
 /// Sets a place, as a command carries it.

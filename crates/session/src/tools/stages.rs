@@ -43,6 +43,14 @@ impl Stage {
         }
     }
 
+    /// The part that it sets, where that is more than a place.
+    pub(crate) fn whole(&self) -> Option<&Path> {
+        match self {
+            Self::Place { part, place } => Some(part).filter(|part| *part != place),
+            Self::Reach { .. } | Self::Far { .. } => None,
+        }
+    }
+
     /// The name of the class of what it sets, where that can stick to something.
     pub(crate) fn class(&self, trial: &State, name: &str) -> Option<Name> {
         let Self::Place { part, .. } = self else { return None };

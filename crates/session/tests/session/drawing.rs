@@ -83,6 +83,10 @@ fn a_bracket_drawn_by_eye_closes_with_an_upright_side() {
     assert!(below.caught.is_some_and(|c| c.word.starts_with("in line with line")));
     let alone = Pointer { alone: true, ..pointer(399.0, -80.0) };
     assert_eq!(desk.session.tool_moved(desk.id, &alone).expect("a tool").caught, None);
+    // nor with a corner that is out of view
+    let elsewhere = Some([(350.0, -200.0), (500.0, -10.0)]);
+    let far = Pointer { seen: elsewhere, ..pointer(399.0, -80.0) };
+    assert_eq!(desk.session.tool_moved(desk.id, &far).expect("a tool").caught, None);
 }
 
 #[test]
@@ -525,4 +529,42 @@ fn an_angle_of_more_than_half_a_turn_that_is_typed_holds() {
     holds(&desk);
     assert!(desk.text().contains("constraint line.direction = -90 deg"), "{}", desk.text());
     assert_eq!(desk.place("line.p2").1, -50.0);
+}
+
+#[test]
+fn the_parts_of_a_relation_are_dropped_on_lines_and_circles() {
+    let text = "use geometry\na: Line { p1 = (0, 0)  p2 = (100, 10) }\nb: Line { p1 = (0, 60)  p2 = (90, 90) }\n\
+                c: Circle { center = (200, 50)  radius = 40 }\n";
+    let mut desk = Desk::of(text);
+    let hint = desk.session.take_tool(desk.id, "Parallel").expect("geometry has it").hint;
+    assert!(hint.starts_with("Parallel: click or press to set its line a;"), "{hint}");
+    // nobody would see a line that is the relation's alone
+    let nowhere =
+        desk.session.tool_set(desk.id, &pointer(50.0, 300.0)).expect_err("nothing is there");
+    assert_eq!(nowhere.message, "Parallel sticks to a Line: there is none here");
+    let over = desk.session.tool_moved(desk.id, &pointer(51.0, 8.0)).expect("a tool");
+    assert_eq!(over.caught.map(|c| c.word).as_deref(), Some("joins a"));
+    click(&mut desk, &pointer(51.0, 8.0));
+    click(&mut desk, &pointer(45.0, 72.0));
+    holds(&desk);
+    let made = desk.text();
+    assert!(made.contains("merge a = parallel.a\nmerge b = parallel.b\n"), "{made}");
+    assert_eq!(desk.session.status(desk.id).freedom, 9, "{made}");
+    assert!(desk.wrong().is_empty(), "{made}");
+    // the first line stays where it was
+    assert!(made.contains("a: Line { p1 = (0, 0)  p2 = (100, 10) }"), "{made}");
+    let [ax, ay] = [desk.number("a.p2.x"), desk.number("a.p2.y")];
+    let [bx, by] = [
+        desk.number("b.p2.x") - desk.number("b.p1.x"),
+        desk.number("b.p2.y") - desk.number("b.p1.y"),
+    ];
+    assert!((ax * by - ay * bx).abs() < 1e-6, "{made}");
+    // a point by its place, a circle by its rim
+    desk.session.take_tool(desk.id, "PointOnCircle").expect("geometry has it");
+    click(&mut desk, &pointer(200.0, 91.0));
+    click(&mut desk, &pointer(100.0, 10.0));
+    let made = desk.text();
+    assert!(made.contains("merge c = pointOnCircle.circle\n"), "{made}");
+    assert!(made.contains("merge a.p2 = pointOnCircle.point\n"), "{made}");
+    holds(&desk);
 }
