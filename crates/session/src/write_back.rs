@@ -12,7 +12,9 @@ use crate::host::Host;
 use crate::state::State;
 use crate::tools::digits;
 use base::number::{RULE_TOLERANCE, Toward, close};
-use kernel::{GivenIn, Literal, Path, Primitive, SideWay, SlotId, ThingId, Value, Values};
+use kernel::{
+    GivenIn, GivenTerm, Literal, Path, Primitive, SideWay, SlotId, Term, ThingId, Value, Values,
+};
 use plan::{Planner, Plans};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -92,10 +94,11 @@ fn written(
     loop {
         let writes: Vec<(Path, Literal)> = written
             .iter()
-            .map(|&t| {
+            .flat_map(|&t| {
                 let at = written_at(state, t);
-                (state.structure.path(&state.lowered.document, at), literal(state, t, wanted))
+                std::iter::once(at).chain(given_alike(state, at))
             })
+            .map(|t| (state.structure.path(&state.lowered.document, t), literal(state, t, wanted)))
             .collect();
         let edits = match meant {
             Some(meant) => lang::write_rounded(&state.lowered, &writes, meant),
@@ -318,6 +321,36 @@ fn written_at(state: &State, unit: ThingId) -> ThingId {
         })
     };
     others.into_iter().find(gives).unwrap_or(unit)
+}
+
+/// Returns what else the text gives of what is merged with a thing, where it gives the same numbers: they go on agreeing.
+fn given_alike(state: &State, at: ThingId) -> Vec<ThingId> {
+    let structure = &state.structure;
+    let number = |given: Option<&GivenTerm>| match given {
+        Some(GivenTerm { term: Term::Number { value, .. }, origin, .. }) => {
+            state.lowered.is_own_given(*origin).then_some((*value, *origin))
+        }
+        _ => None,
+    };
+    let is_alike = |&leaf: &ThingId| {
+        let given = structure.slot_of(leaf).and_then(|slot| number(structure.given(slot)));
+        let both = given.zip(number(structure.given_apart(leaf)));
+        both.is_some_and(|((is, by), (own, at))| by != at && is.to_bits() == own.to_bits())
+    };
+    let class = |t: ThingId| structure.things[t].class;
+    let others = structure.merged_with(at).into_iter();
+    let others = others.filter(|&t| t != at && class(t) == class(at));
+    let alike = others.filter_map(|t| {
+        let leaves = match structure.slot_of(t) {
+            Some(_) => vec![t],
+            None => structure.parts(t).collect(),
+        };
+        let is_given = |leaf: &ThingId| number(structure.given_apart(*leaf)).is_some();
+        let given: Vec<ThingId> = leaves.into_iter().filter(is_given).collect();
+        // of a place that is elsewhere no coordinate follows
+        given.iter().all(is_alike).then_some(given)
+    });
+    alike.flatten().collect()
 }
 
 /// Returns what a thing is worth, as the language writes it.
