@@ -212,16 +212,16 @@ pub(crate) fn pasting(
     clip: &Clip,
     aside: u32,
 ) -> Result<(Command, Vec<String>), Refusal> {
-    lengths::count_alike(clip.measure.as_ref(), &open.state.lowered.document)?;
+    let measured = lengths::measured(clip, &open.state.lowered.document, host)?;
     let names = free_names(&open.state, &clip.things);
     let called = |name: &Name| names.get(name).cloned().unwrap_or_else(|| name.to_string());
-    let written = |copied: &Copied| {
+    let written = |(copied, units): (&Copied, &Vec<TextEdit>)| {
         let names = { copied.names.iter() }
             .map(|(span, name)| TextEdit { span: *span, insert: called(name) });
-        let edits: Vec<TextEdit> = names.collect();
+        let edits: Vec<TextEdit> = names.chain(units.iter().cloned()).collect();
         syntax::edit::apply(&copied.text, &edits).trim().to_string()
     };
-    let members: Vec<String> = clip.members.iter().map(written).collect();
+    let members: Vec<String> = clip.members.iter().zip(&measured.edits).map(written).collect();
     let own = match clip.relations {
         Relations::Own => of_classes(&open.state.text),
         Relations::All => open.state.text.clone(),
@@ -238,7 +238,10 @@ pub(crate) fn pasting(
     if errors(&trial).len() > errors(&before).len() {
         // what the copies mean comes along, where it is not there
         let known = header(&own);
-        brought = clip.header.iter().filter(|said| !known.contains(said)).cloned().collect();
+        let has_unit = open.state.lowered.document.unit.is_some();
+        let is_new =
+            |said: &&String| !known.contains(said) && !(has_unit && said.starts_with("unit "));
+        brought = clip.header.iter().filter(is_new).cloned().collect();
         base = format!("{}\n{own}", brought.join("\n"));
         trial = with(&base);
     }
@@ -265,8 +268,8 @@ pub(crate) fn pasting(
     }
     let copies: Vec<String> = clip.things.iter().map(|(name, _)| called(name)).collect();
     let far = f64::from(aside) * across(&trial.state.lowered.document) / ASIDE;
-    let is_placed =
-        clip.relations == Relations::Own && put_aside(&mut trial, host, clip, &called, far);
+    let is_placed = clip.relations == Relations::Own
+        && put_aside(&mut trial, host, (clip, measured.scale), &called, far);
     let moved = is_placed || move_aside(&mut trial, host, &copies, far);
     let is_kept = |text: &str| text.starts_with(base.trim_end());
     let moved = moved && (clip.relations == Relations::Own || is_kept(&trial.state.text));
@@ -308,7 +311,7 @@ fn free_names(state: &State, things: &[(Name, Name)]) -> BTreeMap<Name, String> 
 fn put_aside(
     trial: &mut Open,
     host: &dyn Host,
-    clip: &Clip,
+    (clip, scale): (&Clip, f64),
     called: &dyn Fn(&Name) -> String,
     far: f64,
 ) -> bool {
@@ -316,7 +319,7 @@ fn put_aside(
         let (Step::Part(name), rest) = path.0.split_first()? else { return None };
         let first = Step::Part(Name::new(&called(name)));
         let path = Path(std::iter::once(first).chain(rest.iter().cloned()).collect());
-        let place = [x, y].map(|x| Literal::Number(x + far)).to_vec();
+        let place = [x, y].map(|x| Literal::Number(scale * x + far)).to_vec();
         Some((path, Literal::Tuple(place)))
     };
     let Some(targets) = clip.places.iter().map(target).collect::<Option<Vec<_>>>() else {

@@ -212,10 +212,30 @@ fn pasted(from: &str, into: &str) -> Desk {
 const PLATE: &str = "use geometry\nunit mm\nplate: Rectangle { corner = (10, 20)  width = 80  height = 50 mm }\nhole: Circle { center = (50, 45)  radius = 6 }\nconstraint hole.radius = 6\nconstraint plate.width = 2 * (plate.height - 10)\n";
 
 #[test]
-fn what_would_be_of_other_lengths_in_a_sheet_of_another_unit_is_not_pasted() {
+fn a_copy_in_a_sheet_of_another_unit_is_as_large() {
+    let desk = pasted(PLATE, "use geometry\nunit cm\np: Point = (1, 1)\n");
+    let text = desk.text();
+    for said in [
+        "width = 80 mm  height = 50 mm",
+        "radius = 6 mm",
+        "constraint hole.radius = 6 mm",
+        "constraint plate.width = 2 * (plate.height - 10 mm)",
+    ] {
+        assert!(text.contains(said), "{text}");
+    }
+    assert!((desk.number("plate.width") - 8.0).abs() < 1e-9, "{text}");
+    assert!((desk.number("hole.radius") - 0.6).abs() < 1e-9, "{text}");
+    let apart = desk.number("hole.center.x") - desk.number("plate.corner.x");
+    assert!((apart - 4.0).abs() < 1e-9, "{text}");
+}
+
+#[test]
+fn what_would_be_of_another_size_in_a_sheet_of_another_unit_is_not_pasted() {
     let desk = Desk::of("use geometry\nunit cm\np: Point = (1, 1)\n");
-    let clip = desk.session.copies_in(PLATE).expect("it says something of things");
-    let refused = desk.session.pasting(desk.id, &clip, 0).map(|_| ()).expect_err("of 80 mm 80 cm");
+    let area = format!("{PLATE}wanted: Area = 4000\n");
+    let clip = desk.session.copies_in(&area).expect("it says something of things");
+    let refused =
+        desk.session.pasting(desk.id, &clip, 0).map(|_| ()).expect_err("of 4000 mm² 4000 cm²");
     assert_eq!(
         refused.message,
         "the copy is of a sheet in mm, this one counts in cm: its lengths would be others here"
