@@ -8,9 +8,12 @@ use crate::element::{
     Anchoring, Color, Corner, Drawing, Element, Line, Placement, Point, Shape, Style, Tag, Vertical,
 };
 use crate::{curve, metrics, spline};
-use base::number::{atan2, rounded, shortest};
+use base::number::{atan2, rounded, shortest, significant};
 use std::f64::consts::TAU;
 use std::fmt::Write as _;
+
+/// The frame of a picture has so many digits.
+const FRAME: usize = 9;
 
 /// How a drawing is written.
 #[derive(Clone, Copy)]
@@ -74,14 +77,16 @@ pub fn write(drawing: &Drawing, options: &SvgOptions<'_>) -> String {
     let (width, height) = (around.width() + 2.0 * margin, around.height() + 2.0 * margin);
     let mut out = String::new();
     let pixels = |length: f64| rounded(length * options.pixels_per_unit, 2);
+    // how much is in sight is a matter of the eye
+    let framed = |length: f64| significant(length, FRAME);
     line(
         &mut out,
         format_args!(
             r#"<svg xmlns="http://www.w3.org/2000/svg" viewBox="{} {} {} {}" width="{}" height="{}" role="img">"#,
-            shortest(around.least.x - margin),
-            shortest(top - margin),
-            shortest(width),
-            shortest(height),
+            framed(around.least.x - margin),
+            framed(top - margin),
+            framed(width),
+            framed(height),
             pixels(width),
             pixels(height),
         ),

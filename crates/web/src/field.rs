@@ -21,7 +21,13 @@ pub fn scroll_to(id: &str) {
 
 /// One line that says why a value was refused.
 pub fn reason(refusal: &Refusal) -> String {
-    let wrong = refusal.diagnostics.iter().map(|d| match &d.hint {
+    // what the refusal says already is not said again
+    let is_said = |said: &String| refusal.message.contains(said.as_str());
+    let new = refusal
+        .diagnostics
+        .iter()
+        .filter(|d| !is_said(&d.message) || d.hint.as_ref().is_some_and(|hint| !is_said(hint)));
+    let wrong = new.map(|d| match &d.hint {
         Some(hint) => format!("{}; {hint}", d.message),
         None => d.message.clone(),
     });

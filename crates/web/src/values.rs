@@ -233,6 +233,13 @@ fn Scrub(
             }
         }
     };
+    let cancel = move |_: PointerEvent| {
+        latest.set_value(None);
+        let was = start.try_update_value(Option::take).flatten();
+        if was.is_some_and(|(_, _, dragging)| dragging) {
+            lab.cancel();
+        }
+    };
     let end = move |_: PointerEvent| {
         frame();
         let was = start.try_update_value(Option::take).flatten();
@@ -251,7 +258,7 @@ fn Scrub(
             on:pointerdown=down
             on:pointermove=moved
             on:pointerup=end
-            on:pointercancel=end
+            on:pointercancel=cancel
         >
             <span class="owner">{owner}</span>
             <span class="name">{name}</span>
@@ -322,6 +329,15 @@ pub fn Slider(
             lab.notice.set(said.err().map(Notice::Refused));
         }
     };
+    // a hand that the browser takes away has chosen nothing
+    let cancel = move || {
+        if pressed.try_update_value(std::mem::take) == Some(true) {
+            lab.cancel();
+        }
+        if counted.try_update_value(Option::take).flatten().is_some() {
+            lab.notice.set(None);
+        }
+    };
     let step = move || {
         let (least, most) = range.get();
         if whole.get() { 1.0 } else { (most - least) / STEPS }
@@ -343,7 +359,7 @@ pub fn Slider(
                         let is = number.get_untracked().unwrap_or_default().to_string();
                         event_target::<web_sys::HtmlInputElement>(&e).set_value(&is);
                     }
-                    on:pointerup=move |_| done() on:pointercancel=move |_| done() />
+                    on:pointerup=move |_| done() on:pointercancel=move |_| cancel() />
                 </div>
             }
         })
@@ -432,6 +448,7 @@ fn Field(lab: Lab, row: Memo<Option<ValueRow>>, selects: bool) -> impl IntoView 
         view! {
             <input
                 class="field"
+                class:typing=move || typed.with(Option::is_some)
                 autocomplete="off"
                 spellcheck="false"
                 aria-label=path

@@ -3,9 +3,11 @@
 
 use browser::Visit;
 use browser::hands::{
-    begin, chord, drag, grip, keys, middle, point, select, show, state, text_of, touch,
+    begin, chord, drag, grip, key, keys, middle, point, select, show, state, text_of, touch,
 };
-use fantoccini::actions::{MOUSE_BUTTON_LEFT, MOUSE_BUTTON_RIGHT};
+use fantoccini::actions::{
+    InputSource, KeyAction, KeyActions, MOUSE_BUTTON_LEFT, MOUSE_BUTTON_RIGHT,
+};
 use serde_json::json;
 use std::time::Duration;
 
@@ -132,6 +134,15 @@ async fn a_line_is_drawn_named_and_given_a_length_by_the_keyboard_alone() {
     let named = state(&visit).await;
     assert_eq!(named["selected"], "base");
     assert_eq!(named["status"]["satisfied"], true);
+    // a name that is taken back is selected no longer
+    chord(&visit, &[CONTROL], 'z').await;
+    visit.until("window.__thinglab.state().text.includes('line.length = 120')").await;
+    assert_ne!(state(&visit).await["selected"], "base");
+    chord(&visit, &[CONTROL, SHIFT], 'z').await;
+    visit.until("window.__thinglab.state().text.includes('base.length = 120')").await;
+    visit.script("document.getElementById('tab-structure').click()").await;
+    visit.script("document.querySelector('[role=treeitem][data-path=base]').click()").await;
+    visit.until("window.__thinglab.state().selected === 'base'").await;
 
     // K goes to what can be said of it
     chord(&visit, &[], 'k').await;
@@ -254,6 +265,18 @@ async fn a_corner_dropped_on_another_is_joined_in_one_step_and_alt_leaves_it() {
     chord(&visit, &[CONTROL], 'z').await;
     visit.until("window.__thinglab.state().grips.length === 4").await;
     assert_eq!(text_of(&state(&visit).await), text_of(&before));
+    // with Alt it is only moved there
+    let alt = |action| KeyActions::new("keys".into()).then(action);
+    let held = alt(KeyAction::Down { value: key::ALT });
+    visit.client.perform_actions(held).await.expect("Alt is held");
+    drag(&visit, grip(&before, "b.p1"), grip(&before, "a.p2")).await;
+    let free = alt(KeyAction::Up { value: key::ALT });
+    visit.client.perform_actions(free).await.expect("Alt is let go");
+    visit.until("window.__thinglab.state().status.undo === 'move b.p1'").await;
+    let moved = state(&visit).await;
+    assert!(!text_of(&moved).contains("merge"), "{}", text_of(&moved));
+    let (one, other) = (grip(&moved, "b.p1"), grip(&moved, "a.p2"));
+    assert!((one.0 - other.0).abs() < 2.0 && (one.1 - other.1).abs() < 2.0, "{one:?} {other:?}");
 }
 
 #[tokio::test]

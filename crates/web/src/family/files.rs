@@ -41,7 +41,8 @@ pub fn save(family: Family, format: Format) {
     };
     let question = LongQuestion::Rows { family: name, rows, formats };
     let refused = family.refused;
-    family.lab.ask_long(Kind::Files, question, move |told| match told {
+    let kind = if formats.svg { Kind::Svg } else { Kind::Dxf };
+    family.lab.ask_long(kind, question, move |told| match told {
         Told::Part(LongAnswer::Row(outcome)) => {
             come.try_update_value(|all| all.push(outcome));
         }

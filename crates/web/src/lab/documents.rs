@@ -285,6 +285,8 @@ impl Lab {
             || self.prototype.with_untracked(Option::is_some)
             || self.attachers.with_untracked(Option::is_some)
             || self.drafts()
+            // a value of the inspector or the table that is not given yet
+            || document().query_selector(".field.typing").is_ok_and(|field| field.is_some())
     }
 
     /// Waits until nothing is dragged.

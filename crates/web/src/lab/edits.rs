@@ -442,7 +442,7 @@ impl Lab {
             asked.unwrap_or_default()
         };
         let rest: Vec<String> = selection.iter().filter(is_there).cloned().collect();
-        if selection.len() > 1 && rest.len() < selection.len() {
+        if rest.len() < selection.len() {
             self.select_all(&rest);
         }
     }

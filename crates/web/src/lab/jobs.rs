@@ -30,8 +30,10 @@ pub enum Kind {
     Rows,
     /// The map of a program.
     Map,
-    /// The files of a family's rows.
-    Files,
+    /// The files of a family's rows, each kind for itself.
+    Svg,
+    /// In millimetres.
+    Dxf,
 }
 
 /// What is told of a job.

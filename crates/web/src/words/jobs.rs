@@ -23,7 +23,7 @@ pub fn job(kind: Kind) -> &'static str {
         Kind::Freedom => "Counting what is free",
         Kind::Rows => "Drawing rows",
         Kind::Map => "Making the map",
-        Kind::Files => "Drawing the files of a family",
+        Kind::Svg | Kind::Dxf => "Drawing the files of a family",
     }
 }
 
