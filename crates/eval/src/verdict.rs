@@ -13,7 +13,9 @@ use crate::sway::Order;
 use base::Name;
 use base::number::{Tolerance, close, pow, shortest};
 use expr::dimension::Dimension;
-use kernel::{Aspect, BinaryOperator, ConstraintInstance, Setting, Term, ThingId, UnaryOperator};
+use kernel::{
+    Aspect, BinaryOperator, ClassKind, ConstraintInstance, Setting, Term, ThingId, UnaryOperator,
+};
 
 /// What a test found.
 #[derive(Clone, PartialEq, Debug, Default)]
@@ -373,6 +375,9 @@ impl<'a> Evaluator<'a> {
             Answer::Option(..) => self.option_name(answer),
             Answer::Text(text) => format!("\"{text}\""),
             Answer::Thing(thing) => match self.by_position(answer) {
+                Ok(parts) if matches!(self.class_kind(*thing), ClassKind::List(_)) => {
+                    self.listed(&parts, '[', ']')
+                }
                 Ok(parts) if self.is_flat(&parts) => self.listed(&parts, '(', ')'),
                 _ => self.structure.path(self.document, *thing).to_string(),
             },

@@ -48,7 +48,8 @@ pub struct Document {
 /// The units in which a text writes a sort of quantity: feet, days, litres.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Usual {
-    /// The units; none where it writes one of SI with a prefix of a thousand.
+    /// The units, those that it writes most often first, of equals the larger; none where it writes one of SI with a
+    /// prefix of a thousand.
     pub units: Vec<Name>,
     /// A smaller number is not shown in one of them.
     pub least: f64,

@@ -126,15 +126,16 @@ pub fn in_unit(x: f64, dimension: Dimension, spelling: &str, document: &Document
 pub fn spelling_for(x: f64, quantity: Quantity<'_>, document: &Document) -> String {
     let Quantity { dimension, class, written } = quantity;
     let size = |spelling: &str| in_unit(x, dimension, spelling, document).abs();
-    if class == "Angle" {
-        return "deg".into();
-    }
     let last = written.trim_end_matches([')', ']', ',', '}']).rsplit(char::is_whitespace).next();
     // `5%` is one word, and `1/min` is a unit
     let digits = |c: char| c.is_ascii_digit() || c == '.';
     let words = last.into_iter().flat_map(|word| [word, word.trim_start_matches(digits)]);
     let fits = |spelling: &&str| units::unit(spelling).is_some_and(|u| u.dimension == dimension);
     let written = { words }.find(fits);
+    if class == "Angle" {
+        let is_of_degrees = |s: &&str| matches!(*s, "arcmin" | "arcsec");
+        return written.filter(is_of_degrees).unwrap_or("deg").into();
+    }
     if let Some(spelling) = written.filter(|s| x == 0.0 || (1e-3..1e6).contains(&size(s))) {
         return spelling.into();
     }
@@ -192,7 +193,7 @@ pub fn of_si(class: &str, dimension: Dimension) -> Option<&'static str> {
 }
 
 /// The unit in which the text writes such quantities, where it is none that a prefix of a thousand makes of that of SI:
-/// of several the largest in which the number is not below one. A sheet's own unit of length comes first.
+/// of several the first in which the number is not below one. A sheet's own unit of length comes first.
 fn usual(
     class: &str,
     dimension: Dimension,
@@ -203,10 +204,10 @@ fn usual(
         return None;
     }
     let (units, least) = usual_of(class, dimension, document)?;
-    let mut sized: Vec<(f64, &Name)> = units.into_iter().map(|unit| (size(unit), unit)).collect();
-    sized.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let sized: Vec<(f64, &Name)> = units.into_iter().map(|unit| (size(unit), unit)).collect();
     let is_readable = |x: f64| x == 0.0 && least < 1.0 || (least..MOST_READABLE).contains(&x);
-    let best = sized.iter().find(|(x, _)| *x >= 1.0).or(sized.last());
+    let smallest = || sized.iter().max_by(|a, b| a.0.total_cmp(&b.0));
+    let best = sized.iter().find(|(x, _)| *x >= 1.0).or_else(smallest);
     best.filter(|(x, _)| is_readable(*x)).map(|(_, unit)| unit.to_string())
 }
 
@@ -375,7 +376,8 @@ fn raised(power: i8, rest: &str, size: impl Fn(&str) -> f64) -> String {
 
 /// Returns a unit of SI with the largest prefix with which the number is not below one.
 fn prefixed(spelling: &str, size: impl Fn(&str) -> f64) -> String {
-    // the kilogram has its prefix already, squares have none, and nobody counts in kiloseconds or megametres a second
+    // the kilogram has its prefix already, squares have none, and nobody counts in kiloseconds, megametres or
+    // megametres a second
     let stem = if spelling == "kg" { "g" } else { spelling };
     let first = stem.split(['*', '/']).next().unwrap_or_default();
     let highest = match stem {
@@ -402,7 +404,8 @@ fn prefixed(spelling: &str, size: impl Fn(&str) -> f64) -> String {
     };
     let rung = |&(prefix, by, _): &(&str, i8, f64)| {
         let spelling = format!("{prefix}{stem}");
-        units::unit(&spelling).filter(|u| by <= highest && is_known(*u, by)).map(|_| spelling)
+        let is_used = by <= highest && spelling != "Mm";
+        units::unit(&spelling).filter(|u| is_used && is_known(*u, by)).map(|_| spelling)
     };
     // as it is shown, so that 999.9999 is a thousand
     let reads =

@@ -3,10 +3,11 @@
 //! Without `unit mm` a bare length counts in plain units of the sheet, each one metre to what has a unit: `5 cm` is
 //! 0.05 of them. Few writers mean that, so it is said.
 
+use crate::checks::StatementKind;
 use crate::lower::{Lowered, OWN};
 use base::{Diagnostic, Place};
 use expr::dimension::Dimension;
-use kernel::{OriginId, Term};
+use kernel::Term;
 use syntax::ast::{AstNode, NumberExpr};
 
 /// The code of the warning.
@@ -48,17 +49,20 @@ impl Lowered {
         let is = base::number::shortest(si);
         let message = format!("{written} is {is} here, where other lengths have no unit");
         let place = Place { file: OWN, span: number.span() };
-        let d = Diagnostic::warning(CODE, place, message).label(self.place(bare), "this has none");
+        let d = Diagnostic::warning(CODE, place, message).label(bare, "this has none");
         Some(d.hint(format!(
             "say what a length without a unit is: `unit {unit}`, in a line of its own"
         )))
     }
 
-    /// Returns where the text first gives a length without a unit, if it does.
-    fn first_bare_length(&self) -> Option<OriginId> {
+    /// Returns where the text first gives a length without a unit, or a check sets one, if it does.
+    fn first_bare_length(&self) -> Option<Place> {
         let givens = self.document.classes.iter().flat_map(|(_, class)| &class.givens);
         let mut bare = givens.filter(|g| self.place(g.origin).file == OWN && has_bare(&g.value));
-        bare.next().map(|g| g.origin)
+        let statements = self.checks.iter().flat_map(|check| &check.statements);
+        let mut set = statements.filter(|statement| sets_bare(&statement.kind));
+        let given = bare.next().map(|g| self.place(g.origin));
+        given.or_else(|| set.next().map(|s| Place { file: OWN, span: s.span }))
     }
 }
 
@@ -68,6 +72,20 @@ fn length(number: &NumberExpr) -> Option<f64> {
     let (si, dimension) = expr::units::read_quantity(digits.text(), unit.text())?;
     let (one, _) = expr::units::read_quantity("1", unit.text())?;
     (dimension == Dimension::LENGTH && si != 0.0 && one != 1.0).then_some(si)
+}
+
+/// Returns true for a statement of a check that sets or moves something to a length without a unit.
+fn sets_bare(statement: &StatementKind) -> bool {
+    match statement {
+        StatementKind::Set(targets) | StatementKind::Move(targets) => {
+            targets.iter().any(|(_, value)| has_bare(value))
+        }
+        StatementKind::Try(inner) => sets_bare(inner),
+        StatementKind::Note(..)
+        | StatementKind::Command(_)
+        | StatementKind::Expect(_)
+        | StatementKind::Unclear => false,
+    }
 }
 
 fn has_bare(term: &Term) -> bool {

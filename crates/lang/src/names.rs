@@ -135,6 +135,10 @@ impl Lowerer<'_> {
             let kind = self.builtin_kind(b.result, &Kind::Unknown);
             return Some((Term::Call { name, arguments: Vec::new() }, kind));
         }
+        // a part of this name, which has an error of its own
+        if scope.classes.iter().any(|&class| self.is_broken(class, &name)) {
+            return None;
+        }
         let takes: Vec<&str> = b.parameters.iter().map(|p| p.label).collect();
         let message = format!("{name} is a function: `{name}({})`", takes.join(", "));
         let place = Place { file: scope.file, span: word.span() };
@@ -180,8 +184,11 @@ impl Lowerer<'_> {
             return;
         }
         let place = Place { file: scope.file, span: word.span() };
-        // behind a name without its colon it is told already
-        if self.said.contains(&(place, "expected-colon")) {
+        // behind a name without its colon, or before a text, `f"…"`, it is told already
+        if ["expected-colon", "expected-member"]
+            .iter()
+            .any(|code| self.said.contains(&(place, code)))
+        {
             return;
         }
         if word.text() == FOR {

@@ -56,13 +56,15 @@ pub(crate) fn of<'a>(
     let quantities: Vec<(f64, Dimension)> = stated.iter().filter_map(quantity).collect();
     let has_unit = parse.outline().any(|(kind, _)| kind == SyntaxKind::UnitLine);
     let any = |is: fn(Dimension) -> bool| quantities.iter().any(|(_, d)| is(*d));
+    let read = constants_read(parse, used);
+    let joins_a_length = |number: &NumberExpr| {
+        quantity(number).is_some_and(|(_, d)| names_a_length(d)) || spells_a_length(number)
+    };
     let writes_lengths = !has_unit
         && (any(is_of_the_sheet)
-            || (any(names_a_length) || stated.iter().any(spells_a_length))
-                && !has_bare_places(parse, &stated));
+            || stated.iter().chain(&read).any(joins_a_length) && !has_bare_places(parse, &stated));
     let usual = usual(parse, &stated);
     let keeps_length = has_unit || !any(|d| d == Dimension::LENGTH);
-    let read = constants_read(parse, used);
     let all = quantities.into_iter().chain(read.iter().filter_map(quantity)).collect();
     let best = best(all, keeps_length);
     let is_near = |scale: &Scale| scale.0.iter().zip(best.0).all(|(a, b)| a.abs_diff(b) <= NEAR);
@@ -83,6 +85,9 @@ fn usual(parse: &Parse, stated: &[NumberExpr]) -> BTreeMap<(Dimension, Option<Na
     }
     let classes = classes(parse);
     let mut of_si = Vec::new();
+    let mut times: BTreeMap<&str, usize> = BTreeMap::new();
+    let units: Vec<Word> = stated.iter().filter_map(NumberExpr::unit).collect();
+    units.iter().for_each(|unit| *times.entry(unit.text()).or_default() += 1);
     for number in stated {
         let Some(unit) = number.unit() else { continue };
         let Some(known) = expr::units::unit(unit.text()) else { continue };
@@ -104,6 +109,11 @@ fn usual(parse: &Parse, stated: &[NumberExpr]) -> BTreeMap<(Dimension, Option<Na
     for key in of_si {
         usual.entry(key).and_modify(|usual| usual.units.clear());
     }
+    let size = |unit: &Name| expr::units::read_quantity("1", unit).map_or(0.0, |(si, _)| si);
+    let order = |a: &Name, b: &Name| {
+        times.get(&**b).cmp(&times.get(&**a)).then(size(b).total_cmp(&size(a)))
+    };
+    usual.values_mut().for_each(|usual| usual.units.sort_by(order));
     if !usual.keys().any(|(dimension, _)| *dimension == Dimension::TIME)
         && let Some(time) = time_within(stated)
     {

@@ -395,7 +395,13 @@ impl Lowerer<'_> {
     }
 
     fn choice(&mut self, scope: &Scope, choice: &ast::IfExpr, wanted: &Kind) -> Lowered {
-        let c = self.expr_of(scope, &choice.condition()?, &Kind::Bool)?;
+        let condition = choice.condition()?;
+        // the other branch need not have a meaning in this turn: `if i = 0 then 0 else xs[i - 1]`
+        if let Some(holds) = self.truth_in_turn(scope, &condition) {
+            let chosen = if holds { choice.then_value() } else { choice.else_value() };
+            return self.expr_wanting(scope, &chosen?, wanted);
+        }
+        let c = self.expr_of(scope, &condition, &Kind::Bool)?;
         let (a, kind) = self.expr_wanting(scope, &choice.then_value()?, wanted)?;
         let wanted = if let Kind::Option(_) = kind { &kind } else { wanted };
         let (b, other) = self.expr_wanting(scope, &choice.else_value()?, wanted)?;

@@ -163,6 +163,9 @@ fn edit(
     if report.reached {
         change.modes.extend(limits::courses(&state, &report.courses));
     }
+    if kind == EditKind::Set {
+        change.modes.extend(limits::sprung_back(&open.state, &aims));
+    }
     Ok(change)
 }
 

@@ -69,6 +69,8 @@ struct Run<'h> {
     refusal: Option<Refusal>,
     /// The state before the latest edit.
     before: Option<Rc<State>>,
+    /// What the latest edit said of constraints that act otherwise since.
+    told: Vec<String>,
     shortfalls: Vec<Shortfall>,
 }
 
@@ -91,6 +93,7 @@ fn run(of: Checked<'_>, check: &Check, host: &dyn Host, begun: &mut Begun) -> Ch
         noted: Vec::new(),
         refusal: None,
         before: None,
+        told: Vec::new(),
         shortfalls: Vec::new(),
     };
     run.know(0..check.statements.len());
@@ -228,7 +231,10 @@ impl Run<'_> {
                 self.noted.push((name.clone(), value));
             }
             StatementKind::Expect(expectation) => {
-                if let Err(message) = self.expect(&state, expectation) {
+                if let Err(mut message) = self.expect(&state, expectation) {
+                    if matches!(expectation, Expectation::Rule { .. }) {
+                        self.told.drain(..).for_each(|told| message += &format!("; {told}"));
+                    }
                     self.fall_short(statement, message);
                 }
             }
@@ -279,7 +285,9 @@ impl Run<'_> {
             other => command_of(state, other)?,
         };
         self.before = Some(self.open.state.clone());
+        self.told.clear();
         let change = apply::by_hand(&mut self.open, self.host, &command)?;
+        self.told.extend(change.modes.iter().map(|mode| mode.message.clone()));
         if change.structure || matches!(kind, StatementKind::Command(_)) {
             self.known = 0..0;
         }

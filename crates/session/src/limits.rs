@@ -1,13 +1,15 @@
 //! Where an edit or a drag has to stop, and what begins or ceases to act on the way, in words.
 
+use crate::apply::Aim;
 use crate::drag::Drag;
 use crate::state::State;
 use crate::view::{Limit, ModeView};
 use crate::{rules, words};
-use base::number::Toward;
+use base::number::{Toward, close};
 use expr::Dimension;
-use kernel::{DOCUMENT, Primitive, Quantity, SlotId, Term, ThingId, Value};
+use kernel::{DOCUMENT, Primitive, Quantity, SlotId, Strength, Term, ThingId, Value};
 use plan::{ActingKind, CourseChange, ModeChange, Source};
+use std::collections::BTreeSet;
 
 /// How straight a place, the pointer and an anchored place lie for a reach: as a sine.
 const STRAIGHT: f64 = 1e-4;
@@ -199,6 +201,43 @@ pub(crate) fn sides(before: &State, after: &State) -> Vec<ModeView> {
         decided.then(|| ModeView { constraint: path.to_string(), message, span: None })
     });
     new.chain(old).collect()
+}
+
+/// Says what was set and is not what it was set to, since weaker constraints act again once it is set.
+pub(crate) fn sprung_back(state: &State, aims: &[(Aim, Vec<Value>)]) -> Vec<ModeView> {
+    let is_other = |slot: SlotId, wanted: &Value| matches!(wanted, Value::Number(x) if !close(state.values.numbers[slot], *x));
+    let told = |(aim, wanted): &(Aim, Vec<Value>)| {
+        let Aim::Thing(thing) = aim else { return None };
+        let both = state.structure.slots_under(*thing).into_iter().zip(wanted);
+        let back = both.filter(|(slot, wanted)| is_other(*slot, wanted)).map(|(slot, _)| slot);
+        let back: BTreeSet<SlotId> = back.collect();
+        if back.is_empty() {
+            return None;
+        }
+        let soft = (0..state.structure.constraints.len() as u32).map(Source::Constraint);
+        let soft: Vec<Source> = soft
+            .filter(|source| is_soft(state, *source))
+            .filter(|&source| !words::read_by(state, &[source]).is_disjoint(&back))
+            .collect();
+        let by = match rules::all_told(state, &soft) {
+            none if none.is_empty() => "weaker constraints act".to_string(),
+            one if one.len() == 1 => format!("{}, which is weaker, acts", one[0]),
+            several => format!("{}, which are weaker, act", words::listed(&several)),
+        };
+        let path = state.structure.path(&state.lowered.document, *thing).to_string();
+        let is = words::show_thing(state, *thing, &state.values)?;
+        let message = format!("{path} springs back to {is}: {by} again once it is set");
+        Some(ModeView { constraint: path, message, span: None })
+    };
+    aims.iter().filter_map(told).collect()
+}
+
+/// Returns true for a constraint that is not required.
+fn is_soft(state: &State, source: Source) -> bool {
+    let Source::Constraint(c) = source else { return false };
+    let instance = state.structure.constraints[c as usize];
+    let strength = state.structure.strength(&state.lowered.document, instance);
+    strength != Strength::Required && state.structure.is_on(instance)
 }
 
 /// Says which courses programs take otherwise than before.

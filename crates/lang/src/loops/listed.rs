@@ -3,7 +3,7 @@
 //! The list may stand in the loop, or be what a message answers: `ends => [(0, 1), (1, 2)]`. Elements of such a list,
 //! `ends[i][0]`, are constants.
 
-use super::{Over, Written};
+use super::{MOST_MEMBERS, Over, Written};
 use crate::kinds::Kind;
 use crate::lower::Lowerer;
 use crate::members::Definition;
@@ -65,8 +65,27 @@ impl Lowerer<'_> {
         one: &Expr,
         other: &Expr,
     ) -> Option<(u32, Over)> {
-        let (one, other) = (self.members_of_list(scope, one)?, self.members_of_list(scope, other)?);
-        let rows: Vec<Vec<Written>> = one.into_iter().zip(other).map(|(a, b)| vec![a, b]).collect();
+        let (one, other) = (inside(one), inside(other));
+        let both = (self.constant_range(scope, &one), self.constant_range(scope, &other));
+        let numbers = |from, to| (from..=to).map(|i| Written::Constant(Constant::Whole(i)));
+        let row = |(a, b)| vec![a, b];
+        let rows: Vec<Vec<Written>> = match both {
+            (Some((a, b)), Some((c, d))) => {
+                // what is more than all loops together may make is told where they are counted
+                numbers(a, b).zip(numbers(c, d)).take(MOST_MEMBERS + 1).map(row).collect()
+            }
+            (Some((a, b)), None) => {
+                numbers(a, b).zip(self.members_of_list(scope, &other)?).map(row).collect()
+            }
+            (None, Some((c, d))) => {
+                let one = self.members_of_list(scope, &one)?;
+                one.into_iter().zip(numbers(c, d)).map(row).collect()
+            }
+            (None, None) => {
+                let one = self.members_of_list(scope, &one)?;
+                one.into_iter().zip(self.members_of_list(scope, &other)?).map(row).collect()
+            }
+        };
         Some((rows.len() as u32, Over::Written(rows)))
     }
 
@@ -205,6 +224,14 @@ impl Definition {
     fn elements(&self) -> Option<Rc<[Expr]>> {
         let written = || elements(&self.answer).filter(|_| self.loops.is_empty());
         self.elements.get_or_init(|| written().map(Rc::from)).clone()
+    }
+}
+
+/// Returns an expression without the brackets around it.
+fn inside(e: &Expr) -> Expr {
+    match e {
+        Expr::Paren(paren) => paren.inner().map_or_else(|| e.clone(), |inner| inside(&inner)),
+        _ => e.clone(),
     }
 }
 

@@ -202,3 +202,24 @@ fn a_limit_too_dear_to_find_out_is_told_as_far_as_it_was_seen() {
     let came: Option<f64> = limit.value.strip_suffix(" mA").and_then(|x| x.parse().ok());
     assert!(came.is_some_and(|x| (11.6..12.0).contains(&x)), "{limit:?}");
 }
+
+#[test]
+fn what_is_set_against_a_weaker_constraint_says_that_it_springs_back() {
+    let mut desk = Desk::of("y: Real\nweak constraint home: y = 4\nz: Real = 1\n");
+    let change = desk.set("y", 9.0).expect("nothing stands in the way");
+    let told: Vec<&str> = change.modes.iter().map(|mode| &*mode.message).collect();
+    assert_eq!(told, ["y springs back to 4: home, which is weaker, acts again once it is set"]);
+    assert!(desk.set("z", 2.0).expect("it is given").modes.is_empty());
+}
+
+#[test]
+fn a_check_that_falls_short_says_what_sprang_back_and_shows_lists() {
+    let desk = Desk::of(
+        "y: Real\nweak constraint home: y = 4\nxs: List of Real = [1, 2, 3, 4]\n\
+         check \"a\" {\n    set y to 9\n    expect y = 9\n    expect xs = [1, 2, 3]\n}\n",
+    );
+    let report = desk.session.run_checks(desk.id).remove(0);
+    let told: Vec<&str> = report.shortfalls.iter().map(|s| &*s.message).collect();
+    let back = "y springs back to 4: home, which is weaker, acts again once it is set";
+    assert_eq!(told, [format!("4 and 9; {back}"), "[1, 2, 3, 4] and [1, 2, 3]".into()]);
+}

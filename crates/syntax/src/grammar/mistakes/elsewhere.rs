@@ -178,9 +178,9 @@ fn compares(kind: SyntaxKind) -> bool {
 /// `x: Real {1 <= x <= 3}`: returns true at the first word of a part's body, where a comparison stands on its line.
 fn is_bound(p: &Parser<'_>) -> bool {
     let begins_body = p.behind(1) == LBrace && p.behind(2) == Ident && p.behind(3) == Colon;
-    // what has two names in a row, or commas, is something else
+    // what has two names in a row, commas or a body of its own is something else
     let goes_on = |&n: &usize| {
-        !matches!(p.nth(n), Comma | Colon) && (p.nth(n - 1), p.nth(n)) != (Ident, Ident)
+        !matches!(p.nth(n), Comma | Colon | LBrace) && (p.nth(n - 1), p.nth(n)) != (Ident, Ident)
     };
     let mut within = (1..=p.line_end() - p.pos()).take_while(goes_on);
     begins_body && !p.begins_line(0) && within.any(|n| compares(p.nth(n)))
