@@ -115,6 +115,11 @@ fn what_nests_overflows_no_stack() {
             Holds,
         ),
         (
+            "a line of names that are never asked for",
+            format!("y => {}a\n", "let a = 1 in ".repeat(60_000)),
+            Error("too-deep"),
+        ),
+        (
             "loops in loops",
             format!("x: Real\n{}\n", around(400, "for i in 0..1 { ", "constraint x = 1", " }")),
             Error("too-deep"),

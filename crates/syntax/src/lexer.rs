@@ -45,6 +45,8 @@ pub(crate) fn lex(text: &str) -> Lexed {
 fn add_tokens(text: &str, from: usize, lexed: &mut Lexed) {
     let mut at = from;
     let mut count = Count::None;
+    // how many `let`s of this line wait for their `in`
+    let mut waiting = 0usize;
     while at < text.len() {
         let (kind, length) = token(&text[at..]);
         let end = at + length;
@@ -62,8 +64,14 @@ fn add_tokens(text: &str, from: usize, lexed: &mut Lexed) {
         if kind == SyntaxKind::Number
             && !matches!(count, Count::One | Count::First | Count::Operand)
         {
-            at = unit(text, end, &mut lexed.tokens);
+            at = unit(text, end, waiting > 0, &mut lexed.tokens);
         }
+        waiting = match kind {
+            SyntaxKind::LetKw => waiting + 1,
+            SyntaxKind::Ident if &text[start..end] == "in" => waiting.saturating_sub(1),
+            _ if kind.is_trivia() && text[start..end].contains('\n') => 0,
+            _ => waiting,
+        };
         count = count.after(kind, &text[start..end]);
     }
 }
@@ -147,7 +155,9 @@ fn add_pieces(text: &str, start: usize, lexed: &mut Lexed) -> bool {
 }
 
 /// Adds the unit of the number that ends at `end`, if it has one; returns where to go on.
-fn unit(text: &str, end: usize, tokens: &mut Vec<RawToken>) -> usize {
+///
+/// Where a `let` waits for its `in`, this is no inch.
+fn unit(text: &str, end: usize, waits: bool, tokens: &mut Vec<RawToken>) -> usize {
     let start = end + blanks(&text[end..]);
     let length = unit_length(&text[start..]);
     let after = start + length;
@@ -155,7 +165,7 @@ fn unit(text: &str, end: usize, tokens: &mut Vec<RawToken>) -> usize {
     if length == 0 || rest.starts_with(':') {
         return end;
     }
-    if &text[start..after] == "in" && is_keyword_in(&text[..end], rest) {
+    if &text[start..after] == "in" && (waits || is_keyword_in(rest)) {
         return end;
     }
     if start > end {
@@ -165,24 +175,41 @@ fn unit(text: &str, end: usize, tokens: &mut Vec<RawToken>) -> usize {
     after
 }
 
-/// Returns true if the `in` between a number and `rest` is the word of the language and no inch: a `let` of this line
-/// waits for it, or an operand follows that does not begin the next member.
-fn is_keyword_in(before: &str, rest: &str) -> bool {
-    let line = before.rsplit('\n').next().unwrap_or_default();
-    let words = || line.split(|c: char| !(c.is_alphanumeric() || c == '_'));
-    let count = |word| words().filter(|w| *w == word).count();
-    if count("let") > count("in") {
-        return true;
-    }
+/// Returns true if the `in` between a number and `rest` is the word of the language and no inch: an operand follows that
+/// does not begin the next member.
+fn is_keyword_in(rest: &str) -> bool {
     let name = ident_length(rest);
     if name == 0 || rest.starts_with(|c: char| c.is_ascii_digit()) {
         return rest.starts_with(|c: char| c.is_ascii_digit() || matches!(c, '(' | '[' | '"'));
     }
-    let next = &rest[name + blanks(&rest[name..])..];
     let operator = ["and", "or", "mod", "within", "until", "then", "else", "to", "times", "union"];
-    let begins_member =
-        next.starts_with(|c: char| c.is_alphabetic() || matches!(c, ':' | '=' | '{'));
-    !operator.contains(&&rest[..name]) && !begins_member
+    let is_operator = |rest: &str| operator.contains(&&rest[..ident_length(rest)]);
+    let path = path_length(rest);
+    let next = &rest[path + blanks(&rest[path..])..];
+    let begins_member = match next.chars().next() {
+        Some('=') => true,
+        Some(c) if path == name => {
+            c.is_alphabetic() && !is_operator(next) || matches!(c, ':' | '{')
+        }
+        _ => false,
+    };
+    !is_operator(rest) && !begins_member
+}
+
+/// The length of the path that a text begins with, `wheel.spokes`, `ends[0].x`.
+fn path_length(text: &str) -> usize {
+    let mut length = ident_length(text);
+    loop {
+        let rest = &text[length..];
+        length += match rest.as_bytes() {
+            [b'.', ..] if ident_length(&rest[1..]) > 0 => 1 + ident_length(&rest[1..]),
+            [b'[', ..] => match rest[1..].find(['[', ']', '\n']).map(|n| n + 1) {
+                Some(end) if rest.as_bytes()[end] == b']' => end + 1,
+                _ => return length,
+            },
+            _ => return length,
+        };
+    }
 }
 
 fn blanks(text: &str) -> usize {
@@ -374,7 +401,14 @@ mod tests {
             "w = 3 in h = 4 in^2",
             "Ident w | Eq = | Number 3 | Unit in | Ident h | Eq = | Number 4 | Unit in^2",
         );
+        check(
+            "w = 3 in ends[0].x = 4",
+            "Ident w | Eq = | Number 3 | Unit in | Ident ends | LBracket [ | Number 0 | RBracket ] | Dot . | Ident x \
+             | Eq = | Number 4",
+        );
         check("3 in xs", "Number 3 | Ident in | Ident xs");
+        check("3 in a.xs", "Number 3 | Ident in | Ident a | Dot . | Ident xs");
+        check("3 in xs and x", "Number 3 | Ident in | Ident xs | AndKw and | Ident x");
         check("3 in (xs)", "Number 3 | Ident in | LParen ( | Ident xs | RParen )");
         check(
             "let a = 3 in -a",
