@@ -108,15 +108,15 @@ impl Planner {
             {
                 space = bent;
             }
-            let mut motions = space.motions(model, values);
             if space.free.len() > wanted {
-                motions.retain(|m| self.goes_on(model, task, values, m, host));
-                motions.truncate(wanted);
+                let goes_on = &mut |m: &Motion| self.goes_on(model, task, values, m, host);
+                let motions = space.motions(model, values, (wanted, goes_on));
                 out.free.extend(motions.iter().flat_map(|m| m.moves.iter().map(|e| e.0)));
+                out.motions.extend(motions);
             } else {
                 out.free.extend(space.movable());
+                out.motions.extend(space.motions(model, values, (wanted, &mut |_| true)));
             }
-            out.motions.extend(motions);
         }
         self.give_resting(tasks);
         out.free.sort_unstable();
@@ -198,6 +198,9 @@ struct Space {
 const BENT: usize = 64;
 /// By how much numbers are moved to find how slopes turn, in parts of the largest of their kind.
 const NUDGE: f64 = 1e-5;
+
+/// Whether a motion can be made, and not to first order alone.
+type GoesOn<'m> = &'m mut dyn FnMut(&Motion) -> bool;
 
 /// Which slots can move.
 type Moves<'m> = &'m dyn Fn(&SlotId) -> bool;
@@ -321,8 +324,13 @@ impl Space {
         moves.iter().map(|&(c, _)| self.columns[c as usize]).collect()
     }
 
-    /// Returns a readable basis.
-    fn motions(&self, model: Model<'_>, values: &Values) -> Vec<Motion> {
+    /// Returns a readable basis of so many motions that go on.
+    fn motions(
+        &self,
+        model: Model<'_>,
+        values: &Values,
+        (wanted, goes_on): (usize, GoesOn<'_>),
+    ) -> Vec<Motion> {
         if self.free.is_empty() {
             return Vec::new();
         }
@@ -341,6 +349,8 @@ impl Space {
             velocity: vec![0.0; self.columns.len()],
             known: Basis::default(),
             motions: Vec::new(),
+            most: wanted.min(self.free.len()).min(LISTED),
+            goes_on,
         };
         let mut by_first: Vec<&Vec<u32>> = groups.values().collect();
         by_first.sort();
@@ -447,23 +457,31 @@ struct Chosen<'s> {
     /// The free columns of the chosen ones: a motion is known by these alone.
     known: Basis,
     motions: Vec<Motion>,
+    /// So many are chosen.
+    most: usize,
+    goes_on: GoesOn<'s>,
 }
 
 impl Chosen<'_> {
     fn consider(&mut self, kind: MotionKind, mut row: Row) {
         let space = self.space;
-        let is_full = self.known.rank() == space.free.len() || self.motions.len() == LISTED;
-        if is_full || row.is_empty() || !self.is_null(&row) {
+        if self.motions.len() == self.most || row.is_empty() || !self.is_null(&row) {
             return;
         }
         row.sort_unstable_by_key(|e| e.0);
         let shadow = row.iter().filter(|e| !space.echelon.has_pivot(e.0)).copied().collect();
-        if !self.known.add(&shadow) {
+        let mut known = self.known.clone();
+        if !known.add(&shadow) {
             return;
         }
         let largest = row.iter().fold(0.0f64, |m, e| if e.1.abs() > m.abs() { e.1 } else { m });
         let moves = row.iter().map(|&(c, v)| (space.columns[c as usize], v / largest)).collect();
-        self.motions.push(Motion { kind, moves });
+        let motion = Motion { kind, moves };
+        // those that do not go on are no reason to leave out one that they make together
+        if (self.goes_on)(&motion) {
+            self.known = known;
+            self.motions.push(motion);
+        }
     }
     /// Returns true if every row goes on holding along a motion.
     fn is_null(&mut self, motion: &Row) -> bool {

@@ -257,6 +257,22 @@ fn how_a_place_moves_is_told_though_a_force_moves_a_million_times_as_fast() {
 }
 
 #[test]
+fn motions_where_branches_meet_are_told_though_none_of_a_first_basis_goes_on() {
+    // a parallelogram that is a trapezium with equal legs as well: three motions are possible to first order, and of
+    // those of one place alone none goes on
+    let mut desk = Desk::of(
+        "use geometry\na: Point = (0, 0)\nb: Point = (60, 0)\nc: Point = (60, 25)\nd: Point = (0, 25)\n\
+         ab: Line { p1 = a  p2 = b }\nbc: Line { p1 = b  p2 = c }\ncd: Line { p1 = c  p2 = d }\n\
+         da: Line { p1 = d  p2 = a }\nconstraint da.parallel(to: bc)\nconstraint ab.length = cd.length\n\
+         anchor a\nanchor b\n",
+    );
+    let analysis = desk.session.analysis(desk.id);
+    let summaries: Vec<&str> = analysis.motions.iter().map(|m| m.summary.as_str()).collect();
+    assert_eq!(analysis.freedom, 2);
+    assert_eq!(summaries, ["c, d slide together along x", "c, d slide together along y"]);
+}
+
+#[test]
 fn a_condition_is_among_the_reasons() {
     let text = "b: Real = 4
 mode: Text = \"on\"
