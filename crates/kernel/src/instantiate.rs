@@ -83,8 +83,9 @@ impl FaultKind {
 
 /// How many things a document may have; of one with more, none is made.
 ///
-/// A thing costs some fifty bytes; the bound keeps a mistyped count from filling the memory.
-pub const MOST_THINGS: usize = 2_000_000;
+/// A thing costs some fifty bytes; the bound keeps a mistyped count from filling the memory. A grid of 300 by 300 nodes
+/// with its resistors has 3.95 million.
+pub const MOST_THINGS: usize = 4_000_000;
 
 /// How many things may be made and copied on the way to a document.
 const MOST_COPIES: usize = 2 * MOST_THINGS;

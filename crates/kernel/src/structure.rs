@@ -422,6 +422,10 @@ impl Form {
     pub fn identity(&self, thing: ThingId) -> ThingId {
         self.merged[thing]
     }
+    /// Returns true if anything else is merged with `thing`.
+    pub fn is_merged(&self, thing: ThingId) -> bool {
+        self.next_merged[thing] != thing
+    }
     /// Returns everything that is merged with `thing`, the first first; itself alone where nothing is.
     pub fn merged_with(&self, thing: ThingId) -> Vec<ThingId> {
         let first = self.merged[thing];

@@ -55,7 +55,7 @@ pub(crate) fn place_new_parts(
             let neighbour = state.structure.follow(thing, &place.neighbour);
             let (Ok(at), Ok(neighbour)) = (at, neighbour) else { continue };
             let slots = state.structure.slots_under(at);
-            let is_alone = state.structure.merged_with(at).len() == 1;
+            let is_alone = !state.structure.is_merged(at);
             let now = coordinates(&state.structure, &state.values, at);
             let near = coordinates(&state.structure, &state.values, neighbour);
             let to: Vec<f64> = near.iter().zip(&place.offset).map(|(a, b)| a + b).collect();

@@ -28,7 +28,7 @@ struct Line {
 pub(crate) fn warnings(state: &State) -> Vec<Diagnostic> {
     let structure = &state.structure;
     let mut lines: BTreeMap<(u32, u32), (Place, Line)> = BTreeMap::new();
-    let merged = structure.merged.iter().filter(|(t, _)| structure.merged_with(*t).len() > 1);
+    let merged = structure.merged.iter().filter(|(t, _)| structure.is_merged(*t));
     for (thing, _) in merged {
         let Some(slot) = structure.slot_of(thing) else { continue };
         let (Some(given), Some(own)) = (structure.given(slot), structure.given_apart(thing)) else {

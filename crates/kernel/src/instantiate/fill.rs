@@ -95,7 +95,7 @@ fn has_room(maker: &mut Maker<'_>, body: &Body, more: usize, origin: OriginId) -
     maker.copied = maker.copied.saturating_add(more);
     let fits = body.len().saturating_add(more) <= MOST_THINGS && maker.copied <= MOST_COPIES;
     if !fits && !std::mem::replace(&mut maker.is_full, true) {
-        let message = format!("{more} more things than a document may have");
+        let message = format!("more than {MOST_THINGS} things, which is what a document may have");
         maker.fault(origin, FaultKind::TooManyThings, message);
     }
     fits

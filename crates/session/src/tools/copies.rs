@@ -422,7 +422,7 @@ fn measured(state: &State, name: &Name) -> Option<usize> {
         let class = &document.classes[document.field_class(*field)];
         let shared = || {
             let part = structure.part_named(thing, name)?;
-            Some(structure.merged_with(part).len() > 1)
+            Some(structure.is_merged(part))
         };
         class.kind == ClassKind::Composite && (given.contains(name) || shared().unwrap_or(false))
     };
