@@ -196,10 +196,14 @@ pub(crate) fn view(recording: &Recording) -> Vec<OpenBlock> {
             Kind::Loop(it) if it.is_drawn() => {
                 (OpenKind::Asking, format!("{name}: what the second turn does"))
             }
-            Kind::Loop(it) if it.element().is_some() => {
-                (OpenKind::Each, format!("{name}: draw what is done for the first of the set"))
-            }
-            Kind::Loop(_) => (OpenKind::Turn, format!("{name}: draw its first turn")),
+            Kind::Loop(it) => match it.first_of_set() {
+                Some(first) => {
+                    let words =
+                        format!("{name}: draw what is done for {first}, the first of the set");
+                    (OpenKind::Each, words)
+                }
+                None => (OpenKind::Turn, format!("{name}: draw its first turn")),
+            },
             Kind::Choice(choice) => choice.view(),
             Kind::Visited => (OpenKind::Visited, format!("visiting {address}")),
         };

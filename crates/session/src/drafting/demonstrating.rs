@@ -58,7 +58,7 @@ impl Session {
     /// Begins a loop over what lies in a rectangle, each by its name; what is drawn next is done for each.
     ///
     /// # Errors
-    /// Nothing is recorded, nothing lies there.
+    /// Nothing is recorded, nothing lies there, or figures of several kinds.
     pub fn begin_each(
         &mut self,
         id: DocumentId,
@@ -68,7 +68,14 @@ impl Session {
         blocks::recorded(open)?;
         let found = scene::within(&open.state, &home(open), corners);
         let set = scene::wholes_of(&open.state, &home(open), &found);
-        let change = repeat::begin_each(open, &beside, ("", &set))?;
+        let kinds = scene::kinds_in_words(&open.state, &found, &set);
+        let of_one_kind = |refusal| match &kinds {
+            None => refusal,
+            Some(kinds) => words::refuse(format!(
+                "{kinds} lie in that rectangle: a loop goes over figures of one kind, so draw it around those"
+            )),
+        };
+        let change = repeat::begin_each(open, &beside, ("", &set)).map_err(of_one_kind)?;
         Ok(*self.with_reach(id, change))
     }
 

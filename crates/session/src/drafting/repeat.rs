@@ -58,6 +58,11 @@ impl Loop {
         self.each.as_ref().map(|(element, _)| element.as_str())
     }
 
+    /// The first of the set, of a loop over one.
+    pub(crate) fn first_of_set(&self) -> Option<&str> {
+        self.each.as_ref().map(|(_, first)| first.as_str())
+    }
+
     /// The question that is open.
     pub(crate) fn question(&self) -> Option<RecurrenceQuestion> {
         let at = self.asked.iter().position(|asked| asked.answer.is_none())?;

@@ -82,11 +82,12 @@ pub(crate) fn nearest_instead<'f>(
     figure.flatten().or_else(|| nearest(all, pointer))
 }
 
-/// Finds the figures of a home that lie in a rectangle: whole ones, never the ends of a line that goes on outside.
+/// Finds the figures of a home that lie in a rectangle: whole ones, never the ends of a line that goes on outside, and
+/// none twice.
 pub(crate) fn within(state: &State, home: &Home, (a, b): ((f64, f64), (f64, f64))) -> Vec<Found> {
     let across = a.0.min(b.0)..=a.0.max(b.0);
     let up = a.1.min(b.1)..=a.1.max(b.1);
-    let all = scene(state, home);
+    let Scene { found: all, carried, .. } = surveyed(state, home);
     let known: BTreeSet<&str> = all.iter().map(|found| found.text.as_str()).collect();
     let is_part =
         |found: &Found| found.text.rsplit_once('.').is_some_and(|(owner, _)| known.contains(owner));
@@ -102,8 +103,18 @@ pub(crate) fn within(state: &State, home: &Home, (a, b): ((f64, f64), (f64, f64)
     let cut: BTreeSet<&str> =
         all.iter().filter(|f| f.side.is_some() && !is_in(f)).map(|f| f.text.as_str()).collect();
     let is_whole = |found: &Found| !cut.contains(found.text.as_str());
+    let is_own = |found: &Found| {
+        let name = found.text.as_str();
+        !carried
+            .iter()
+            .any(|c| name == c || name.strip_prefix(c).is_some_and(|r| r.starts_with('.')))
+    };
     let found = all.iter().filter(|found| is_in(found) && !is_part(found) && is_whole(found));
-    found.filter(|found| caught.insert(&found.text)).cloned().collect()
+    found
+        .filter(|found| is_own(found))
+        .filter(|found| caught.insert(&found.text))
+        .cloned()
+        .collect()
 }
 
 /// Names figures: one by one, and sets where all of one are among them. What a loop or a pattern makes more of, by other
@@ -152,6 +163,28 @@ pub(crate) fn wholes_of(state: &State, home: &Home, caught: &[Found]) -> Vec<Str
         }
     }
     names
+}
+
+/// Says how many figures of which kinds are called by some names: `1 Rectangle and 4 Circle`; nothing for one kind.
+pub(crate) fn kinds_in_words(state: &State, caught: &[Found], names: &[String]) -> Option<String> {
+    let class = |name: &String| {
+        let of_whole = |f: &&Found| f.wholes.first() == Some(name);
+        let own = caught.iter().find(|found| found.text == *name).map(|found| found.class);
+        own.or_else(|| caught.iter().find(of_whole).and_then(|found| found.side_of))
+    };
+    let mut kinds: Vec<(ClassId, usize)> = Vec::new();
+    for class in names.iter().filter_map(class) {
+        match kinds.iter_mut().find(|(known, _)| *known == class) {
+            Some((_, count)) => *count += 1,
+            None => kinds.push((class, 1)),
+        }
+    }
+    let one = |(class, count): &(ClassId, usize)| {
+        format!("{count} {}", state.lowered.document.classes[*class].name)
+    };
+    let mut said: Vec<String> = kinds.iter().map(one).collect();
+    let last = said.pop().filter(|_| !said.is_empty())?;
+    Some(format!("{} and {last}", said.join(", ")))
 }
 
 /// Returns how something that a home knows is drawn; nothing where it is no figure.
@@ -415,22 +448,22 @@ fn place<'a>(evaluator: &Evaluator<'a>, of: &Answer<'a>, name: &str) -> Option<[
 
 /// Returns the figures that can be picked.
 pub(crate) fn scene(state: &State, home: &Home) -> Vec<Found> {
-    surveyed(state, home).0
+    surveyed(state, home).found
 }
 
 /// Says of each figure that can be picked, and of each set of them, whether it is part of what is drawn.
 pub(crate) fn standings(state: &State, home: &Home) -> BTreeMap<String, bool> {
-    let (found, sets) = surveyed(state, home);
+    let Scene { found, sets, .. } = surveyed(state, home);
     sets.into_iter().chain(found.into_iter().map(|found| (found.text, found.is_result))).collect()
 }
 
-fn surveyed(state: &State, home: &Home) -> (Vec<Found>, Vec<(String, bool)>) {
-    let evaluator = state.evaluator(&state.values);
+fn surveyed<'a>(state: &'a State, home: &Home) -> Scene<'a> {
     let mut all = Scene {
         state,
-        evaluator: &evaluator,
+        evaluator: state.evaluator(&state.values),
         found: Vec::new(),
         sets: Vec::new(),
+        carried: Vec::new(),
         is_result: true,
     };
     match home {
@@ -438,7 +471,7 @@ fn surveyed(state: &State, home: &Home) -> (Vec<Found>, Vec<(String, bool)>) {
         Home::Program { example, way, .. } => {
             let mut path = kernel::Path::of(&[example]);
             for name in parameters(state, home) {
-                if let Ok(given) = evaluator.at(&path.then(kernel::Step::Part(name.clone()))) {
+                if let Ok(given) = all.evaluator.at(&path.then(kernel::Step::Part(name.clone()))) {
                     all.is_result = false;
                     all.add((name, &[]), &given, true);
                 }
@@ -456,7 +489,7 @@ fn surveyed(state: &State, home: &Home) -> (Vec<Found>, Vec<(String, bool)>) {
             }
         }
     }
-    (all.found, all.sets)
+    all
 }
 
 /// The parameters of the program that a home is in.
@@ -470,17 +503,19 @@ pub(crate) fn parameters<'s>(state: &'s State, home: &Home) -> impl Iterator<Ite
     program.into_iter().flat_map(|program| program.parameters.iter().map(|asked| &asked.name))
 }
 
-struct Scene<'e, 'a> {
+struct Scene<'a> {
     state: &'a State,
-    evaluator: &'e Evaluator<'a>,
+    evaluator: Evaluator<'a>,
     found: Vec<Found>,
+    /// What turns begin with: whatever it is was made elsewhere.
+    carried: Vec<String>,
     /// The sets that were gone through, and whether each is part of what is drawn.
     sets: Vec<(String, bool)>,
     /// Whether what is gone through is part of what is drawn.
     is_result: bool,
 }
 
-impl<'a> Scene<'_, 'a> {
+impl<'a> Scene<'a> {
     fn document(&mut self) {
         let (document, structure) = (&self.state.lowered.document, &self.state.structure);
         for (thing, t) in structure.things.iter() {
@@ -491,7 +526,7 @@ impl<'a> Scene<'_, 'a> {
             if compound::is_drawn(document, t.class) {
                 self.add((&path, &[]), &Answer::Thing(thing), false);
             } else if document.program(t.class).is_some()
-                && let Some(run) = drawn::shown(self.evaluator, thing)
+                && let Some(run) = drawn::shown(&self.evaluator, thing)
             {
                 self.context((&format!("{path}."), std::slice::from_ref(&path)), &run);
             }
@@ -536,6 +571,9 @@ impl<'a> Scene<'_, 'a> {
     fn entry(&mut self, at: (&str, &[String]), entry: &Entry<'a>) {
         let around = self.is_result;
         self.is_result &= entry.standing == Standing::Result;
+        if entry.standing == Standing::Carried {
+            self.carried.push(at.0.into());
+        }
         self.add(at, &entry.answer, true);
         self.is_result = around;
     }
@@ -562,7 +600,7 @@ impl<'a> Scene<'_, 'a> {
         if let Some(parts) = compound::of(&self.state.lowered.document, class) {
             return self.compound((text, wholes), (class, answer), parts);
         }
-        let Some(curve) = Curve::of(self.evaluator, answer) else {
+        let Some(curve) = Curve::of(&self.evaluator, answer) else {
             self.sets.push((text.into(), self.is_result));
             return self.outline((text, wholes), (class, answer));
         };
@@ -583,7 +621,7 @@ impl<'a> Scene<'_, 'a> {
         for name in PLACES {
             if let Ok(part) = self.evaluator.of_part(answer, name)
                 && let (Some(class), Some(curve)) =
-                    (self.evaluator.class_of(&part), Curve::of(self.evaluator, &part))
+                    (self.evaluator.class_of(&part), Curve::of(&self.evaluator, &part))
             {
                 self.place(format!("{text}.{name}"), (class, curve));
             }
@@ -621,7 +659,7 @@ impl<'a> Scene<'_, 'a> {
         for name in parts.places {
             if let Ok(part) = self.evaluator.of_part(of, name)
                 && let (Some(point), Some(curve)) =
-                    (self.evaluator.class_of(&part), Curve::of(self.evaluator, &part))
+                    (self.evaluator.class_of(&part), Curve::of(&self.evaluator, &part))
             {
                 if parts.sides.is_empty() {
                     // nothing else says where it lies

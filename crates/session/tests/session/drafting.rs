@@ -866,6 +866,8 @@ fn a_loop_runs_over_what_a_rubber_band_catches() {
     let nothing = desk.session.begin_each(desk.id, ((200.0, 200.0), (300.0, 300.0)));
     assert!(nothing.is_err());
     desk.session.begin_each(desk.id, ((0.0, 0.0), (100.0, 100.0))).expect("three circles");
+    let open = desk.session.steps(desk.id, None).expect("it is recorded").open;
+    assert_eq!(open[0].words, "turns: draw what is done for circle, the first of the set");
     begin(&mut desk, "Circle.concentric(with,radius)");
     point(&mut desk, 14.0, 10.0);
     made(enter(&mut desk, "circle.radius + 2"));
@@ -880,6 +882,21 @@ fn a_loop_runs_over_what_a_rubber_band_catches() {
     assert_eq!(desk.wrong(), [], "{}", desk.text());
     assert_eq!(value(&desk, "plate.turns"), "3 turns");
     assert_eq!(value(&desk, "plate.turns[2].circle4"), "centre (90, 70), radius 6");
+    let everything = ((-10.0, -10.0), (100.0, 220.0));
+    desk.session.begin_each(desk.id, everything).expect("six circles");
+    let none_twice = "turns2 = for element2 in \
+                      [circle, circle2, circle3, turns[0].circle4, turns[1].circle4, turns[2].circle4] {";
+    assert!(desk.text().contains(none_twice), "{}", desk.text());
+    desk.undo();
+    begin(&mut desk, "Rectangle.between(first,second)");
+    enter(&mut desk, "0,200");
+    made(enter(&mut desk, "10,210"));
+    let mixed = desk.session.begin_each(desk.id, everything).expect_err("they are of two kinds");
+    assert_eq!(
+        mixed.message,
+        "6 Circle and 1 Rectangle lie in that rectangle: a loop goes over figures of one kind, so draw it \
+         around those"
+    );
 }
 
 #[test]

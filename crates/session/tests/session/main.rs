@@ -32,6 +32,7 @@ mod prototypes;
 mod proving;
 mod recognising;
 mod refusing;
+mod repairing;
 mod restructuring;
 mod saving;
 mod sheets;
