@@ -56,7 +56,7 @@ fn add(
     for (slot, value) in operands.drain(..) {
         let first = value.syntax().text().to_string().trim().to_string();
         // a place on the sheet may be another one in the next turn: a number that is typed is a constant
-        if speaks_of_outside(&first, own) || is_place(&value) {
+        if speaks_of_outside(&value, own) || is_place(&value) {
             let span = syntax::ast::span_without_doc(value.syntax());
             let it = Occurrence { step: step.into(), slot, first, span, again: None };
             join(into, from, it);
@@ -141,17 +141,18 @@ fn operands_of(value: &Expr) -> Vec<(String, Expr)> {
     if is_point(value) {
         return vec![("at".into(), value.clone())];
     }
-    let is_capital = |text: &str| text.trim().starts_with(char::is_uppercase);
+    let parameters = parameters_of(value);
+    let is_class = |text: &str| {
+        text.trim().starts_with(char::is_uppercase) && !parameters.iter().any(|p| p == text.trim())
+    };
     let (receiver, list) = match value {
-        Expr::Call(call) if call.name().is_some_and(|w| is_capital(w.text())) => {
-            (None, call.args())
-        }
+        Expr::Call(call) if call.name().is_some_and(|w| is_class(w.text())) => (None, call.args()),
         Expr::Field(field) => (field.receiver(), field.args()),
         _ => (None, None),
     };
     let Some(list) = list else { return vec![("value".into(), value.clone())] };
     // `line.mirrored(about: axis)` is sent to what stands before the word
-    let receiver = receiver.filter(|r| !is_capital(&r.syntax().text().to_string()));
+    let receiver = receiver.filter(|r| !is_class(&r.syntax().text().to_string()));
     let receiver = receiver.map(|r| ("what".to_string(), r));
     let one = |(i, argument): (usize, syntax::ast::Arg)| {
         let label = argument.label().map(|word| word.text().to_string());
@@ -180,8 +181,19 @@ fn is_place(value: &Expr) -> bool {
     is_point(value) && call.args().is_some_and(|list| list.args().all(is_number))
 }
 
+/// The parameters of the program that an expression stands in: a draughtsman may begin their names with capitals.
+fn parameters_of(value: &Expr) -> Vec<String> {
+    let program = value.syntax().ancestors().find_map(syntax::ast::Program::cast);
+    let list = program.and_then(|program| program.params());
+    let names = list.into_iter().flat_map(|list| list.params()).filter_map(|p| p.name());
+    names.map(|name| name.text().to_string()).collect()
+}
+
 /// Whether an operand speaks of something that its turn has not made: not a literal, not a class or function.
-fn speaks_of_outside(text: &str, own: &[String]) -> bool {
+fn speaks_of_outside(value: &Expr, own: &[String]) -> bool {
+    let text = value.syntax().text().to_string();
+    let text = text.trim();
+    let parameters = parameters_of(value);
     let is_word = |c: char| c.is_alphanumeric() || c == '_';
     let mut rest = text;
     let mut before = ' ';
@@ -192,7 +204,8 @@ fn speaks_of_outside(text: &str, own: &[String]) -> bool {
         let word: String = rest[start..].chars().take_while(|&c| is_word(c)).collect();
         rest = &rest[start + word.len()..];
         let follows = rest.trim_start().chars().next();
-        let is_name = word.starts_with(char::is_lowercase) && before != '.';
+        let is_class = word.starts_with(char::is_uppercase) && !parameters.contains(&word);
+        let is_name = !word.starts_with(|c: char| c.is_ascii_digit()) && !is_class && before != '.';
         let is_unit = before == ' '
             && text[..text.len() - rest.len() - word.len()]
                 .trim_end()

@@ -690,6 +690,27 @@ fn figure_7_6_is_drawn_by_its_first_turn_and_the_answers_for_the_second() {
 }
 
 #[test]
+fn parameters_are_asked_about_in_whatever_letters_they_are_written() {
+    for name in ["Radius", "半径"] {
+        let mut desk = Desk::of("use geometry\nunit mm\n");
+        desk.session.record(desk.id, "Rings").expect("a new program");
+        desk.session.define_parameter(desk.id, &parameter(name, "40", "")).expect("it is new");
+        desk.session.begin_loop(desk.id, "").expect("a loop");
+        begin(&mut desk, "Circle");
+        enter(&mut desk, "0,0");
+        made(enter(&mut desk, name));
+        desk.session.end_turn(desk.id, Ends::Until).expect("the turn is drawn");
+        desk.session.same(desk.id).expect("the same place");
+        let ask = asked(&desk).expect("it is asked");
+        assert_eq!((&*ask.operand, &*ask.first), ("radius", name));
+        enter(&mut desk, "circle.radius / 2");
+        enter(&mut desk, "circle.radius < 2");
+        assert_eq!(desk.wrong(), [], "{}", desk.text());
+        assert_eq!(value(&desk, "rings.turns[5].circle.radius"), "1.25 mm");
+    }
+}
+
+#[test]
 fn an_answer_that_has_no_turn_is_refused() {
     let mut desk = rings("circle.radius / 2");
     desk.session.end_turn(desk.id, Ends::Until).expect("the turn is drawn");
