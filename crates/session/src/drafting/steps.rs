@@ -36,11 +36,13 @@ pub(crate) fn view(open: &Open, home: &Home, thing: Option<&str>) -> Option<Step
         let body = text::program(&source, &name)?.body()?;
         Some((source, body, user.to_string()))
     });
-    let mut rows = Rows { state, evaluator: &evaluator, source: "", rows: Vec::new() };
-    if let Some((source, body, _)) = &found {
-        rows.source = source;
-        rows.block(&text::steps_of(body), "", &path, 0);
-    }
+    let rows = found.as_ref().map_or_else(Vec::new, |(source, body, _)| {
+        let drawn =
+            Drawn { source, program: name.as_str().into(), example: example.as_str().into() };
+        let mut rows = Rows { state, evaluator: &evaluator, drawn, rows: Vec::new() };
+        rows.block(&text::steps_of(body), ("", true), &path, 0);
+        rows.rows
+    });
     let declared = found.as_ref().map(|(source, ..)| parameters::declared(source, &name));
     let declared = declared.unwrap_or_default();
     let user = found.as_ref().map_or_else(String::new, |(.., user)| user.clone());
@@ -66,7 +68,7 @@ pub(crate) fn view(open: &Open, home: &Home, thing: Option<&str>) -> Option<Step
         program: name,
         is_recorded: recording.is_some(),
         parameters: program.parameters.iter().map(parameter).collect(),
-        rows: rows.rows,
+        rows,
         open: recording.map(blocks::view).unwrap_or_default(),
         at: recording.filter(|_| visit::is_inside(open)).map(|recording| {
             let before = recording.before.clone().unwrap_or_default();
@@ -88,23 +90,60 @@ pub(crate) fn program_of(state: &State, thing: &str) -> Option<base::Name> {
     Some(document.classes[program].name.clone())
 }
 
+/// A program and the thing that shows what it draws.
+struct Drawn<'s> {
+    source: &'s text::Source,
+    program: base::Name,
+    example: base::Name,
+}
+
+impl Drawn<'_> {
+    /// Whether a branch is the one that is taken, by its address, in some turns of the loops around it.
+    fn is_taken(&self, state: &State, branch: &str, turns: &[u32]) -> bool {
+        let Some((choice, side)) = branch.rsplit_once('.') else { return true };
+        let step = text::step_at(self.source, &self.program, choice).and_then(|step| step.value);
+        let Some(Value::If(written)) = step else { return true };
+        let home = visit::home_of(self.source, (&self.program, &self.example), choice, turns);
+        let Some((home, condition)) = home.zip(written.condition()) else { return true };
+        match super::outcome::worth(state, &home, condition.syntax().text().to_string().trim()) {
+            Ok(super::outcome::Worth::Truth(truth)) => truth == (side == "then"),
+            Ok(_) | Err(_) => true,
+        }
+    }
+
+    /// Whether a step is come to, by its address, in some turns of the loops around it.
+    fn is_come_to(&self, state: &State, address: &str, turns: &[u32]) -> bool {
+        let ends = address.match_indices('.').map(|(at, _)| &address[..at]);
+        let mut branches = ends.filter(|way| way.ends_with(".then") || way.ends_with(".else"));
+        branches.all(|branch| self.is_taken(state, branch, turns))
+    }
+}
+
 struct Rows<'e, 'a> {
     state: &'a State,
     evaluator: &'e Evaluator<'a>,
-    source: &'e str,
+    drawn: Drawn<'e>,
     rows: Vec<StepRow>,
 }
 
 impl<'a> Rows<'_, 'a> {
-    /// Lists the steps of a block. `way` is its address, `made` leads to what it made in the example.
-    fn block(&mut self, steps: &[StepNode], way: &str, made: &Path, depth: usize) {
+    /// Lists the steps of a block: its address, and whether it is come to. `made` leads to what it made in the example.
+    fn block(
+        &mut self,
+        steps: &[StepNode],
+        (way, is_come_to): (&str, bool),
+        made: &Path,
+        depth: usize,
+    ) {
         for step in steps {
             let address = text::joined(way, &step.segment);
             let made = match &step.name {
                 Some(name) => made.then(kernel::Step::Part(name.as_str().into())),
                 None => made.clone(),
             };
-            let answer = step.name.is_some().then(|| self.evaluator.at(&made).ok()).flatten();
+            // the other branch may have made something of that name
+            let is_made = is_come_to && step.name.is_some();
+            let answer = is_made.then(|| self.evaluator.at(&made).ok()).flatten();
             let is_failed = step.name.is_some() && answer.is_none();
             let formula = self.formula(step);
             self.rows.push(StepRow {
@@ -135,14 +174,19 @@ impl<'a> Rows<'_, 'a> {
                         ..StepRow::default()
                     });
                 }
-                self.block(&steps, &text::joined(&address, segment), &made, depth + 1);
+                let inner = text::joined(&address, segment);
+                let is_branch = matches!(value, Value::If(_));
+                let is_come_to =
+                    is_come_to && (!is_branch || self.drawn.is_taken(self.state, &inner, &[]));
+                self.block(&steps, (&inner, is_come_to), &made, depth + 1);
             }
         }
     }
 
     /// What the text says of a step, in one line: of a block what stands before and after its steps.
     fn formula(&self, step: &StepNode) -> String {
-        let of = |span: base::Span| &self.source[span.start as usize..span.end as usize];
+        let source: &str = self.drawn.source;
+        let of = |span: base::Span| &source[span.start as usize..span.end as usize];
         let Some(value) = &step.value else { return of(step.span).trim().into() };
         let whole = of(value.span());
         match value {
@@ -289,16 +333,27 @@ pub(crate) fn drawing(
     step: &str,
 ) -> drawing::Drawing {
     let evaluator = state.evaluator(values);
+    let source = text::Source::now(state);
+    let program = program_of(state, example).unwrap_or_else(|| "".into());
+    let drawn = Drawn { source: &source, program, example: example.into() };
     let mut elements = Vec::new();
     let names: Vec<&str> = step.split('.').filter(|s| text::is_name(s)).collect();
     let start = crate::session::parse_path(example).unwrap_or_default();
-    collect(&evaluator, &start, &names, &mut elements);
+    let is_come_to = |turns: &[u32]| drawn.is_come_to(state, step, turns);
+    collect(&evaluator, (&start, &names), (&is_come_to, &mut Vec::new()), &mut elements);
     drawing::Drawing { elements, ..drawing::Drawing::default() }
 }
 
-fn collect(evaluator: &Evaluator<'_>, at: &Path, names: &[&str], into: &mut Vec<drawing::Element>) {
+fn collect(
+    evaluator: &Evaluator<'_>,
+    (at, names): (&Path, &[&str]),
+    (is_come_to, turns): (&dyn Fn(&[u32]) -> bool, &mut Vec<u32>),
+    into: &mut Vec<drawing::Element>,
+) {
     let Some((name, rest)) = names.split_first() else {
-        if let Ok(answer) = evaluator.at(at) {
+        if let Ok(answer) = evaluator.at(at)
+            && is_come_to(turns)
+        {
             into.extend(elements_of(evaluator, &answer));
         }
         return;
@@ -307,10 +362,13 @@ fn collect(evaluator: &Evaluator<'_>, at: &Path, names: &[&str], into: &mut Vec<
     match evaluator.at(&next) {
         Ok(Answer::List(items)) if !rest.is_empty() => {
             for turn in 0..items.len() as u32 {
-                collect(evaluator, &next.then(kernel::Step::Index(turn)), rest, into);
+                turns.push(turn);
+                let one = next.then(kernel::Step::Index(turn));
+                collect(evaluator, (&one, rest), (is_come_to, turns), into);
+                turns.pop();
             }
         }
-        Ok(_) => collect(evaluator, &next, rest, into),
+        Ok(_) => collect(evaluator, (&next, rest), (is_come_to, turns), into),
         Err(_) => {}
     }
 }

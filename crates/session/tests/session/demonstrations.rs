@@ -209,6 +209,10 @@ fn a_retaining_ring_has_the_lug_that_its_size_asks_for() {
     ] {
         desk.set("ring.d1", d1).expect("a parameter can be set");
         assert_eq!(value(&desk, "ring.mirrored"), lug, "{d1}");
+        // what the branch that is not taken would draw is not lit in the place of the other
+        let lit = ["#0.then.circle4", "#0.else.circle4"]
+            .map(|step| desk.session.step_drawing(desk.id, "ring", step).elements.len());
+        assert_eq!(lit, if d1 < 10.0 { [1, 0] } else { [0, 1] });
     }
 }
 

@@ -862,6 +862,12 @@ fn an_if_is_drawn_by_two_demonstrations() {
     // the example has its own values again, and the value is one, whichever branch ran
     assert_eq!(value(&desk, "bolt.length"), "60 mm");
     assert_eq!(value(&desk, "bolt.value"), "26 mm");
+    // only the branch that is taken says what it made
+    let said = |desk: &Desk| -> Vec<Option<String>> {
+        let rows = desk.session.steps(desk.id, None).expect("it is recorded").rows;
+        rows.into_iter().filter(|row| row.name == "value").map(|row| row.value).collect()
+    };
+    assert_eq!(said(&desk), [Some("26 mm".into()), None, None]);
     begin(&mut desk, "Line.horizontal(from,length)");
     enter(&mut desk, "0,0");
     made(enter(&mut desk, "value"));
@@ -871,6 +877,7 @@ fn an_if_is_drawn_by_two_demonstrations() {
         desk.set("bolt.length", length).expect("a parameter can be set");
         assert_eq!(value(&desk, "bolt.line.length"), format!("{thread} mm"));
     }
+    assert_eq!(said(&desk), [None, None, Some("45 mm".into())]);
     let steps = desk.session.history(desk.id).0;
     assert_eq!(steps.iter().filter(|step| step.starts_with("if ")).count(), 1, "{steps:?}");
 }
