@@ -30,7 +30,7 @@ mod reading;
 mod recording;
 mod remove;
 mod repeat;
-mod scene;
+pub(crate) mod scene;
 mod steps;
 mod synonyms;
 mod text;

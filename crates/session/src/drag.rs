@@ -487,6 +487,15 @@ pub(crate) fn has_place(structure: &Structure, thing: ThingId) -> bool {
     !places(structure, &[thing]).is_empty()
 }
 
+/// Whether a thing has places of its own, of which some are not anchored.
+pub(crate) fn moves(structure: &Structure, thing: ThingId) -> bool {
+    let is_held = |slot: &SlotId| structure.slots[*slot].anchored;
+    let slots = |t: &ThingId| structure.slots_under(*t);
+    places(structure, &[thing])
+        .iter()
+        .any(|place| !place.iter().flat_map(slots).all(|s| is_held(&s)))
+}
+
 /// Returns the places that things are made of, each merged one once: themselves, or those of their parts. A
 /// place that has more than its coordinates, two numbers x and y, is dragged by these.
 fn places(structure: &Structure, things: &[ThingId]) -> Vec<Vec<ThingId>> {

@@ -34,6 +34,7 @@ mod following;
 mod general;
 mod ghosts;
 mod given_twice;
+mod grasp;
 mod instances;
 pub mod jobs;
 mod joining;

@@ -215,8 +215,16 @@ impl Session {
     /// # Errors
     /// Why they cannot be dragged: there is nothing at a path, it has no place of its own, or anchors hold all of it.
     pub fn press_all(&mut self, id: DocumentId, paths: &[Path]) -> Result<(f64, f64), Refusal> {
+        self.press_by(id, |open| drag::begin(open, paths))
+    }
+    /// Begins a drag in some way.
+    pub(crate) fn press_by(
+        &mut self,
+        id: DocumentId,
+        begin: impl FnOnce(&mut Open) -> Result<(f64, f64), Refusal>,
+    ) -> Result<(f64, f64), Refusal> {
         let (open, beside) = self.beside_others(id);
-        let handle = drag::begin(open, paths)?;
+        let handle = begin(open)?;
         open.rest_picture();
         if let Some(mut trace) = open.trace.take() {
             // what was watched may be gone from the document: then nothing is watched

@@ -1,6 +1,6 @@
 //! Things of programs: placed where there is room, held in their place, unlinked; and what their steps say, changed.
 
-use crate::desk::Desk;
+use crate::desk::{Desk, at};
 use session::Command;
 use session::drafting::view::{Go, StepOperand, Turn, Wants};
 use session::view::{Pointer, RowUse};
@@ -95,6 +95,37 @@ fn what_is_placed_is_dragged_and_held_in_its_place_it_is_fitted() {
     assert_eq!(desk.text(), before);
     let refused = desk.session.hold_in_place(desk.id, "nothing", true).expect_err("it is none");
     assert_eq!(refused.message, "nothing is no placed thing of a program");
+}
+
+/// Drags what lies at a place to another.
+fn drag_at(desk: &mut Desk, thing: &str, from: (f64, f64), to: (f64, f64)) {
+    let pointer = Pointer { at: from, reach: 0.5, ..Pointer::default() };
+    let held = desk.session.press_at(desk.id, &[at(thing)], &pointer);
+    let (x, y) = held.expect("it can be held there");
+    desk.session.drag(desk.id, (x + to.0 - from.0, y + to.1 - from.1));
+    desk.session.release(desk.id).expect("the drag can be kept");
+}
+
+#[test]
+fn a_rim_of_what_has_no_place_is_dragged_larger() {
+    let mut desk = Desk::of(WASHER);
+    drag_at(&mut desk, "washer", (0.0, 5.0), (0.0, 8.0));
+    assert_eq!(circle(&desk, "washer.rim"), [0.0, 0.0, 8.0]);
+    assert_eq!(number(&desk, "washer.outer"), 16.0);
+    desk.undo();
+    assert_eq!(desk.text(), WASHER);
+    // aside of the way outwards it comes as near as it can
+    drag_at(&mut desk, "washer", (3.0, 4.0), (7.0, 6.0));
+    let [_, _, radius] = circle(&desk, "washer.rim");
+    assert!((radius - 9.0).abs() < 1e-6, "{radius}");
+    // what is placed moves, until it is held where it is
+    let placed = WASHER.replace("washer: Washer\n", "washer: Placed of Washer { at = (20, 0) }\n");
+    let mut desk = Desk::of(&placed);
+    drag_at(&mut desk, "washer", (25.0, 0.0), (28.0, 0.0));
+    assert_eq!(circle(&desk, "washer.rim"), [23.0, 0.0, 5.0]);
+    desk.session.hold_in_place(desk.id, "washer", true).expect("it is placed");
+    drag_at(&mut desk, "washer", (28.0, 0.0), (30.0, 0.0));
+    assert_eq!(circle(&desk, "washer.rim"), [23.0, 0.0, 7.0]);
 }
 
 #[test]

@@ -4,8 +4,8 @@ use super::{InPlace, Lab, Notice, Zoom};
 use crate::sheet::bounds;
 use crate::{js, words};
 use leptos::prelude::*;
-use session::view::{Caught, Change, Choice, DragState, FixView, Question, Refusal};
-use session::{Clip, Command, Path, Relations, Session};
+use session::view::{Caught, Change, Choice, DragState, FixView, Pointer, Question, Refusal};
+use session::{Clip, Command, DocumentId, Path, Relations, Session};
 use std::time::Duration;
 
 const TYPING_PAUSE: Duration = Duration::from_millis(150);
@@ -93,14 +93,23 @@ impl Lab {
 
     /// Begins a drag; returns where the handle of what is dragged lies on the sheet, if there is one.
     pub fn press(self, path: &str) -> Option<(f64, f64)> {
-        self.press_all(&[String::from(path)])
+        let paths = [String::from(path)];
+        self.press_by(&paths, |session, id, paths| session.press_all(id, paths))
     }
 
-    /// Begins a drag of several things, which move as one.
-    pub fn press_all(self, paths: &[String]) -> Option<(f64, f64)> {
+    /// Begins a drag where a pointer is, of several things as one.
+    pub fn press_at(self, paths: &[String], pointer: &Pointer) -> Option<(f64, f64)> {
+        self.press_by(paths, |session, id, paths| session.press_at(id, paths, pointer))
+    }
+
+    fn press_by(
+        self,
+        paths: &[String],
+        press: impl FnOnce(&mut Session, DocumentId, &[Path]) -> Result<(f64, f64), Refusal>,
+    ) -> Option<(f64, f64)> {
         self.flush_text();
         let paths: Option<Vec<Path>> = paths.iter().map(|p| session::parse_path(p)).collect();
-        match self.tell(|session, id| session.press_all(id, &paths.unwrap_or_default()))? {
+        match self.tell(|session, id| press(session, id, &paths.unwrap_or_default()))? {
             Ok(handle) => {
                 self.notice.set(None);
                 self.dragging.set(Some(DragState::default()));

@@ -428,7 +428,7 @@ impl Hand {
     fn begin_drag(self, path: &str, start: (f64, f64)) {
         let several = self.together(path);
         let paths = several.unwrap_or_else(|| vec![String::from(path)]);
-        let Some(handle) = self.lab.press_all(&paths) else {
+        let Some(handle) = self.lab.press_at(&paths, &self.pointer(start)) else {
             self.set_mode(Mode::Pan { last: start });
             return;
         };
