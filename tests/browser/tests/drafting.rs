@@ -200,6 +200,24 @@ async fn a_family_is_a_grid_in_which_rows_are_changed_and_used() {
     visit.until("window.__thinglab.state().text.includes(': Placed of Bearing {')").await;
     press(&visit, "[data-family='pictures']").await;
     visit.until("document.querySelectorAll('.specimen img').length === 10").await;
+    // a drawing for each row in one archive: what it says at its end is how many there are
+    visit
+        .script(
+            "const was = URL.createObjectURL;
+             URL.createObjectURL = blob => {
+                 blob.arrayBuffer().then(bytes => { window.archive = new DataView(bytes); });
+                 return was.call(URL, blob);
+             };",
+        )
+        .await;
+    for format in ["svg", "dxf"] {
+        visit.script("window.archive = undefined").await;
+        press(&visit, &format!("[data-family='save-{format}']")).await;
+        // the row whose diameters do not fit is left out
+        visit
+            .until("window.archive?.getUint16(0) === 0x504b && archive.getUint16(archive.byteLength - 12, true) === 9")
+            .await;
+    }
     press(&visit, "[data-family='map']").await;
     visit
         .until(

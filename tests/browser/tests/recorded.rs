@@ -276,6 +276,10 @@ async fn a_plate_is_rows_of_rows_of_holes() {
     assert!(text.contains(wanted), "{text}");
     visit.picture("plate").await;
     visit.book_picture("plate").await;
+    // where steps stand, what defines a parameter is folded away
+    press(&visit, "[data-draft='unfold']").await;
+    define(&visit, "edge", "10").await;
+    has(&visit, "edge: Length = 10").await;
 }
 
 #[tokio::test]

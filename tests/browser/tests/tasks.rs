@@ -3,6 +3,7 @@
 
 use browser::Visit;
 use browser::{drafting, hands};
+use fantoccini::actions::MOUSE_BUTTON_LEFT;
 use std::cell::Cell;
 use std::time::Duration;
 
@@ -263,6 +264,90 @@ async fn terminals_become_workstations_wherever_they_stand() {
         .await;
     assert_eq!(hand.actions.get(), 25 + 11);
     hand.visit.picture("workstations").await;
+    plain_terminals(&hand).await;
+}
+
+/// Terminals that no program draws, three boxes and three lines: one of them becomes a class, the others are recognised
+/// as such, and all follow what is drawn in its prototype.
+async fn plain_terminals(hand: &Hand) {
+    let visit = &hand.visit;
+    visit.script("location.hash = '#/plain.thing'").await;
+    visit.until("window.__thinglab.state().path === 'plain.thing'").await;
+    hand.actions.set(0);
+    let places = [(450.0, 250.0), (620.0, 350.0), (790.0, 250.0)];
+    let drag = async |from: (f64, f64), to: (f64, f64)| {
+        hand.act();
+        hands::drag(visit, from, to).await;
+    };
+    for (x, y) in places {
+        for (tool, from, to) in [
+            ("rectangle", (x, y), (x + 60.0, y + 45.0)),
+            ("line", (x - 10.0, y + 60.0), (x + 70.0, y + 60.0)),
+        ] {
+            hand.press(&format!("[data-action='tool-{tool}']")).await;
+            drag(from, to).await;
+            for _ in 0..2 {
+                hands::chord(visit, &[], hands::key::ESCAPE).await;
+            }
+        }
+    }
+    hand.has("line3: Line").await;
+    assert_eq!(hand.actions.get(), 12);
+    let around = async |(x, y): (f64, f64)| {
+        drag((x - 25.0, y - 20.0), (x + 90.0, y + 80.0)).await;
+    };
+    around(places[0]).await;
+    hand.act();
+    hands::chord(visit, &[hands::key::SHIFT], 'C').await;
+    visit.until("document.activeElement.id === 'asked'").await;
+    hand.act();
+    hands::keys(visit, "Terminal").await;
+    hands::chord(visit, &[], hands::key::ENTER).await;
+    hand.has("terminal: Terminal").await;
+    for (place, thing) in places.iter().skip(1).zip(["terminal2", "terminal3"]) {
+        around(*place).await;
+        hand.act();
+        hands::chord(visit, &[hands::key::SHIFT], 'R').await;
+        hand.press(".recognised button:not([aria-label])").await;
+        hand.has(&format!("{thing}: Terminal")).await;
+    }
+    // its prototype: the box stands on a foot
+    hand.act();
+    hands::point(visit, (places[0].0 + 20.0, places[0].1 + 60.0), MOUSE_BUTTON_LEFT).await;
+    hand.act();
+    hands::chord(visit, &[hands::key::SHIFT], 'E').await;
+    visit
+        .until(
+            "document.querySelector('.class-pane') && window.__thinglab.state().grips.length === 3",
+        )
+        .await;
+    let pane = seen_grips(visit).await;
+    let of = |end: &str| pane.iter().find(|(path, _)| path.ends_with(end)).expect("a grip").1;
+    let ((from, y), (to, _), (_, up)) = (of("line.p1"), of("line.p2"), of("rectangle.corner"));
+    hand.press("[data-action='tool-line']").await;
+    for end in [up, y] {
+        hand.act();
+        hands::point(visit, (f64::midpoint(from, to), end), MOUSE_BUTTON_LEFT).await;
+    }
+    hand.has("constraint line2.p2 = line.midpoint").await;
+    hand.press(".class-pane button").await;
+    assert_eq!(hand.actions.get(), 12 + 15);
+    for thing in ["terminal", "terminal2", "terminal3"] {
+        visit
+            .until(&format!(
+                "window.__thinglab.state().grips.some(g => g.path.startsWith('{thing}.line2'))"
+            ))
+            .await;
+    }
+    visit.picture("workstations-recognised").await;
+}
+
+/// Where the grips are seen, by their paths.
+async fn seen_grips(visit: &Visit) -> Vec<(String, (f64, f64))> {
+    let now = hands::state(visit).await;
+    let grips = now["grips"].as_array().cloned().unwrap_or_default();
+    let paths = grips.iter().filter_map(|grip| Some(grip["path"].as_str()?.to_string()));
+    paths.map(|path| (path.clone(), hands::grip(&now, &path))).collect()
 }
 
 /// Draws the curve of von Koch by a program that is applied within itself.

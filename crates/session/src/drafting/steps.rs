@@ -208,7 +208,8 @@ pub(super) fn pattern_in_words(formula: &Expr) -> Option<String> {
     let catalogue::Written { pattern, parts, .. } = catalogue::pattern_of(formula)?;
     let of = |slot: &str| {
         let part = parts.iter().find(|(name, _)| *name == slot);
-        part.map(|(_, said)| said.syntax().text().to_string().trim().to_string())
+        let said = part?.1.syntax().text().to_string().trim().to_string();
+        Some(as_typed(&said, "").unwrap_or(said))
     };
     let (what, count) = (of("what")?, of("count")?);
     Some(match pattern {

@@ -38,6 +38,11 @@ pub(crate) fn operand(slot: &Slot, typed: &str, last: Option<&str>) -> Result<St
         }
         return Err(words::refuse(format!("{} is wanted", slot.name)));
     }
+    if matches!(said(typed), Said::Pair(..))
+        && let Some(wanted) = instead_of_a_place(slot)
+    {
+        return Err(words::refuse(format!("{typed} is a place, but {} is {wanted}", slot.name)));
+    }
     Ok(match slot.kind {
         SlotKind::Curve | SlotKind::Set => typed.into(),
         SlotKind::Edges if typed.starts_with('[') => typed.into(),
@@ -48,6 +53,18 @@ pub(crate) fn operand(slot: &Slot, typed: &str, last: Option<&str>) -> Result<St
         // before any point was given, one goes from where the axes cross
         SlotKind::Point => at(typed, last.unwrap_or("Point(0, 0)"))?,
     })
+}
+
+/// What is wanted where a place is not.
+fn instead_of_a_place(slot: &Slot) -> Option<&'static str> {
+    match slot.kind {
+        SlotKind::Curve | SlotKind::Set | SlotKind::Edges => {
+            Some("a figure: pick it, or type its name")
+        }
+        SlotKind::Value if *slot.class == *"Text" => None,
+        SlotKind::Value => Some("a value, whose tenths stand after a point: 3.4"),
+        SlotKind::Point => None,
+    }
 }
 
 /// Writes a place that is typed: `3,4`, from another point `@10,0` and `20<45`, or any expression.

@@ -74,7 +74,7 @@ fn a_side_of_a_rectangle_is_a_line_and_a_copy_takes_all_of_it() {
     pick(&mut desk, 19.5, 20.0);
     enter(&mut desk, "w, w");
     let row = text(enter(&mut desk, "n"));
-    assert!(row.starts_with("pattern in a row: rectangle, by Point(w, w), count n"), "{row}");
+    assert!(row.starts_with("pattern in a row: rectangle, by (w, w), count n"), "{row}");
     // a mirror image has its sides
     begin(&mut desk, "Point:mirrored");
     pick(&mut desk, 7.0, 20.0);

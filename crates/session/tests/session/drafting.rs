@@ -82,7 +82,7 @@ fn a_copy_of_a_small_circle_is_one_of_the_circle_not_of_its_centre() {
     point(&mut desk, 46.5, 0.0);
     enter(&mut desk, "0,0");
     let pattern = made(enter(&mut desk, "n"));
-    assert_eq!(pattern, "polar pattern: circle, about Point(0, 0), count n; n is a count now");
+    assert_eq!(pattern, "polar pattern: circle, about (0, 0), count n; n is a count now");
     assert!(desk.text().contains("=> circle.turned("), "{}", desk.text());
 }
 
@@ -493,10 +493,14 @@ fn what_does_not_fit_is_refused_and_waited_for() {
     };
     assert_eq!(refused(&mut desk, "floor.p1"), "floor.p1 is a Point, where a Curve is wanted");
     assert!(refused(&mut desk, "ceiling").contains("ceiling"));
+    let place = refused(&mut desk, "3,4");
+    assert_eq!(place, "3,4 is a place, but first is a figure: pick it, or type its name");
     let nothing = desk.session.point(desk.id, &pointer(50.0, 50.0)).expect_err("nothing is there");
     assert_eq!(nothing.message, "there is no line, circle or arc here");
     enter(&mut desk, "floor");
     enter(&mut desk, "floor");
+    let place = refused(&mut desk, "3,4");
+    assert!(place.ends_with("radius is a value, whose tenths stand after a point: 3.4"), "{place}");
     let none = refused(&mut desk, "10");
     assert!(none.contains("there is no such Circle"), "{none}");
     assert_eq!(desk.text(), CORNER);
