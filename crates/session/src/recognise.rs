@@ -296,3 +296,10 @@ impl Trial {
         })
     }
 }
+
+/// Whether a program has a place among its parameters, by the name that what is placed has for its own: it needs no other.
+pub(crate) fn asks_for_its_place(document: &Document, class: ClassId) -> bool {
+    let point = document.class_named("Point");
+    let is_place = |part: &kernel::Part| *part.name == *"at" && Some(part.class) == point;
+    document.classes[class].parts.iter().any(is_place)
+}

@@ -83,7 +83,9 @@ impl Tool {
         else {
             return Err(words::refuse(format!("there is no class {class} to make things of")));
         };
-        let written = if document.program(known).is_some() { "Placed of " } else { "" };
+        let is_placed =
+            document.program(known).is_some() && !recognise::asks_for_its_place(document, known);
+        let written = if is_placed { "Placed of " } else { "" };
         let body = match values {
             [] => String::new(),
             values => format!(" {{\n    {}\n}}", values.join("\n    ")),

@@ -1,7 +1,7 @@
 //! Drawing by constructions, and a program recorded by drawing one example: with the mouse, and without a line of text.
 
 use browser::Visit;
-use browser::drafting::{asked, calculate, define, enter, fill, has, pick, press, submit};
+use browser::drafting::{asked, calculate, define, enter, fill, has, pick, press, set, submit};
 use browser::hands::{state, text_of};
 
 #[tokio::test]
@@ -76,7 +76,7 @@ async fn first_ring(visit: &Visit) {
     visit.until("document.querySelector('[name=operand]').value === 'circle.radius'").await;
     calculate(visit, &["÷", "2"]).await;
     visit.until("document.querySelector('.computed').innerText.includes('20')").await;
-    calculate(visit, &["give"]).await;
+    calculate(visit, &["M", "give"]).await;
     visit.until("window.__thinglab.state().text.includes('circle2 = ')").await;
 }
 
@@ -92,9 +92,8 @@ async fn figure_7_6_is_drawn_as_its_chapter_tells() {
     press(&visit, "[data-draft='same']").await;
     asked(&visit, "was radius").await;
     press(&visit, "[data-draft='calculator']").await;
-    press(&visit, "[data-measure='radius']").await;
-    pick(&visit, -80.0, 40.0).await;
-    calculate(&visit, &["÷", "2", "give"]).await;
+    // the same expression as in the first turn, which the calculator has kept
+    calculate(&visit, &["MR", "give"]).await;
     asked(&visit, "after the last turn").await;
     press(&visit, "[data-measure='radius']").await;
     pick(&visit, -80.0, 40.0).await;
@@ -118,9 +117,14 @@ async fn figure_7_6_is_drawn_as_its_chapter_tells() {
     let wanted = "turns = repeat with first = axis, radius2 = radius {
         circle = Circle.tangent(first, axis2, radius: radius2)
         circle2 = Circle.concentric(with: circle, radius: circle.radius / 2)
-        next first = -circle, radius2 = circle.radius / 2
+        next first = -circle, radius2 = (circle.radius / 2)
     } until circle.radius < minimum";
     assert!(text.contains(wanted), "{text}");
+    // 40, 20, 10, 5, 2.5; and 80 before them
+    for (parameter, value, turns) in [("minimum", "5", 5), ("radius", "80", 6)] {
+        set(&visit, parameter, value).await;
+        visit.until(&format!("{of_turns}.includes('{turns} turns')")).await;
+    }
 }
 
 #[tokio::test]
@@ -215,7 +219,7 @@ async fn a_family_is_a_grid_in_which_rows_are_changed_and_used() {
         press(&visit, &format!("[data-family='save-{format}']")).await;
         // the row whose diameters do not fit is left out
         visit
-            .until("window.archive?.getUint16(0) === 0x504b && archive.getUint16(archive.byteLength - 12, true) === 9")
+            .until("window.archive?.getUint16(0) === 0x504b && archive.getUint16(archive.byteLength - 12, true) === 10")
             .await;
     }
     press(&visit, "[data-family='map']").await;

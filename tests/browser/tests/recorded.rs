@@ -142,6 +142,43 @@ async fn a_retaining_ring_has_the_lug_that_its_size_asks_for() {
     visit.book_picture("ring").await;
 }
 
+#[tokio::test]
+async fn a_nut_is_a_flat_in_a_polar_pattern() {
+    let visit = hands::begin().await;
+    record(&visit, "Nut", &[("s", "16", ""), ("d", "10", "")]).await;
+    enlarge(&visit, 12).await;
+    construct(&visit, "Point").await;
+    press(&visit, "input[name='guide']").await;
+    for typed in ["0, 0", "0, s / (2 * cos(30 deg))"] {
+        enter(&visit, typed).await;
+    }
+    construct(&visit, "Point:turned").await;
+    pick(&visit, 0.0, 9.24).await;
+    pick(&visit, 0.0, 0.0).await;
+    enter(&visit, "60").await;
+    has(&visit, "guide turned = point2.turned(about: point, by: 60 deg)").await;
+    press(&visit, "[data-draft='end']").await;
+    construct(&visit, "Line").await;
+    pick(&visit, 0.0, 9.24).await;
+    pick(&visit, -8.0, 4.62).await;
+    has(&visit, "    line = Line(point2, turned)").await;
+    construct(&visit, ":pattern(about,count)").await;
+    pick(&visit, -4.0, 6.93).await;
+    pick(&visit, 0.0, 0.0).await;
+    enter(&visit, "6").await;
+    construct(&visit, "Circle").await;
+    pick(&visit, 0.0, 0.0).await;
+    enter(&visit, "d / 2").await;
+    has(&visit, "    circle = Circle(center: point, radius: d / 2)").await;
+    press(&visit, "[data-draft='stop']").await;
+    // an M16: its corners are 24 / sqrt(3) from its middle
+    set(&visit, "s", "24").await;
+    let row = |step: &str| format!("document.querySelector(\"[data-step='{step}']\").innerText");
+    visit.until(&format!("{}.includes('(0, 13.8564)')", row("line"))).await;
+    visit.until(&format!("{}.includes('5 figures')", row("pattern"))).await;
+    visit.picture("nut").await;
+}
+
 /// The half of a ring with round lugs, right of its gap, drawn by guides and then by its edges.
 async fn half_a_ring(visit: &Visit) {
     press(visit, "[data-action='tool-circle']").await;

@@ -318,7 +318,8 @@ async fn plain_terminals(hand: &Hand) {
     hands::chord(visit, &[hands::key::SHIFT], 'E').await;
     visit
         .until(
-            "document.querySelector('.class-pane') && window.__thinglab.state().grips.length === 3",
+            "document.querySelector('.class-pane') && \
+             !window.__thinglab.state().grips.some(g => g.path.startsWith('terminal2'))",
         )
         .await;
     let pane = seen_grips(visit).await;

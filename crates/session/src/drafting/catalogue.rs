@@ -41,6 +41,8 @@ pub(crate) enum Call {
     Make,
     /// `Washer(inner: d).moved(by: place)`: the last slot is its place. In a document it is a placed thing.
     Placed,
+    /// `Terminal(at: place)`: it asks for its place itself. In a document it is a thing.
+    Thing,
     /// `line.mirrored(about: axis)`: the first slot is what it is sent to.
     Message(String),
     /// Many of a set, one after the other: the set, how each is led on to the next, how many.
@@ -296,7 +298,7 @@ impl Tool {
             Call::Value => return operands.first().cloned().unwrap_or_default(),
             Call::Pattern(pattern, first) => return pattern.written(*first, operands),
             Call::Class(word) => (format!("{}.{word}", self.class), 0),
-            Call::Make | Call::Placed => (self.class.to_string(), 0),
+            Call::Make | Call::Placed | Call::Thing => (self.class.to_string(), 0),
             Call::Message(word) => {
                 let of = operands.first().map_or("", String::as_str);
                 (format!("{}.{word}", bracketed(of)), 1)
@@ -323,7 +325,8 @@ impl Tool {
     pub(crate) fn thing(&self, name: &str, operands: &[String]) -> String {
         let value = |(slot, operand): (&Slot, &String)| format!("    {} = {operand}", slot.name);
         let values: Vec<String> = self.slots.iter().zip(operands).map(value).collect();
-        format!("{name}: Placed of {} {{\n{}\n}}", self.class, values.join("\n"))
+        let placed = if self.call == Call::Placed { "Placed of " } else { "" };
+        format!("{name}: {placed}{} {{\n{}\n}}", self.class, values.join("\n"))
     }
 
     /// Where the page lists it.
@@ -374,8 +377,13 @@ pub(crate) fn tools(state: &State, home: &Home) -> Vec<Tool> {
             if let (Some(tool), true, Some(point)) =
                 (&mut tool, is_placed, document.class_named("Point"))
             {
-                tool.call = Call::Placed;
-                tool.slots.push(Slot::of(document, "at", None, point));
+                match recognise::asks_for_its_place(document, id) {
+                    true => tool.call = Call::Thing,
+                    false => {
+                        tool.call = Call::Placed;
+                        tool.slots.push(Slot::of(document, "at", None, point));
+                    }
+                }
             }
             all.extend(tool);
         }
@@ -401,7 +409,7 @@ pub(crate) fn tools(state: &State, home: &Home) -> Vec<Tool> {
     // what was recorded here is looked for first
     let source = text::Source::now(state);
     let own = |tool: &Tool| {
-        matches!(tool.call, Call::Make | Call::Placed)
+        matches!(tool.call, Call::Make | Call::Placed | Call::Thing)
             && text::program(&source, &tool.class).is_some()
     };
     all.sort_by_cached_key(|tool| !own(tool));

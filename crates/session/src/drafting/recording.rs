@@ -42,7 +42,7 @@ pub(crate) fn line(
             let name = free_name((state, document.root), base, &BTreeSet::new());
             let operands: Vec<String> = operands.iter().map(|o| o.text.clone()).collect();
             let text = match dialogue.tool.call {
-                Call::Placed => dialogue.tool.thing(&name, &operands),
+                Call::Placed | Call::Thing => dialogue.tool.thing(&name, &operands),
                 // things of a class draw their parts: there it is one that is bound
                 _ if open.pane.is_some() => format!("{name}: {} = {made}", dialogue.tool.class),
                 Call::Class(_)

@@ -74,6 +74,30 @@ fn a_program_asks_for_its_values_and_its_place() {
 }
 
 #[test]
+fn a_program_that_asks_for_its_place_is_asked_for_one() {
+    let text = "use geometry\nprogram Peg(at: Point = (0, 0), d: Length = 8) { rim = Circle(at, d / 2) }\npeg: Peg\n";
+    let mut desk = Desk::of(text);
+    let peg = |desk: &Desk, name: &str| {
+        ["at.x", "at.y", "rim.radius"].map(|part| number(desk, &format!("{name}.{part}")))
+    };
+    desk.session.begin(desk.id, "Peg").expect("a program is a construction");
+    for typed in ["50, 20", "6"] {
+        desk.session.enter(desk.id, typed).expect("it fits");
+    }
+    assert_eq!(peg(&desk, "peg2"), [50.0, 20.0, 3.0]);
+    desk.drag("peg2", &[(60.0, 20.0)]);
+    assert_eq!(peg(&desk, "peg2"), [60.0, 20.0, 3.0]);
+    // out of the bin, too
+    desk.session.take_tool(desk.id, "Peg").expect("it can be placed");
+    let pointer = Pointer { at: (90.0, 0.0), ..Pointer::default() };
+    desk.session.tool_moved(desk.id, &pointer).expect("a tool is in the hand");
+    let view = desk.session.tool_set(desk.id, &pointer).expect("it is laid down");
+    desk.apply(&view.command.expect("all of it is said")).expect("it is made");
+    assert_eq!(peg(&desk, "peg3"), [90.0, 0.0, 4.0]);
+    assert_eq!(desk.wrong(), [], "{}", desk.text());
+}
+
+#[test]
 fn what_is_placed_is_dragged_and_held_in_its_place_it_is_fitted() {
     let mut desk = Desk::of(
         &WASHER.replace("washer: Washer\n", "washer: Placed of Washer { at = (20, 0) }\n"),
