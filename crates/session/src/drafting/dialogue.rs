@@ -266,6 +266,13 @@ impl Dialogue {
                 ghost.elements.extend(chosen.curve.and_then(|curve| curve.arrow(pointer)));
                 Hover { finds, ghost, why: None }
             }
+            // the pointer is still where it has picked the operand before
+            Err(_)
+                if typed.trim().is_empty()
+                    && self.filled.last().map(|last| &last.text) == finds.as_ref() =>
+            {
+                Hover::default()
+            }
             Err(refusal) => {
                 let typed = (typed.trim(), slot.class.as_str());
                 let why = parameters::may_become(state, home, typed).unwrap_or(refusal.message);

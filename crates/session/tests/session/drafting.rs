@@ -519,6 +519,16 @@ fn a_ghost_shows_what_will_be_drawn() {
     assert_eq!(hover.why, None);
     // the circle, and which way it runs
     assert_eq!(hover.ghost.elements.len(), 2);
+    desk.session.give_up(desk.id);
+    // nothing is complained of before the pointer has left what it picked
+    begin(&mut desk, "Point.intersection(first,second)");
+    point(&mut desk, 20.0, 0.0);
+    let still = desk.session.hover(desk.id, &pointer(20.0, 0.0), "");
+    assert_eq!((still.finds, still.why), (None, None));
+    desk.session.give_up(desk.id);
+    begin(&mut desk, "Circle.tangent(first,second,radius)");
+    point(&mut desk, 20.0, 0.0);
+    point(&mut desk, 0.0, 20.0);
     // a measure is what is picked for a value; mostly it is typed, and nothing is said before a click
     let hover = desk.session.hover(desk.id, &pointer(0.0, 50.0), "");
     assert_eq!((hover.finds, hover.why), (None, None), "an axis has no length");
