@@ -57,6 +57,8 @@ pub(crate) struct Drag {
     pub(crate) values: Values,
     /// Where the pointer was then, on the sheet.
     pub(crate) wish: [f64; 2],
+    /// Whether a point of a curve is held: aside of its way it comes as near as it can.
+    pub(crate) is_grasp: bool,
 }
 
 /// Begins a drag of some things in a document, and returns where its handle is on the sheet: that of the first.
@@ -336,6 +338,7 @@ pub(crate) fn press(
         keeping: None,
         values,
         wish,
+        is_grasp: false,
     })
 }
 
@@ -381,6 +384,7 @@ pub(crate) fn press_computed(
         keeping: None,
         values,
         wish,
+        is_grasp: false,
     })
 }
 
@@ -593,6 +597,7 @@ impl Drag {
                 .collect(),
         };
         let wished = self.turned(state, planner, &to);
+        let before: Vec<f64> = self.slots.iter().map(|&s| self.values.numbers[s]).collect();
         let report = match &mut self.keeping {
             Some(keeping) => {
                 let way = (&mut self.press, &mut self.values);
@@ -610,6 +615,11 @@ impl Drag {
         if report.reached {
             modes.extend(limits::courses(state, &report.courses));
             return DragState { reached: true, modes, ..DragState::default() };
+        }
+        let follows = self.slots.iter().zip(&before).any(|(&s, x)| self.values.numbers[s] != *x);
+        if self.is_grasp && follows {
+            modes.extend(limits::courses(state, &report.courses));
+            return DragState { modes, ..DragState::default() };
         }
         let (limit, words) = limits::of_drag(state, self);
         let is_cut = matches!(report.not_decided, Some(NotDecided::Work(_)));

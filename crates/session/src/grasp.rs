@@ -33,7 +33,8 @@ impl Session {
 fn grasp(open: &mut Open, path: &Path, pointer: &Pointer) -> Option<(f64, f64)> {
     let state = open.state.clone();
     let (drawn, point) = point_at(&state, path, pointer)?;
-    let drag = drag::press_computed(&state, &mut open.planner, point, drawn).ok()?;
+    let mut drag = drag::press_computed(&state, &mut open.planner, point, drawn).ok()?;
+    drag.is_grasp = true;
     let handle = drag.handle();
     open.drag = Some(drag);
     Some(handle)

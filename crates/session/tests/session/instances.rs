@@ -142,6 +142,11 @@ fn a_rim_of_what_has_no_place_is_dragged_larger() {
     drag_at(&mut desk, "washer", (3.0, 4.0), (7.0, 6.0));
     let [_, _, radius] = circle(&desk, "washer.rim");
     assert!((radius - 9.0).abs() < 1e-6, "{radius}");
+    let aside = Pointer { at: (5.4, 7.2), reach: 0.5, ..Pointer::default() };
+    desk.session.press_at(desk.id, &[at("washer")], &aside).expect("it can be held there");
+    let told = desk.session.drag(desk.id, (6.1, 7.9));
+    assert_eq!(told.message, None, "that is no limit");
+    desk.session.cancel(desk.id);
     // what is placed moves, until it is held where it is
     let placed = WASHER.replace("washer: Washer\n", "washer: Placed of Washer { at = (20, 0) }\n");
     let mut desk = Desk::of(&placed);
