@@ -108,9 +108,9 @@ impl Lab {
     /// Asks something of the shown document that may take long.
     pub fn ask_long(self, kind: Kind, question: LongQuestion, tell: impl Fn(Told) + 'static) {
         let going = self.jobs.going.get_untracked();
-        // nobody waits for the count
         if let Some(going) = going.filter(|g| g.kind == kind || g.kind == Kind::Freedom) {
-            match js::now() - going.begun > LONG {
+            // nobody waits for the count: whoever asks something else does not either
+            match going.kind != kind || js::now() - going.begun > LONG {
                 true => self.end_worker(),
                 false => self.jobs.queue.update_value(|queue| {
                     queue.stale += u32::from(std::mem::take(&mut queue.is_handed));
