@@ -87,9 +87,9 @@ impl FaultKind {
 /// with its resistors has 3.95 million.
 pub const MOST_THINGS: usize = 4_000_000;
 
-/// How many things may be made and copied on the way to a document: what doubles from class to class is all in memory
-/// when it is found to be too much.
-const MOST_COPIES: usize = MOST_THINGS;
+/// How many things may be made and copied on the way to a document, the elements of lists counted twice: what doubles
+/// from class to class is all in memory when it is found to be too much.
+const MOST_COPIES: usize = MOST_THINGS + MOST_THINGS / 8;
 
 /// Makes the structure of a document, and says what could not be made.
 ///
