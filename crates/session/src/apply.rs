@@ -163,9 +163,8 @@ fn edit(
     if report.reached {
         change.modes.extend(limits::courses(&state, &report.courses));
     }
-    if kind == EditKind::Set {
-        change.modes.extend(limits::sprung_back(&open.state, &aims));
-    }
+    let back = (kind == EditKind::Set).then(|| limits::sprung_back(&open.state, &aims));
+    change.modes.extend(back.into_iter().flatten());
     Ok(change)
 }
 
