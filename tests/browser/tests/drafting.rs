@@ -71,6 +71,8 @@ async fn first_ring(visit: &Visit) {
     press(visit, "[data-construction='Circle.concentric(with,radius)']").await;
     pick(visit, -80.0, 40.0).await;
     press(visit, "[data-draft='calculator']").await;
+    // the keys leave the drawing in sight
+    visit.until("document.querySelector('.prompt').offsetWidth < 400").await;
     press(visit, "[data-measure='radius']").await;
     pick(visit, -80.0, 40.0).await;
     visit.until("document.querySelector('[name=operand]').value === 'circle.radius'").await;
