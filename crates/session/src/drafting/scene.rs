@@ -327,7 +327,7 @@ impl Curve {
 
     /// At which part of it a place lies, as its class counts: of the way from end to end, of a turn to the left.
     pub(crate) fn part_at(&self, (x, y): (f64, f64)) -> Option<f64> {
-        const TURN: f64 = std::f64::consts::TAU;
+        use std::f64::consts::TAU;
         let part = match (self.figure, self.arc) {
             (Figure::Straight { from, to }, _) => {
                 let (dx, dy) = (to[0] - from[0], to[1] - from[1]);
@@ -335,12 +335,12 @@ impl Curve {
             }
             (Figure::Circle { center, radius }, None) => {
                 let up = if radius < 0.0 { center[1] - y } else { y - center[1] };
-                atan2(up, x - center[0]) / TURN
+                atan2(up, x - center[0]) / TAU
             }
             (Figure::Circle { center, radius }, Some([a, b])) => {
                 let turn = |p: [f64; 2]| atan2(p[1] - center[1], p[0] - center[0]);
-                let sweep = (turn(b) - turn(a)).rem_euclid(TURN);
-                let part = (turn([x, y]) - turn(a)).rem_euclid(TURN) / sweep;
+                let sweep = (turn(b) - turn(a)).rem_euclid(TAU);
+                let part = (turn([x, y]) - turn(a)).rem_euclid(TAU) / sweep;
                 if radius < 0.0 { 1.0 - part } else { part }
             }
             (Figure::Point(_) | Figure::Arc { .. }, _) => return None,
