@@ -341,14 +341,15 @@ pub(crate) fn drawing(
     let names: Vec<&str> = step.split('.').filter(|s| text::is_name(s)).collect();
     let start = crate::session::parse_path(example).unwrap_or_default();
     let is_come_to = |turns: &[u32]| drawn.is_come_to(state, step, turns);
-    collect(&evaluator, (&start, &names), (&is_come_to, &mut Vec::new()), &mut elements);
+    collect(&evaluator, (&start, &names), &is_come_to, &mut Vec::new(), &mut elements);
     drawing::Drawing { elements, ..drawing::Drawing::default() }
 }
 
 fn collect(
     evaluator: &Evaluator<'_>,
     (at, names): (&Path, &[&str]),
-    (is_come_to, turns): (&dyn Fn(&[u32]) -> bool, &mut Vec<u32>),
+    is_come_to: &dyn Fn(&[u32]) -> bool,
+    turns: &mut Vec<u32>,
     into: &mut Vec<drawing::Element>,
 ) {
     let Some((name, rest)) = names.split_first() else {
@@ -365,11 +366,11 @@ fn collect(
             for turn in 0..items.len() as u32 {
                 turns.push(turn);
                 let one = next.then(kernel::Step::Index(turn));
-                collect(evaluator, (&one, rest), (is_come_to, turns), into);
+                collect(evaluator, (&one, rest), is_come_to, turns, into);
                 turns.pop();
             }
         }
-        Ok(_) => collect(evaluator, (&next, rest), (is_come_to, turns), into),
+        Ok(_) => collect(evaluator, (&next, rest), is_come_to, turns, into),
         Err(_) => {}
     }
 }

@@ -3,6 +3,7 @@
 use super::grid::{self, Line};
 use super::{find, map};
 use crate::document::Open;
+use crate::drafting::view::Turn;
 use crate::drafting::{retext, serving};
 use crate::session::{Session, parse_path};
 use crate::state::State;
@@ -322,8 +323,8 @@ impl Session {
         self.with_family_text(id, text, format!("take rows into {family}"))
     }
 
-    /// Uses a row of a family: a thing that the program draws takes its values, or a new one has them. Returns the
-    /// path of the thing.
+    /// Uses a row of a family: a thing that the program draws takes its values, or a new one has them; while another
+    /// program is recorded, it calls this one by them. Returns the path of the thing.
     ///
     /// # Errors
     /// There is no such thing; the row is none of the family, or a constraint forbids it.
@@ -362,18 +363,22 @@ impl Session {
                 Ok((self.apply(id, &Command::Set(values))?, thing.clone()))
             }
             RowUse::Place => {
-                let class = &document.classes[program].name;
-                let name = free_name(state, &row.name, class);
+                let class = document.classes[program].name.to_string();
+                let name = free_name(state, &row.name, &class);
                 let value = |(name, written): &(String, String)| {
                     let value = row.values.iter().find(|(own, _)| own == name).map(|(_, v)| v);
                     let text = match value {
                         Some(Literal::Text(text)) => lang::quoted(text),
                         _ => written.clone(),
                     };
-                    format!("{name} = {text}")
+                    (name.clone(), text)
                 };
-                let values: Vec<String> = row.written.iter().map(value).collect();
-                let class = class.to_string();
+                let values: Vec<(String, String)> = row.written.iter().map(value).collect();
+                if self.recorded(id).is_some() {
+                    return self.call_by(id, &class, &values);
+                }
+                let values: Vec<String> =
+                    values.iter().map(|(name, text)| format!("{name} = {text}")).collect();
                 let (open, beside) = self.beside_others(id);
                 let new = (class.as_str(), name.clone(), &values[..]);
                 let tool = Tool::with_values(open, &beside, new)?;
@@ -381,6 +386,33 @@ impl Session {
                 Ok((self.apply(id, &edit)?, name))
             }
         }
+    }
+
+    /// Draws a step of what is recorded that calls a program by some values; the others are the program's own.
+    fn call_by(
+        &mut self,
+        id: DocumentId,
+        program: &str,
+        values: &[(String, String)],
+    ) -> Result<(Change, String), Refusal> {
+        let mut prompt = Some(self.begin(id, program)?);
+        while let Some(waits) = prompt {
+            let slot = waits.operands.iter().find(|(_, given)| given.is_none());
+            let value = slot.and_then(|(slot, _)| values.iter().find(|(name, _)| name == slot));
+            match self.enter(id, value.map_or("", |(_, text)| text)) {
+                Ok(Turn::Wants(next)) => prompt = Some(next),
+                Ok(Turn::Made { change, name, .. }) => {
+                    self.give_up(id);
+                    let example = self.recorded_example(id).unwrap_or_default();
+                    return Ok((*change, format!("{example}.{name}")));
+                }
+                Err(refusal) => {
+                    self.give_up(id);
+                    return Err(refusal);
+                }
+            }
+        }
+        Err(words::refuse(format!("{program} asks for nothing")))
     }
 
     /// Returns the parameters that a map can be made over, each with a range around its value in a thing.

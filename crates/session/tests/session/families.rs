@@ -217,6 +217,17 @@ fn a_row_is_used_by_its_name() {
     assert_eq!(comes_to(&desk, "d30.rim").as_deref(), Some("30 mm"));
     let again = desk.session.use_family_row(desk.id, ("Sold", &grid.rows[1]), &RowUse::Place);
     assert_eq!(again.expect("it can be placed").1, "d30_2");
+    // while another program is recorded, it calls this one
+    desk.session.record(desk.id, "Stack").expect("a new program");
+    let called = desk.session.use_family_row(desk.id, ("Sold", &grid.rows[0]), &RowUse::Place);
+    assert_eq!(called.expect("it can be called").1, "stack.disc");
+    assert!(
+        desk.text().contains("    disc = Disc(rim: 10 mm, hole: 2 mm, spokes: 3)"),
+        "{}",
+        desk.text()
+    );
+    assert_eq!(desk.session.prompt(desk.id), None);
+    assert_eq!(comes_to(&desk, "stack.disc.bore").as_deref(), Some("centre (0, 0), radius 2"));
 }
 
 #[test]
