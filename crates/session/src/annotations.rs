@@ -58,6 +58,13 @@ fn numbers(state: &State) -> BTreeMap<u32, EqualsNumber> {
     said.collect()
 }
 
+/// Returns what gives a value another number that a constraint of the document's own says: `c.radius = 9`.
+pub(crate) fn telling(open: &Open, path: &Path) -> Option<Offer> {
+    let said = numbers(&open.state).into_values().find(|said| said.left == path.to_string())?;
+    let members = format!("constraint {} = {{}}", said.left);
+    open.pane.is_none().then(|| Offer { members, value: Some(said.value), ..Offer::default() })
+}
+
 /// What a rule comes to on a drawing.
 struct Reading {
     shows: Shows,

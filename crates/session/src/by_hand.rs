@@ -164,6 +164,20 @@ impl Session {
         annotations::annotations(self.document(id))
     }
 
+    /// Types another number where a constraint of the document's own says which one a value is; nothing where none does,
+    /// or where the other would contradict something.
+    pub(crate) fn tell_anew(
+        &mut self,
+        id: DocumentId,
+        path: &Path,
+        typed: &str,
+    ) -> Option<Result<Change, Refusal>> {
+        let offer = annotations::telling(self.document(id), path)?;
+        let command = self.said(id, &offer, Some(typed)).ok()?;
+        let is_free = self.over_constrained(id, &command).is_none();
+        is_free.then(|| self.apply(id, &command))
+    }
+
     /// Returns the command that says what is offered, with a value where one goes there.
     ///
     /// # Errors

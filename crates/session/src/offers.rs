@@ -276,7 +276,25 @@ impl Offerer<'_> {
         let singles =
             ["length", "radius", "side", "width", "height"].into_iter().filter_map(single);
         let angles = self.angles().into_iter().chain(direction());
-        distance().into_iter().chain(singles).chain(angles).collect()
+        let ratio = self.ratio();
+        distance().into_iter().chain(singles).chain(angles).chain(ratio).collect()
+    }
+
+    /// How many times one of two things is as long or as large as the other, as either of them says it.
+    fn ratio(&self) -> Option<Offer> {
+        let equal = self.equals();
+        let [a, b] = self.things else { return None };
+        let part = equal.first()?.label.strip_prefix("equal ")?;
+        let size = |one: &Selected| one.path.then(Step::Part(Name::new(part)));
+        let offer = |one: &Selected, other: &Selected| {
+            let [one, other] = [size(one), size(other)];
+            let number = |path: &Path| Some(self.number(&Term::at(Term::Document, path))?.0);
+            let ratio = number(&one)? / number(&other)?;
+            let value = ratio.is_finite().then(|| base::number::shortest(ratio))?;
+            Some(self.dimension("ratio", &[format!("{one} / {other}")], value))
+        };
+        let stands = offer(b, a).filter(|offer| offer.stands);
+        stands.or_else(|| offer(a, b))
     }
 
     /// A number that is to hold, with what it is now, as the first of some terms says it that a constraint of the

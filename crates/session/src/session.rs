@@ -198,7 +198,11 @@ impl Session {
         let state = &self.document(id).state;
         let literal = words::read_typed(state, &path, typed)?;
         let target = crate::by_hand::anchored_whole(state, &path, &literal);
-        self.apply(id, &Command::Set(vec![target.unwrap_or((path, literal))]))
+        let target = target.unwrap_or_else(|| (path.clone(), literal));
+        match self.apply(id, &Command::Set(vec![target])) {
+            Ok(change) => Ok(change),
+            Err(refusal) => self.tell_anew(id, &path, typed).unwrap_or(Err(refusal)),
+        }
     }
     /// Begins a drag of a number, of a place, or of a thing with all the places that it is made of.
     ///

@@ -50,11 +50,11 @@ fn a_selection_is_offered_what_fits_it() {
         }
     };
     has(&["a"], &["horizontal", "vertical", "length"]);
-    has(&["a", "b"], &["parallel", "perpendicular", "equal length", "angle"]);
+    has(&["a", "b"], &["parallel", "perpendicular", "equal length", "angle", "ratio"]);
     has(&["p", "a"], &["midpoint", "on"]);
     has(&["p", "c"], &["on"]);
     has(&["a.p2", "b.p1"], &["merge", "horizontal", "vertical", "distance"]);
-    has(&["c", "d"], &["equal radius", "concentric"]);
+    has(&["c", "d"], &["equal radius", "concentric", "ratio"]);
     let three = "use geometry\na: Line\nb: Line { p1 = (0, 90) }\nc: Line { p1 = (90, 0) }\n";
     let three = labels(&Desk::of(three), &["a", "b", "c"]);
     assert!(three.iter().any(|l| l == "equal length"), "{three:?}");
@@ -385,6 +385,23 @@ fn what_constraints_say_stands_on_the_drawing_and_is_typed_anew() {
     desk.apply(&Command::Enable { path: at("constraint2"), on: false })
         .expect("it is switched off");
     assert_eq!(desk.session.annotations(desk.id).len(), 6);
+}
+
+#[test]
+fn a_number_that_a_dimension_says_is_typed_anew_where_the_value_stands() {
+    let text = "use geometry\nunit mm\nc: Circle { center = (0, 0)  radius = 9 }\nconstraint c.radius = 9\n";
+    let mut desk = Desk::of(text);
+    desk.type_in("c.radius", "16 mm / 2").expect("it is told anew");
+    assert_eq!(desk.number("c.radius"), 8.0);
+    assert!(desk.text().ends_with("constraint c.radius = 16 mm / 2\n"), "{}", desk.text());
+    desk.undo();
+    assert_eq!(desk.text(), text);
+    // what something else holds besides is refused as ever
+    let both = format!("{text}constraint c.radius < 10\n");
+    let mut desk = Desk::of(&both);
+    let refused = desk.type_in("c.radius", "12").expect_err("it is held below 10");
+    assert!(refused.message.contains("would not hold"), "{}", refused.message);
+    assert_eq!(desk.text(), both);
 }
 
 #[test]
