@@ -355,12 +355,13 @@ impl Desk<'_> {
         let (half, _) = half(said.1);
         let off = self.moved(said.0);
         self.clear(said, |further| {
+            let side = |x: f64| if x < center.0 { -1.0 } else { 1.0 };
             let end = along(center, (cos(turn), sin(turn)), radius + ASIDE + further);
-            let end = (end.0 + off.0, end.1 + off.1);
-            let way = direction(center, end);
-            let edge = along(center, way, radius);
-            let side = if way.0 < 0.0 { -1.0 } else { 1.0 };
-            ((end.0 + side * half, end.1), vec![vec![edge, end], head(edge, end)], LEVEL)
+            let at = (end.0 + side(end.0) * half + off.0, end.1 + off.1);
+            // the leader comes to the side of the words that looks at the circle
+            let end = (at.0 - side(at.0) * half, at.1);
+            let edge = along(center, direction(center, end), radius);
+            (at, vec![vec![edge, end], head(edge, end)], LEVEL)
         })
     }
 
@@ -490,6 +491,7 @@ pub fn paint(list: &mut DisplayList, notes: &[Note], view: &View, mark: impl Fn(
 mod tests {
     use super::{Moved, Note, at, notes, shift};
     use crate::sheet::View;
+    use base::number::hypot;
     use drawing::{Drawing, Element, Layer, Point, Shape, Style, Tag};
     use session::view::{Annotation, Grip, PictureView, Shows};
 
@@ -616,6 +618,24 @@ mod tests {
         let nearer = View { scale: 4.0, ..view };
         let nearer = notes(&all, &corner(), &nearer, &moved);
         assert_eq!(nearer[0].lines[2], [(200.0, 356.0), (600.0, 356.0)]);
+    }
+
+    #[test]
+    fn a_radius_stays_under_the_hand_on_the_other_side_of_its_circle() {
+        let center = Point { x: 0.0, y: 0.0 };
+        let mut picture = corner();
+        picture.drawing.elements[0].shape = Shape::Circle { center, radius: 20.0 };
+        let view = View { scale: 2.0, x: 200.0, y: 300.0, ..View::default() };
+        let all = [annotation("c1", Shows::Radius, "R 20 mm", &["a"])];
+        let mut moved = Moved::new();
+        let first = notes(&all, &picture, &view, &moved);
+        shift(&first, &first[0].key, (-200.0, 10.0), &mut moved);
+        let now = notes(&all, &picture, &view, &moved);
+        assert!((now[0].at.0 - first[0].at.0 + 200.0).abs() < 1e-9, "{now:?}");
+        // the leader ends at the right end of the words, and begins at the edge
+        let [edge, end] = now[0].lines[0][..] else { panic!("a leader: {now:?}") };
+        assert!(end.0 > now[0].at.0 && end.1 == now[0].at.1, "{now:?}");
+        assert!((hypot(edge.0 - 200.0, edge.1 - 300.0) - 40.0).abs() < 1e-9, "{now:?}");
     }
 
     #[test]

@@ -36,11 +36,16 @@ pub fn Page() -> impl IntoView {
     actions::follow_clipboard(lab);
     route::settle();
     leptos::task::spawn_local(async move {
-        lab.fetch_library().await;
+        let is_served = lab.fetch_library().await;
         lab.welcome();
-        lab.arriving.set(route::present().is_some() || route::shared().is_some());
+        // what a link carries has no place without the server
+        let is_lost = !is_served && route::shared().is_some();
+        let is_named = route::present().is_some() || route::shared().is_some();
+        lab.arriving.set(is_named && !is_lost);
         ready.set(true);
-        follow(lab);
+        if !is_lost {
+            follow(lab);
+        }
     });
     let listeners = [
         window_event_listener(ev::hashchange, move |_| follow(lab)),

@@ -40,15 +40,21 @@ fn kept_drafts() -> impl Fn(&str) -> bool {
 }
 
 impl Lab {
-    /// Fetches the library once; without it documents open with diagnostics.
-    pub async fn fetch_library(self) {
-        match server::library().await {
-            Ok(library) => self.files.update_value(|files| {
-                let named = |(file, text): (String, String)| Some((used_as(&file, "")?, text));
-                files.libraries = library.into_iter().filter_map(named).collect();
-            }),
-            Err(message) => self.say_refused(message),
-        }
+    /// Fetches the library once; returns whether it came. Without it documents open with diagnostics.
+    pub async fn fetch_library(self) -> bool {
+        let library = match server::library().await {
+            Ok(library) => library,
+            Err(message) => {
+                let is_link = route::shared().is_some();
+                self.say_refused(if is_link { words::then_link(&message) } else { message });
+                return false;
+            }
+        };
+        self.files.update_value(|files| {
+            let named = |(file, text): (String, String)| Some((used_as(&file, "")?, text));
+            files.libraries = library.into_iter().filter_map(named).collect();
+        });
+        true
     }
 
     /// Asks the server what documents there are.

@@ -26,6 +26,11 @@ pub const SAID_ALREADY: &str = "said already: press to give it another value";
 /// What the strip says of a check mark.
 pub const HOLDS_ALREADY: &str = "it is so already: something says it, or it follows";
 
+/// A link that carries a document was opened where the server does not answer.
+pub fn then_link(message: &str) -> String {
+    format!("{message}; then open the link again, which carries the document")
+}
+
 /// Another tab or program has saved the shown document.
 pub fn renewed(path: &str) -> String {
     format!("{path} was changed elsewhere: it is shown as it is now")
