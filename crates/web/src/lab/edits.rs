@@ -419,8 +419,9 @@ impl Lab {
                 self.refresh();
                 self.renew_tool();
                 self.fetch_missing();
+                self.forget_gone();
                 if change.structure {
-                    self.forget_gone();
+                    self.ghosts.set(Vec::new());
                     let zoom = if self.fits.get_value() { Zoom::Fit } else { Zoom::Seen };
                     self.zoom.set(Some(zoom));
                 }
@@ -439,11 +440,8 @@ impl Lab {
         }
     }
 
-    /// Lets go of what was selected and is there no more; what it would have become is not shown any longer.
+    /// Lets go of what was selected and is there no more, or is called otherwise.
     fn forget_gone(self) {
-        if !self.ghosts.with_untracked(Vec::is_empty) {
-            self.ghosts.set(Vec::new());
-        }
         let selection = self.selection_untracked();
         let is_there = |path: &&String| {
             let parsed = session::parse_path(path);
