@@ -144,7 +144,9 @@ impl Desk {
     /// Everything that is shown, but for what can be undone.
     fn shown(&mut self) -> impl PartialEq + Debug + use<> {
         let Self { session, id, .. } = self;
+        let at_once = session.standing(*id);
         let status = Status { undo: None, redo: None, ..session.status(*id) };
+        assert!(!at_once.counted || at_once.message == status.message, "{at_once:?}\n{status:?}");
         (session.text(*id), session.values(*id), session.structure(*id), status)
     }
     /// The paths of what values can be given to: numbers, or texts.

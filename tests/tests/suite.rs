@@ -93,8 +93,9 @@ fn differences(path: &Path, text: &str) -> String {
             let _ = writeln!(out, "  {path} is {found:?}, not {value}");
         }
     }
+    let least = session.standing(id);
     for claim in wanted("note ") {
-        let notes = session.status(id).notes;
+        let notes = &least.notes;
         if !notes.iter().any(|n| n.starts_with(&claim)) {
             let _ = writeln!(out, "  nothing is noted like {claim}: {notes:?}");
         }
@@ -102,6 +103,10 @@ fn differences(path: &Path, text: &str) -> String {
     compare_problems(&mut session, id, &wanted("problem["), &mut out);
     let broken = wanted("unsatisfied ");
     let status = session.status(id);
+    if least.freedom > status.freedom || least.counted && least.freedom != status.freedom {
+        let _ =
+            writeln!(out, "  \"{}\" at once, \"{}\" when counted", least.message, status.message);
+    }
     let redundant = wanted("redundant ");
     if !redundant.is_empty() && redundant != status.redundant {
         let _ = writeln!(out, "  redundant are {:?}, not {redundant:?}", status.redundant);

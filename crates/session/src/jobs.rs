@@ -54,7 +54,12 @@ pub enum LongAnswer {
     /// To [`LongQuestion::Analysis`].
     Analysis(Analysis),
     /// To [`LongQuestion::More`].
-    More(u32),
+    More {
+        /// How much is free by the form of what was counted.
+        form: u32,
+        /// How much more is.
+        more: u32,
+    },
     /// Of [`LongQuestion::Rows`] the next one.
     Row(RowOutcome),
     /// To [`LongQuestion::Map`]; or why there is none.
@@ -68,7 +73,12 @@ plain_enum!(LongQuestion {
     2: Map { family, thing, axes },
     3: More
 });
-plain_enum!(LongAnswer { 0: Analysis(analysis), 1: Row(outcome), 2: Map(map), 3: More(more) });
+plain_enum!(LongAnswer {
+    0: Analysis(analysis),
+    1: Row(outcome),
+    2: Map(map),
+    3: More { form, more }
+});
 
 impl LongQuestion {
     /// In how many parts it is answered.
@@ -142,8 +152,8 @@ impl Session {
             LongQuestion::Analysis => Some(LongAnswer::Analysis(self.analysis(id))),
             LongQuestion::More => {
                 let open = self.document_mut(id);
-                open.count();
-                Some(LongAnswer::More(open.status.more.unwrap_or_default() as u32))
+                let (all, form) = (open.counted(), open.status.freedom);
+                Some(LongAnswer::More { form: form as u32, more: (all - form) as u32 })
             }
             LongQuestion::Rows { family, rows, formats } => {
                 let drawn = self.draw_row(id, family, rows.get(part)?, *formats);

@@ -683,9 +683,13 @@ impl Session {
         let redundant = found.into_iter().filter_map(|s| words::source_name(state, s)).collect();
         Status { redundant, ..self.standing(id) }
     }
-    /// Takes over how much more is free than the form says, as a copy of the document counted it.
-    pub fn note_more(&mut self, id: DocumentId, more: u32) {
-        self.document_mut(id).status.more = Some(more as usize);
+    /// Takes over how much more is free than the form says, as a document of the same text counted it. Where a member
+    /// that has an error is in force as it was, that text is of another form, and says nothing of this one.
+    pub fn note_more(&mut self, id: DocumentId, form: u32, more: u32) {
+        let status = &mut self.document_mut(id).status;
+        if status.freedom == form as usize {
+            status.more = Some(more as usize);
+        }
     }
     /// Returns what the status line says at once: what may take long is not counted.
     pub fn standing(&self, id: DocumentId) -> Status {

@@ -49,16 +49,17 @@ pub fn Why(
     lab: Lab,
 ) -> impl IntoView {
     let about = Memo::new(move |_| lab.selected.get().and_then(|path| session::parse_path(&path)));
+    // whoever counts what is free meanwhile changes none of these
     let explanation = Memo::new(move |_| {
-        lab.status.track();
+        lab.text.track();
         about.with(|about| lab.explain(about.as_ref())).unwrap_or_default()
     });
     let held = Memo::new(move |_| {
-        lab.status.track();
+        lab.text.track();
         about.with(|about| about.as_ref().and_then(|path| lab.held(path)))
     });
     let elsewhere = Memo::new(move |_| {
-        lab.status.track();
+        lab.text.track();
         about.with(|about| about.as_ref().map(|path| lab.elsewhere(path))).unwrap_or_default()
     });
     let (analysis, state) = (RwSignal::new(Analysis::default()), RwSignal::new(Looking::On));
@@ -80,7 +81,7 @@ pub fn Why(
         });
     };
     Effect::new(move |_| {
-        lab.status.track();
+        lab.text.track();
         analyse();
     });
     let unmet = Memo::new(move |_| lab.status.with(|status| status.unmet.clone()));

@@ -100,7 +100,7 @@ fn sentence(
     };
     let free = match (freedom, is_all) {
         (0, true) => "nothing is free".to_string(),
-        (0, false) => "what is free is being counted".to_string(),
+        (0, false) => "what is free is not counted yet".to_string(),
         (1, true) => "1 degree of freedom".to_string(),
         (1, false) => "at least 1 degree of freedom".to_string(),
         (n, true) => format!("{n} degrees of freedom"),

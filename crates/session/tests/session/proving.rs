@@ -147,7 +147,7 @@ fn what_may_be_free_besides_is_told_as_the_least_until_it_is_counted() {
     let mut desk = Desk::of(text);
     let least = desk.session.standing(desk.id);
     assert!(!least.counted);
-    assert_eq!(least.message, "all constraints hold; what is free is being counted");
+    assert_eq!(least.message, "all constraints hold; what is free is not counted yet");
     // each turns around the joint before it
     assert_eq!(desk.session.status(desk.id).freedom, 2);
     let counted = desk.session.standing(desk.id);

@@ -2,7 +2,7 @@
 //!
 //! In: a question of a panel. Out: its answers as they come, whether it goes on, and how far it is. A question that is
 //! asked again takes the place of the one before. Where the browser refuses a worker the page answers itself, part by
-//! part, and says so once.
+//! part, and says so once; what nobody waits for is not answered there.
 
 use super::{Lab, Notice};
 use crate::js::{self, Worker};
@@ -107,6 +107,9 @@ impl fmt::Debug for Task {
 impl Lab {
     /// Asks something of the shown document that may take long.
     pub fn ask_long(self, kind: Kind, question: LongQuestion, tell: impl Fn(Told) + 'static) {
+        if kind == Kind::Freedom && self.jobs.queue.with_value(|queue| queue.is_refused) {
+            return;
+        }
         let going = self.jobs.going.get_untracked();
         if let Some(going) = going.filter(|g| g.kind == kind || g.kind == Kind::Freedom) {
             // nobody waits for the count: whoever asks something else does not either
@@ -213,10 +216,16 @@ impl Lab {
     /// From now on the page answers itself.
     fn do_without_worker(self) {
         self.end_worker();
-        self.jobs.queue.update_value(|queue| queue.is_refused = true);
-        self.notice.set(Some(Notice::Said(String::from(words::NO_WORKER))));
         self.jobs.going.set(None);
-        self.next_job();
+        let is_awaited = self.jobs.queue.try_update_value(|queue| {
+            queue.tasks.retain(|task| task.kind != Kind::Freedom);
+            queue.is_refused = !queue.tasks.is_empty();
+            queue.is_refused
+        });
+        if is_awaited == Some(true) {
+            self.notice.set(Some(Notice::Said(String::from(words::NO_WORKER))));
+            self.next_job();
+        }
     }
 
     fn hear(self, word: &str, what: &JsValue) {

@@ -184,20 +184,27 @@ impl Lab {
             return;
         }
         let number = self.listing.with_value(|rows| rows.number);
-        self.ask_long(Kind::Freedom, LongQuestion::More, move |told| {
-            let is_it = self.listing.try_with_value(|rows| rows.number == number) == Some(true);
-            if let (true, Told::Part(LongAnswer::More(more)), Some(id)) = (is_it, told, self.id()) {
-                let status = self.order(|session| {
-                    session.note_more(id, more);
-                    session.standing(id)
-                });
-                let is_as_said = self.status.with_untracked(|s| s.message == status.message);
-                // nobody has to hear of what they were told before
-                match is_as_said {
-                    true => drop(self.status.try_update_untracked(|s| *s = status)),
-                    false => self.status.set(status),
-                }
+        let is_it = move || self.listing.try_with_value(|rows| rows.number == number) == Some(true);
+        let hear = move |told| {
+            let Some(id) = self.id().filter(|_| is_it()) else { return };
+            let Told::Part(LongAnswer::More { form, more }) = told else { return };
+            let status = self.order(|session| {
+                session.note_more(id, form, more);
+                session.standing(id)
+            });
+            let is_as_said = self.status.with_untracked(|s| s.message == status.message);
+            // nobody has to hear of what they were told before
+            match is_as_said {
+                true => drop(self.status.try_update_untracked(|s| *s = status)),
+                false => self.status.set(status),
             }
-        });
+        };
+        // panels that hear of the edit ask first
+        let ask = move || {
+            if is_it() {
+                self.ask_long(Kind::Freedom, LongQuestion::More, hear);
+            }
+        };
+        set_timeout(ask, Duration::ZERO);
     }
 }
