@@ -718,6 +718,8 @@ impl Session {
     /// Where something does not hold this may take a few hundred solves.
     pub fn analysis(&mut self, id: DocumentId) -> Analysis {
         let analysis = views::analysis::view(self.document_mut(id));
+        let status = &mut self.document_mut(id).status;
+        status.more = (analysis.freedom as usize).checked_sub(status.freedom);
         Analysis { advice: self.advice(id), ..analysis }
     }
     /// Returns second views by which the opening of a document would go on one step after the other, where it

@@ -2,7 +2,7 @@
 //! search of all there are.
 
 use crate::desk::Desk;
-use session::jobs::LongQuestion;
+use session::jobs::{Desk as Copies, LongAnswer, LongQuestion};
 
 fn told(text: &str) -> Vec<String> {
     let mut desk = Desk::of(text);
@@ -138,13 +138,14 @@ fn a_repair_tells_texts_in_quotes_and_nothing_of_a_written_number() {
 }
 
 /// A beam between two joints, and one that hangs from it: along both their pulls say the same twice.
+const BEAMS: &str = "use bridges\na: FixedJoint { at = (0, 0) }\nb, c: FreeJoint\n\
+    ab: Beam { rest = 80 }\nmerge a = ab.a.joint\nmerge b = ab.b.joint\n\
+    bc: Beam { rest = 80 }\nmerge b = bc.a.joint\nmerge c = bc.b.joint\n\
+    b.at = (80, 0)\nc.at = (160, 0)\n";
+
 #[test]
 fn what_may_be_free_besides_is_told_as_the_least_until_it_is_counted() {
-    let text = "use bridges\na: FixedJoint { at = (0, 0) }\nb, c: FreeJoint\n\
-        ab: Beam { rest = 80 }\nmerge a = ab.a.joint\nmerge b = ab.b.joint\n\
-        bc: Beam { rest = 80 }\nmerge b = bc.a.joint\nmerge c = bc.b.joint\n\
-        b.at = (80, 0)\nc.at = (160, 0)\n";
-    let mut desk = Desk::of(text);
+    let mut desk = Desk::of(BEAMS);
     let least = desk.session.standing(desk.id);
     assert!(!least.counted);
     assert_eq!(least.message, "all constraints hold; what is free is not counted yet");
@@ -158,6 +159,23 @@ fn what_may_be_free_besides_is_told_as_the_least_until_it_is_counted() {
     let presumed = desk.session.standing(desk.id);
     assert_eq!((presumed.counted, presumed.freedom), (false, 2));
     assert_eq!(presumed.message, "all constraints hold; 2 degrees of freedom");
-    let more = desk.session.answer(desk.id, &LongQuestion::More, 0);
-    assert_eq!(desk.session.standing(desk.id).freedom, 2, "{more:?}");
+    desk.session.analysis(desk.id);
+    assert!(desk.session.standing(desk.id).counted, "an analysis counts as well");
+}
+
+#[test]
+fn what_a_text_of_another_form_leaves_free_is_not_told_of_this_one() {
+    let with = |constraint| format!("{BEAMS}x: Real\nconstraint held: x = {constraint}\n");
+    let mut desk = Desk::of(&with("3"));
+    // what can no longer be read is in force as it was
+    desk.type_text(&with(")"));
+    let at_once = desk.session.standing(desk.id);
+    assert!(!at_once.counted);
+    let mut copies = Copies::default();
+    copies.take(desk.session.job(desk.id, LongQuestion::More));
+    let Some(LongAnswer::More { form, more }) = copies.answer(0) else { panic!("it is counted") };
+    assert_eq!(form + more, 3, "to the text alone the number is free as well");
+    desk.session.note_more(desk.id, form, more);
+    assert_eq!(desk.session.standing(desk.id), at_once);
+    assert_eq!(desk.session.status(desk.id).freedom, 2);
 }

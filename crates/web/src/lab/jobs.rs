@@ -292,6 +292,8 @@ impl Lab {
                 }
                 match self.tell(|session, id| session.answer(id, &question, part)).flatten() {
                     Some(answer) => {
+                        // an analysis has counted what is free
+                        self.id().into_iter().for_each(|id| self.tell_freedom(id));
                         self.tell_part(answer);
                         self.answer_here(number, question, part + 1);
                     }

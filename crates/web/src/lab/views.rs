@@ -188,16 +188,8 @@ impl Lab {
         let hear = move |told| {
             let Some(id) = self.id().filter(|_| is_it()) else { return };
             let Told::Part(LongAnswer::More { form, more }) = told else { return };
-            let status = self.order(|session| {
-                session.note_more(id, form, more);
-                session.standing(id)
-            });
-            let is_as_said = self.status.with_untracked(|s| s.message == status.message);
-            // nobody has to hear of what they were told before
-            match is_as_said {
-                true => drop(self.status.try_update_untracked(|s| *s = status)),
-                false => self.status.set(status),
-            }
+            self.order(|session| session.note_more(id, form, more));
+            self.tell_freedom(id);
         };
         // panels that hear of the edit ask first
         let ask = move || {
@@ -206,5 +198,16 @@ impl Lab {
             }
         };
         set_timeout(ask, Duration::ZERO);
+    }
+
+    /// Says how the document stands once what is free is counted.
+    pub(super) fn tell_freedom(self, id: DocumentId) {
+        let status = self.ask(|session| session.standing(id));
+        let is_as_said = self.status.with_untracked(|s| s.message == status.message);
+        // nobody has to hear of what they were told before
+        match is_as_said {
+            true => drop(self.status.try_update_untracked(|s| *s = status)),
+            false => self.status.set(status),
+        }
     }
 }
