@@ -13,10 +13,11 @@ use crate::texts::Texts;
 use crate::view::{Change, DragState, Refusal};
 use crate::words;
 use crate::write_back::Edited;
+use base::number::rounded;
 use eval::Answer;
 use expr::Dimension;
-use kernel::{Argument, BinaryOperator, DOCUMENT, Literal, Path, SlotId, Step, Structure};
-use kernel::{Term, ThingId, Value, Values};
+use kernel::{Argument, BinaryOperator, DOCUMENT, Literal, Path, Primitive, SlotId, Step};
+use kernel::{Structure, Term, ThingId, Value, Values};
 use plan::{NotDecided, Planner, Press, RefusalReason, Target};
 use std::collections::BTreeSet;
 use std::f64::consts::TAU;
@@ -57,8 +58,9 @@ pub(crate) struct Drag {
     pub(crate) values: Values,
     /// Where the pointer was then, on the sheet.
     pub(crate) wish: [f64; 2],
-    /// Whether a point of a curve is held: aside of its way it comes as near as it can.
-    pub(crate) is_grasp: bool,
+    /// Where a point of a curve is held, to how many decimals numbers follow it. Aside of its way it comes as near as it
+    /// can.
+    pub(crate) grasp: Option<usize>,
 }
 
 /// Begins a drag of some things in a document, and returns where its handle is on the sheet: that of the first.
@@ -338,7 +340,7 @@ pub(crate) fn press(
         keeping: None,
         values,
         wish,
-        is_grasp: false,
+        grasp: None,
     })
 }
 
@@ -384,7 +386,7 @@ pub(crate) fn press_computed(
         keeping: None,
         values,
         wish,
-        is_grasp: false,
+        grasp: None,
     })
 }
 
@@ -597,7 +599,6 @@ impl Drag {
                 .collect(),
         };
         let wished = self.turned(state, planner, &to);
-        let before: Vec<f64> = self.slots.iter().map(|&s| self.values.numbers[s]).collect();
         let report = match &mut self.keeping {
             Some(keeping) => {
                 let way = (&mut self.press, &mut self.values);
@@ -616,19 +617,19 @@ impl Drag {
             modes.extend(limits::courses(state, &report.courses));
             return DragState { reached: true, modes, ..DragState::default() };
         }
-        let follows = self.slots.iter().zip(&before).any(|(&s, x)| self.values.numbers[s] != *x);
-        if self.is_grasp && follows {
-            modes.extend(limits::courses(state, &report.courses));
+        let is_cut = matches!(report.not_decided, Some(NotDecided::Work(_)));
+        let holds = words::what_holds(state, &report, &self.press.acting(planner));
+        // what nothing holds is as near to the pointer as its way comes
+        if self.grasp.is_some() && holds.is_none() && report.courses.is_empty() && !is_cut {
             return DragState { modes, ..DragState::default() };
         }
         let (limit, words) = limits::of_drag(state, self);
-        let is_cut = matches!(report.not_decided, Some(NotDecided::Work(_)));
         if is_cut && limits::reach(state, self).is_none() {
             let came = limit.value;
             let message = format!("{came} is as far as it has come: the way is long, and goes on");
             return DragState { reached: false, message: Some(message), limit: None, modes };
         }
-        let mut message = match words::what_holds(state, &report, &self.press.acting(planner)) {
+        let mut message = match holds {
             Some(holds) => format!("{words}; {holds}"),
             None => words,
         };
@@ -679,12 +680,44 @@ impl Drag {
             Turning::No | Turning::Plain => to.to_vec(),
         }
     }
+    /// Gives the numbers that follow a grasp its decimals, where what is held moves by no more than these.
+    fn shorten(&mut self, state: &State, planner: &mut Planner) {
+        let (Some(decimals), Some(before)) = (self.grasp, self.computed_now(state)) else { return };
+        let round = |x: f64| rounded(x, decimals).parse().unwrap_or(x);
+        let is_length = |slot: SlotId| {
+            let of = state.structure.slots[slot].primitive;
+            before.iter().all(|(_, dimension)| of == Primitive::Real(*dimension))
+        };
+        let follows = |slot: SlotId| state.values.numbers[slot] != self.values.numbers[slot];
+        let slots: Vec<SlotId> =
+            { &self.slots }.iter().copied().filter(|&s| is_length(s) && follows(s)).collect();
+        if slots.is_empty() {
+            return;
+        }
+        let wished: Vec<f64> = slots.iter().map(|&s| round(self.values.numbers[s])).collect();
+        let targets: Vec<Target<'_>> =
+            slots.iter().map(|&s| Target::Thing(state.structure.slots[s].thing)).collect();
+        let Ok(mut press) = planner.press(state.model(), &self.values, &targets) else { return };
+        let mut texts = Texts::new(&state.lowered.document, &state.structure);
+        let mut values = self.values.clone();
+        let report = planner.drag(state.model(), &mut press, &mut values, &wished, &mut texts);
+        let long = std::mem::replace(&mut self.values, values);
+        let now = self.computed_now(state).unwrap_or_default();
+        let least = 10_f64.powi(-(decimals as i32));
+        let is_near = |((a, _), (b, _)): (&(f64, _), &(f64, _))| (a - b).abs() <= least;
+        if report.reached && now.len() == before.len() && now.iter().zip(&before).all(is_near) {
+            self.press = press;
+        } else {
+            self.values = long;
+        }
+    }
     /// Lets go: soft constraints act again, and the change is written.
     ///
     /// # Errors
     /// Why it could not be kept; then all is as it was before the press.
     pub(crate) fn release(mut self, open: &mut Open, host: &dyn Host) -> Result<Change, Refusal> {
         let state = open.state.clone();
+        self.shorten(&state, &mut open.planner);
         let mut texts = Texts::new(&state.lowered.document, &state.structure);
         let dragged = std::iter::once(self.held_path()).chain(&self.others);
         let dragged: Vec<String> = dragged.map(Path::to_string).collect();

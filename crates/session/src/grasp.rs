@@ -34,10 +34,23 @@ fn grasp(open: &mut Open, path: &Path, pointer: &Pointer) -> Option<(f64, f64)> 
     let state = open.state.clone();
     let (drawn, point) = point_at(&state, path, pointer)?;
     let mut drag = drag::press_computed(&state, &mut open.planner, point, drawn).ok()?;
-    drag.is_grasp = true;
+    drag.grasp = Some(decimals(pointer.reach));
+    // what follows nothing is no handle
+    if drag.reach().is_empty() {
+        return None;
+    }
     let handle = drag.handle();
     open.drag = Some(drag);
     Some(handle)
+}
+
+/// How many decimals a pointer tells that has such a reach on the sheet.
+fn decimals(reach: f64) -> usize {
+    /// A number has no more: nobody looks so near.
+    const MOST: usize = 15;
+    let tenths = (0..MOST).scan(1.0, |step, _| Some(std::mem::replace(step, *step / 10.0)));
+    // a tenth of the reach is about a pixel
+    tenths.take_while(|step| *step > reach / 10.0).count()
 }
 
 /// The curve of a program's thing that lies under a pointer, and the point of it there.

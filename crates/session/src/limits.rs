@@ -87,6 +87,9 @@ pub(crate) fn of_drag(state: &State, drag: &Drag) -> (Limit, String) {
     let path = drag.held_path().to_string();
     if let Some(now) = drag.computed_now(state) {
         let show = |(&(x, dimension), &from): (&(f64, Dimension), &f64)| {
+            // a point somewhere on a curve is known as well as the pointer tells
+            let rounded = |decimals| base::number::rounded(x, decimals).parse().unwrap_or(x);
+            let x = drag.grasp.map_or(x, rounded);
             let document = &state.lowered.document;
             let (text, unit) = lang::show_limit(x, from, of_dimension(dimension), document);
             words::with_unit(text, &unit)

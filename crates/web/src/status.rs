@@ -25,6 +25,8 @@ pub fn StatusLine(
     let drag = Memo::new(move |_| {
         lab.dragging.with(|drag| {
             let drag = drag.as_ref()?;
+            // each move draws anew, even where nothing else is to be said of it
+            lab.picture.track();
             let follow = lab.ask_of_shown(session::Session::dragged_along).unwrap_or_default();
             let modes = drag.modes.iter().map(|mode| mode.message.clone());
             let said: Vec<String> =

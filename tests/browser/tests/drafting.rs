@@ -226,9 +226,7 @@ async fn a_family_is_a_grid_in_which_rows_are_changed_and_used() {
     }
     press(&visit, "[data-family='map']").await;
     visit
-        .until(
-            "document.querySelector('.map circle.now') && document.querySelector('.map .look-2')",
-        )
+        .until("document.querySelector('.map path.now') && document.querySelector('.map .look-2')")
         .await;
 }
 

@@ -146,7 +146,14 @@ fn a_rim_of_what_has_no_place_is_dragged_larger() {
     desk.session.press_at(desk.id, &[at("washer")], &aside).expect("it can be held there");
     let told = desk.session.drag(desk.id, (6.1, 7.9));
     assert_eq!(told.message, None, "that is no limit");
+    let told = desk.session.drag(desk.id, (6.1, 7.9));
+    assert_eq!(told.message, None, "nor is it one where the pointer rests");
     desk.session.cancel(desk.id);
+    // what follows has the decimals that the pointer tells
+    desk.undo();
+    drag_at(&mut desk, "washer", (0.0, 5.0), (3.1, 10.0234));
+    assert!(desk.text().contains("outer = 20.05"), "{}", desk.text());
+    assert_eq!(number(&desk, "washer.outer"), 20.05);
     // what is placed moves, until it is held where it is
     let placed = WASHER.replace("washer: Washer\n", "washer: Placed of Washer { at = (20, 0) }\n");
     let mut desk = Desk::of(&placed);
@@ -155,6 +162,37 @@ fn a_rim_of_what_has_no_place_is_dragged_larger() {
     desk.session.hold_in_place(desk.id, "washer", true).expect("it is placed");
     drag_at(&mut desk, "washer", (28.0, 0.0), (30.0, 0.0));
     assert_eq!(circle(&desk, "washer.rim"), [23.0, 0.0, 7.0]);
+}
+
+#[test]
+fn a_rim_that_is_held_where_it_is_tells_what_holds_it() {
+    let bounded = WASHER.replace("outer: Length =", "outer: Length in 2..30 =");
+    assert_ne!(bounded, WASHER);
+    let mut desk = Desk::of(&bounded);
+    let pointer = Pointer { at: (0.0, 5.0), reach: 0.5, ..Pointer::default() };
+    desk.session.press_at(desk.id, &[at("washer")], &pointer).expect("it can be held there");
+    let told = desk.session.drag(desk.id, (0.0, 100.0));
+    let limit = "(0, 15) is the limit of washer.rim; held by washer.outer_range";
+    assert_eq!(told.message.as_deref(), Some(limit));
+    desk.session.release(desk.id).expect("the drag can be kept");
+    assert_eq!(number(&desk, "washer.outer"), 30.0);
+}
+
+#[test]
+fn a_curve_that_follows_no_value_is_no_handle() {
+    let text = "use geometry\nprogram P(r: Length = 5) { c = Circle(Point(0, 0), 5) }\np: P\n";
+    let mut desk = Desk::of(text);
+    let pointer = Pointer { at: (3.0, 4.0), reach: 0.5, ..Pointer::default() };
+    let refused = desk.session.press_at(desk.id, &[at("p")], &pointer).expect_err("it is fixed");
+    assert_eq!(refused.message, "p has no place that could be dragged");
+}
+
+#[test]
+fn an_arc_that_runs_to_the_right_is_held_where_the_pointer_is() {
+    let text = "use geometry\nprogram P(r: Length = 5) { a = Arc(Point(0, 0), Point(0, r), Point(r, 0)).reversed }\np: P\n";
+    let mut desk = Desk::of(text);
+    drag_at(&mut desk, "p", (-3.0, 4.0), (-6.0, 8.0));
+    assert!(desk.text().contains("p: P { r = 10 }"), "{}", desk.text());
 }
 
 #[test]

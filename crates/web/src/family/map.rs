@@ -136,7 +136,9 @@ fn Chart(family: Family, map: FamilyMap) -> impl IntoView {
     let now = map.now.map(|(x, y)| {
         let x = x * (wide - 1) as f64 + 0.5;
         let y = high as f64 - 0.5 - y * (high - 1) as f64;
-        view! { <circle class="now" cx=x.to_string() cy=y.to_string() r="0.6" /> }
+        // a stroke is as wide as it is high, whatever the looks of the cells
+        let spot = format!("M {x} {y} h 0");
+        view! { <path class="now" d=spot.clone() /><path class="now inner" d=spot /> }
     });
     let legend = std::iter::once((0, String::from(words::MAP_DRAWN)))
         .chain(map.reasons.iter().enumerate().map(|(i, reason)| {
