@@ -395,6 +395,14 @@ impl Session {
         program: &str,
         values: &[(String, String)],
     ) -> Result<(Change, String), Refusal> {
+        // it would be given there as an operand
+        let is_idle = self.document(id).dialogue.as_ref().is_some_and(|d| !d.is_begun);
+        if let Some(waits) = self.prompt(id).filter(|_| !is_idle) {
+            let label = waits.label;
+            return Err(words::refuse(format!(
+                "{label} waits for an answer: give it one, or give it up, before a row is placed"
+            )));
+        }
         let mut prompt = Some(self.begin(id, program)?);
         while let Some(waits) = prompt {
             let slot = waits.operands.iter().find(|(_, given)| given.is_none());

@@ -219,7 +219,19 @@ fn a_row_is_used_by_its_name() {
     assert_eq!(again.expect("it can be placed").1, "d30_2");
     // while another program is recorded, it calls this one
     desk.session.record(desk.id, "Stack").expect("a new program");
-    let called = desk.session.use_family_row(desk.id, ("Sold", &grid.rows[0]), &RowUse::Place);
+    // what is being drawn is not filled with it
+    desk.session.begin(desk.id, "Disc").expect("a program is a construction");
+    desk.session.enter(desk.id, "40 mm").expect("it fits");
+    let (text, prompt) = (desk.text(), desk.session.prompt(desk.id));
+    let place = ("Sold", &grid.rows[0]);
+    let waits = desk.session.use_family_row(desk.id, place, &RowUse::Place).expect_err("it waits");
+    assert_eq!(
+        waits.message,
+        "Disc waits for an answer: give it one, or give it up, before a row is placed"
+    );
+    assert_eq!((desk.text(), desk.session.prompt(desk.id)), (text, prompt));
+    desk.session.give_up(desk.id);
+    let called = desk.session.use_family_row(desk.id, place, &RowUse::Place);
     assert_eq!(called.expect("it can be called").1, "stack.disc");
     assert!(
         desk.text().contains("    disc = Disc(rim: 10 mm, hole: 2 mm, spokes: 3)"),

@@ -95,6 +95,11 @@ fn a_program_that_asks_for_its_place_is_asked_for_one() {
     desk.apply(&view.command.expect("all of it is said")).expect("it is made");
     assert_eq!(peg(&desk, "peg3"), [90.0, 0.0, 4.0]);
     assert_eq!(desk.wrong(), [], "{}", desk.text());
+    // a step of that name is none
+    let step = "use geometry\nprogram Peg(d: Length = 8) {\n    at = Point(0, 0)\n    rim = Circle(at, d / 2)\n}\n";
+    let mut desk = Desk::of(step);
+    let asked = desk.session.begin(desk.id, "Peg").expect("a program is a construction");
+    assert_eq!(asked.operands.len(), 2, "{:?}", asked.operands);
 }
 
 #[test]
