@@ -703,7 +703,7 @@ impl Drag {
         let report = planner.drag(state.model(), &mut press, &mut values, &wished, &mut texts);
         let long = std::mem::replace(&mut self.values, values);
         let now = self.computed_now(state).unwrap_or_default();
-        let least = 10_f64.powi(-(decimals as i32));
+        let least = (0..decimals).fold(1.0, |step, _| step / 10.0);
         let is_near = |((a, _), (b, _)): (&(f64, _), &(f64, _))| (a - b).abs() <= least;
         if report.reached && now.len() == before.len() && now.iter().zip(&before).all(is_near) {
             self.press = press;

@@ -141,9 +141,9 @@ fn operands_of(value: &Expr) -> Vec<(String, Expr)> {
     if is_point(value) {
         return vec![("at".into(), value.clone())];
     }
-    let parameters = parameters_of(value);
+    let names = names_around(value);
     let is_class = |text: &str| {
-        text.trim().starts_with(char::is_uppercase) && !parameters.iter().any(|p| p == text.trim())
+        text.trim().starts_with(char::is_uppercase) && !names.iter().any(|p| p == text.trim())
     };
     let (receiver, list) = match value {
         Expr::Call(call) if call.name().is_some_and(|w| is_class(w.text())) => (None, call.args()),
@@ -181,19 +181,26 @@ fn is_place(value: &Expr) -> bool {
     is_point(value) && call.args().is_some_and(|list| list.args().all(is_number))
 }
 
-/// The parameters of the program that an expression stands in: a draughtsman may begin their names with capitals.
-fn parameters_of(value: &Expr) -> Vec<String> {
+/// The parameters and steps of the program that an expression stands in: a draughtsman may begin their names with
+/// capitals.
+fn names_around(value: &Expr) -> Vec<String> {
     let program = value.syntax().ancestors().find_map(syntax::ast::Program::cast);
-    let list = program.and_then(|program| program.params());
-    let names = list.into_iter().flat_map(|list| list.params()).filter_map(|p| p.name());
-    names.map(|name| name.text().to_string()).collect()
+    let Some(program) = program else { return Vec::new() };
+    let list = program.params();
+    let parameters = list.into_iter().flat_map(|list| list.params()).filter_map(|p| p.name());
+    let assigned = program.syntax().descendants().filter_map(syntax::ast::Assign::cast);
+    let steps = assigned.filter_map(|assign| match assign.target()? {
+        Expr::Name(word) => Some(word.syntax().text().to_string().trim().to_string()),
+        _ => None,
+    });
+    parameters.map(|name| name.text().to_string()).chain(steps).collect()
 }
 
 /// Whether an operand speaks of something that its turn has not made: not a literal, not a class or function.
 fn speaks_of_outside(value: &Expr, own: &[String]) -> bool {
     let text = value.syntax().text().to_string();
     let text = text.trim();
-    let parameters = parameters_of(value);
+    let names = names_around(value);
     let is_word = |c: char| c.is_alphanumeric() || c == '_';
     let mut rest = text;
     let mut before = ' ';
@@ -204,7 +211,7 @@ fn speaks_of_outside(value: &Expr, own: &[String]) -> bool {
         let word: String = rest[start..].chars().take_while(|&c| is_word(c)).collect();
         rest = &rest[start + word.len()..];
         let follows = rest.trim_start().chars().next();
-        let is_class = word.starts_with(char::is_uppercase) && !parameters.contains(&word);
+        let is_class = word.starts_with(char::is_uppercase) && !names.contains(&word);
         let is_name = !word.starts_with(|c: char| c.is_ascii_digit()) && !is_class && before != '.';
         let is_unit = before == ' '
             && text[..text.len() - rest.len() - word.len()]

@@ -103,18 +103,19 @@ pub(crate) fn within(state: &State, home: &Home, (a, b): ((f64, f64), (f64, f64)
     let cut: BTreeSet<&str> =
         all.iter().filter(|f| f.side.is_some() && !is_in(f)).map(|f| f.text.as_str()).collect();
     let is_whole = |found: &Found| !cut.contains(found.text.as_str());
-    let is_own = |found: &Found| {
+    // what a turn begins with was made elsewhere, save where it lies alone
+    let carried: BTreeSet<&str> = carried.iter().map(String::as_str).collect();
+    let is_carried = |found: &&Found| {
         let name = found.text.as_str();
-        !carried
-            .iter()
-            .any(|c| name == c || name.strip_prefix(c).is_some_and(|r| r.starts_with('.')))
+        let owners = name.match_indices('.').map(|(at, _)| &name[..at]);
+        owners.chain([name]).any(|owner| carried.contains(owner))
     };
+    let elsewhere: BTreeSet<Vec<u64>> =
+        all.iter().filter(|f| !is_carried(f)).map(|f| f.curve.where_it_lies()).collect();
+    let is_own =
+        |found: &&Found| !is_carried(found) || !elsewhere.contains(&found.curve.where_it_lies());
     let found = all.iter().filter(|found| is_in(found) && !is_part(found) && is_whole(found));
-    found
-        .filter(|found| is_own(found))
-        .filter(|found| caught.insert(&found.text))
-        .cloned()
-        .collect()
+    found.filter(is_own).filter(|found| caught.insert(&found.text)).cloned().collect()
 }
 
 /// Names figures: one by one, and sets where all of one are among them. What a loop or a pattern makes more of, by other
@@ -323,6 +324,22 @@ impl Curve {
             (Figure::Circle { .. }, Some(ends)) => Some(around(&ends)),
             (Figure::Arc { start, end, .. }, _) => Some(around(&[start, end])),
         }
+    }
+
+    /// Where it lies, whichever way it runs: the same for what covers the same.
+    fn where_it_lies(&self) -> Vec<u64> {
+        let numbers = match (self.figure, self.arc) {
+            (Figure::Point(at), _) => at.to_vec(),
+            (Figure::Straight { from, to }, _) if from <= to => [from, to].concat(),
+            (Figure::Straight { from, to }, _) => [to, from].concat(),
+            (Figure::Circle { center: [x, y], radius }, arc) => {
+                let ends = arc.into_iter().flatten().flatten();
+                [x, y, radius.abs()].into_iter().chain(ends).collect()
+            }
+            (Figure::Arc { center, start, end }, _) => [center, start, end].concat(),
+        };
+        // zero has no sign
+        numbers.into_iter().map(|x| (x + 0.0).to_bits()).collect()
     }
 
     /// At which part of it a place lies, as its class counts: of the way from end to end, of a turn to the left.

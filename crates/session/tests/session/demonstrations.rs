@@ -48,6 +48,38 @@ fn value(desk: &Desk, path: &str) -> String {
 }
 
 #[test]
+fn a_step_whose_name_was_typed_with_a_capital_is_asked_about() {
+    let mut desk = Desk::recording("Rings", &[]);
+    draw(&mut desk, "Circle", &[Typed("0, 0"), Typed("5")]);
+    let text = desk.text().replace("circle =", "Rim =");
+    desk.type_text(&text);
+    desk.session.begin_loop(desk.id, "").expect("a loop");
+    let two = [Typed("Rim"), Typed("Rim.radius + 2")];
+    draw(&mut desk, "Circle.concentric(with,radius)", &two);
+    desk.session.end_turn(desk.id, Ends::Until).expect("the turn is drawn");
+    let prompt = desk.session.prompt(desk.id).expect("it is asked");
+    let Wants::Recurrence(asked) = prompt.wants else { panic!("{prompt:?}") };
+    assert_eq!((&*asked.operand, &*asked.first, asked.of), ("with", "Rim", 2));
+}
+
+#[test]
+fn a_band_takes_what_a_loop_begins_with_where_nothing_else_draws_it() {
+    let mut desk = Desk::recording("Rings", &[]);
+    draw(&mut desk, "Circle", &[Typed("0, 0"), Typed("5")]);
+    let turns = "t = repeat 3 times with k = Circle(Point(30, 0), 2) {
+        d = Circle.concentric(with: k, radius: k.radius + 1)
+        next k = d
+    }
+    circle =";
+    let text = desk.text().replace("circle =", turns);
+    desk.type_text(&text);
+    let everything = ((-100.0, -100.0), (100.0, 100.0));
+    desk.session.begin_each(desk.id, everything).expect("five circles");
+    let five = "for element in [t[0].k, t[0].d, t[1].d, t[2].d, circle] {";
+    assert!(desk.text().contains(five), "{}", desk.text());
+}
+
+#[test]
 fn a_nut_is_a_flat_in_a_polar_pattern() {
     let mut desk = Desk::recording("Nut", &[("s", "16"), ("d", "10")]);
     guide(&mut desk, "Point", &[Typed("0, 0")]);
