@@ -34,7 +34,10 @@ pub(crate) fn operand(slot: &Slot, typed: &str, last: Option<&str>) -> Result<St
     let typed = typed.trim();
     if typed.is_empty() {
         if let Some(usual) = slot.asks.as_ref().and_then(|asks| asks.usual.clone()) {
-            return Ok(usual);
+            return match slot.kind {
+                SlotKind::Point => at(&usual, ""),
+                _ => Ok(usual),
+            };
         }
         return Err(words::refuse(format!("{} is wanted", slot.name)));
     }
@@ -95,8 +98,18 @@ pub(crate) fn at(typed: &str, from: &str) -> Result<String, Refusal> {
             format!("Point.polar(from: {from}, distance: {length}, angle: {angle})")
         }
         (None, Said::Pair(x, y)) => format!("Point({x}, {y})"),
-        (None, Said::Whole) => typed.into(),
+        // a program may say it so, and so do its steps
+        (None, Said::Whole) => match in_brackets(typed) {
+            Some((x, y)) => format!("Point({x}, {y})"),
+            None => typed.into(),
+        },
     })
+}
+
+/// The two numbers of `(3, 4)`.
+fn in_brackets(typed: &str) -> Option<(&str, &str)> {
+    let is_tuple = matches!(expression(typed), Some(Expr::Tuple(_)));
+    pair(typed.strip_prefix('(')?.strip_suffix(')')?, ',').filter(|_| is_tuple)
 }
 
 /// How a place is typed.

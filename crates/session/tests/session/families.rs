@@ -310,3 +310,26 @@ fn what_a_table_says_besides_the_parameters_stays_in_the_table() {
     let refused = session.take_family_table(id, "Sold", table).expect_err("it cannot be said");
     assert!(refused.message.starts_with("across is a column that Disc does not ask for"));
 }
+
+#[test]
+fn a_row_is_called_where_the_program_has_a_place_in_brackets() {
+    let text = "use geometry
+unit mm
+program Tag(is_round: Bool = true, d: Length = 5 mm, at: Point = (0, 0)) { c = Circle(at, d) }
+family Tags of Tag { rows: (\"T 1\", false, 6 mm) }
+";
+    let mut desk = Desk::of(text);
+    let grid = desk.session.family_grid(desk.id, "Tags", None).expect("there is one");
+    desk.session.record(desk.id, "Stack").expect("a new program");
+    let row = ("Tags", &grid.rows[0]);
+    let called = desk.session.use_family_row(desk.id, row, &RowUse::Place);
+    assert_eq!(called.expect("it can be called").1, "stack.tag");
+    let call = "tag = Tag(is_round: false, d: 6 mm, at: Point(0, 0))";
+    assert!(desk.text().contains(call), "{}", desk.text());
+    // and so a place may be typed
+    desk.session.begin(desk.id, "Circle").expect("a construction");
+    for typed in ["(3, 4)", "2"] {
+        desk.session.enter(desk.id, typed).expect("it fits");
+    }
+    assert!(desk.text().contains("circle = Circle(center: Point(3, 4), radius: 2)"));
+}
