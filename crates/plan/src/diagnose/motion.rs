@@ -349,6 +349,7 @@ impl Space {
             velocity: vec![0.0; self.columns.len()],
             known: Basis::default(),
             motions: Vec::new(),
+            tried: 0,
             most: wanted.min(self.free.len()).min(LISTED),
             goes_on,
         };
@@ -457,6 +458,8 @@ struct Chosen<'s> {
     /// The free columns of the chosen ones: a motion is known by these alone.
     known: Basis,
     motions: Vec<Motion>,
+    /// How many were tried whether they go on: no more than are listed, since each try solves the component.
+    tried: usize,
     /// So many are chosen.
     most: usize,
     goes_on: GoesOn<'s>,
@@ -465,7 +468,8 @@ struct Chosen<'s> {
 impl Chosen<'_> {
     fn consider(&mut self, kind: MotionKind, mut row: Row) {
         let space = self.space;
-        if self.motions.len() == self.most || row.is_empty() || !self.is_null(&row) {
+        let is_over = self.motions.len() == self.most || self.tried == LISTED;
+        if is_over || row.is_empty() || !self.is_null(&row) {
             return;
         }
         row.sort_unstable_by_key(|e| e.0);
@@ -477,6 +481,7 @@ impl Chosen<'_> {
         let largest = row.iter().fold(0.0f64, |m, e| if e.1.abs() > m.abs() { e.1 } else { m });
         let moves = row.iter().map(|&(c, v)| (space.columns[c as usize], v / largest)).collect();
         let motion = Motion { kind, moves };
+        self.tried += 1;
         // those that do not go on are no reason to leave out one that they make together
         if (self.goes_on)(&motion) {
             self.known = known;
