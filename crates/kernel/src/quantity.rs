@@ -29,6 +29,8 @@ const PREFIXES: [(&str, i8, f64); 10] = [
 
 /// A larger value does not read well in a unit in which the text writes others.
 const MOST_READABLE: f64 = 1e6;
+/// Other numbers do not read well in the unit in which they were written.
+const READABLE: std::ops::Range<f64> = 1e-3..MOST_READABLE;
 
 /// What is known of a number beside its value.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
@@ -131,12 +133,17 @@ pub fn spelling_for(x: f64, quantity: Quantity<'_>, document: &Document) -> Stri
     let digits = |c: char| c.is_ascii_digit() || c == '.';
     let words = last.into_iter().flat_map(|word| [word, word.trim_start_matches(digits)]);
     let fits = |spelling: &&str| units::unit(spelling).is_some_and(|u| u.dimension == dimension);
+    let all = written.split(char::is_whitespace).map(|word| word.trim_start_matches(digits));
+    let written_units = all.filter(fits).count();
     let written = { words }.find(fits);
     if class == "Angle" {
-        let is_of_degrees = |s: &&str| matches!(*s, "arcmin" | "arcsec");
+        // a sum of several units, `52 deg + 30 arcmin`, reads in degrees
+        let is_one = written_units <= 1;
+        let is_read = |s: &&str| x == 0.0 || READABLE.contains(&size(s));
+        let is_of_degrees = |s: &&str| is_one && matches!(*s, "arcmin" | "arcsec") && is_read(s);
         return written.filter(is_of_degrees).unwrap_or("deg").into();
     }
-    if let Some(spelling) = written.filter(|s| x == 0.0 || (1e-3..1e6).contains(&size(s))) {
+    if let Some(spelling) = written.filter(|s| x == 0.0 || READABLE.contains(&size(s))) {
         return spelling.into();
     }
     // millions of light years are no easier to read as billions of terametres

@@ -93,9 +93,13 @@ fn make_body(maker: &mut Maker<'_>, class: ClassId) -> Body {
 /// Tests whether a body may have so many things more; reports it once where it may not.
 fn has_room(maker: &mut Maker<'_>, body: &Body, more: usize, origin: OriginId) -> bool {
     maker.copied = maker.copied.saturating_add(more);
-    let fits = body.len().saturating_add(more) <= MOST_THINGS && maker.copied <= MOST_COPIES;
+    let is_within = body.len().saturating_add(more) <= MOST_THINGS;
+    let fits = is_within && maker.copied <= MOST_COPIES;
     if !fits && !std::mem::replace(&mut maker.is_full, true) {
-        let message = format!("more than {MOST_THINGS} things, which is what a document may have");
+        let message = match is_within {
+            true => format!("more than {MOST_COPIES} things are made on the way to the document"),
+            false => format!("more than {MOST_THINGS} things, which is what a document may have"),
+        };
         maker.fault(origin, FaultKind::TooManyThings, message);
     }
     fits
