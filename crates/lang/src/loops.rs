@@ -3,6 +3,7 @@
 //! What is declared in a loop is a list with an element for every turn (`loops/declared.rs`); in the
 //! loop its name means the element of the turn.
 
+mod decided;
 mod declared;
 mod listed;
 
@@ -10,10 +11,11 @@ use crate::lower::Lowerer;
 use crate::members::Pending;
 use crate::scope::{Constant, Scope};
 use base::{Diagnostic, Name, Place};
+pub(crate) use decided::decided;
 pub(crate) use declared::Repeated;
 use declared::{declared_names, is_declaration};
 use kernel::{ClassId, Path, Step};
-use listed::{Listed, zipped};
+use listed::{Listed, inside, zipped};
 use std::rc::Rc;
 use syntax::ast::{self, AstNode, Expr, Member};
 
@@ -37,8 +39,8 @@ enum Written {
 }
 
 enum Over {
-    /// Whole numbers from this one on.
-    Numbers(i64),
+    /// Whole numbers from these on, one for each name.
+    Numbers(Vec<i64>),
     /// What is written, one row after the other, with as many in each as there are names.
     Written(Vec<Vec<Written>>),
     /// Elements of a list, as many at a time as there are names.
@@ -94,7 +96,8 @@ impl Lowerer<'_> {
             let count = match member {
                 Member::For(each) => {
                     let known = through(each).and_then(|list| self.length_of(scope, &list));
-                    let turns = known.map_or_else(|| written_turns(each), |n| n as usize);
+                    let written = || each.range().map_or(1, |range| written_turns(&range));
+                    let turns = known.map_or_else(written, |n| n as usize);
                     turns.saturating_mul(self.fewest(scope, &members_of(each)))
                 }
                 _ => 1,
@@ -158,16 +161,10 @@ impl Lowerer<'_> {
         }
         let Some(list) = over else {
             let Some((from, to)) = self.constant_range(scope, &range) else {
-                let place = Place { file: scope.file, span: range.span() };
-                let message =
-                    "a `for` goes through whole numbers that are known as the text stands";
-                let d = Diagnostic::error("not-a-count", place, message);
-                self.report(d.hint("write `0..3`, or go through a list: `for a in list`"));
+                self.refuse_range(scope, &range);
                 return None;
             };
-            let count = to.saturating_sub(from).saturating_add(1).max(0);
-            let count = u32::try_from(count).unwrap_or(u32::MAX);
-            return Some((count, Over::Numbers(from)));
+            return Some((turns_of((from, to)), Over::Numbers(vec![from])));
         };
         if !matches!(list, Expr::Name(_) | Expr::Field(_) | Expr::Index(_) | Expr::Paren(_)) {
             let place = Place { file: scope.file, span: list.span() };
@@ -208,6 +205,14 @@ impl Lowerer<'_> {
         };
         let count = elements.saturating_sub(together - 1);
         Some((count, Over::Elements { path, element }))
+    }
+
+    /// Reports a range that is not known as the text stands.
+    fn refuse_range(&mut self, scope: &Scope, range: &impl AstNode) {
+        let place = Place { file: scope.file, span: range.span() };
+        let message = "a `for` goes through whole numbers that are known as the text stands";
+        let d = Diagnostic::error("not-a-count", place, message);
+        self.report(d.hint("write `0..3`, or go through a list: `for a in list`"));
     }
 
     /// Loops of a class go on in what gives a list that they go through more elements.
@@ -315,7 +320,7 @@ pub(crate) fn turn_of(scope: &Scope, turns: &Turns, turn: u32) -> Scope {
     for (i, name) in (0..).zip(&turns.bound) {
         match &turns.over {
             Over::Numbers(from) => {
-                let number = Constant::Whole(from + i64::from(turn));
+                let number = Constant::Whole(from[i as usize] + i64::from(turn));
                 inner.bind_constant(name.clone(), number);
             }
             Over::Written(rows) => match &rows[turn as usize][i as usize] {
@@ -357,6 +362,12 @@ fn through(each: &ast::For) -> Option<Expr> {
     }
 }
 
+/// Returns how many turns a loop from one whole number to another takes.
+fn turns_of((from, to): (i64, i64)) -> u32 {
+    let count = to.saturating_sub(from).saturating_add(1).max(0);
+    u32::try_from(count).unwrap_or(u32::MAX)
+}
+
 /// Returns the name of a list that is a part of the scope's own things.
 fn own_list(scope: &Scope, list: &Expr) -> Option<Name> {
     let Expr::Name(name) = list else { return None };
@@ -364,9 +375,12 @@ fn own_list(scope: &Scope, list: &Expr) -> Option<Name> {
     scope.element(&name).is_none().then_some(name)
 }
 
-/// Returns how many turns a loop takes where its range is two numbers; else one.
-fn written_turns(each: &ast::For) -> usize {
-    let Some(Expr::Range(range)) = each.range() else { return 1 };
+/// Returns how many turns a loop takes where its range is two numbers, or its pairs are of such ranges; else one.
+fn written_turns(range: &Expr) -> usize {
+    let Expr::Range(range) = inside(range) else {
+        let pairs = zipped(range);
+        return pairs.map_or(1, |(one, other)| written_turns(&one).min(written_turns(&other)));
+    };
     match (range.start(), range.end()) {
         (Some(Expr::Number(from)), Some(Expr::Number(to))) => {
             let ends = from.value().zip(to.value());

@@ -290,6 +290,8 @@ pub(crate) struct Lowerer<'l> {
     pub(crate) depth: u32,
     /// While positive, nothing is reported.
     pub(crate) silent: u32,
+    /// In how many branches it is that a turn of a loop does not take: of these few mistakes are told.
+    pub(crate) untaken: u32,
     pub(crate) declared: Vec<(ClassId, FileId, ast::Class)>,
     /// The choices of all files, in order of declaration.
     pub(crate) choices: Vec<ClassId>,
@@ -370,6 +372,7 @@ impl<'l> Lowerer<'l> {
             repeated: Vec::new(),
             unrolled: 0,
             silent: 0,
+            untaken: 0,
             declared: Vec::new(),
             choices: Vec::new(),
             programs: Programs::default(),
@@ -448,8 +451,10 @@ impl<'l> Lowerer<'l> {
     }
 
     pub(crate) fn report(&mut self, diagnostic: Diagnostic) {
+        // what a name means is the same in every turn of a loop
+        let is_told = self.silent == 0 && (self.untaken == 0 || diagnostic.code == "unknown-name");
         // what every turn of a loop would say again is one mistake
-        if self.silent == 0 && self.said.insert((diagnostic.place, diagnostic.code)) {
+        if is_told && self.said.insert((diagnostic.place, diagnostic.code)) {
             self.diagnostics.push(diagnostic);
         }
     }

@@ -4,6 +4,7 @@
 use crate::angles::ANGLE;
 use crate::hints::unknown_unit;
 use crate::kinds::{Kind, measured};
+use crate::loops::decided;
 use crate::lower::Lowerer;
 use crate::scope::Scope;
 use base::{Diagnostic, Name, Place, Span};
@@ -395,16 +396,23 @@ impl Lowerer<'_> {
     }
 
     fn choice(&mut self, scope: &Scope, choice: &ast::IfExpr, wanted: &Kind) -> Lowered {
-        let condition = choice.condition()?;
-        // the other branch need not have a meaning in this turn: `if i = 0 then 0 else xs[i - 1]`
-        if let Some(holds) = self.truth_in_turn(scope, &condition) {
-            let chosen = if holds { choice.then_value() } else { choice.else_value() };
-            return self.expr_wanting(scope, &chosen?, wanted);
+        let c = self.expr_of(scope, &choice.condition()?, &Kind::Bool)?;
+        let holds = decided(&c).filter(|_| !scope.constants.is_empty());
+        let a = self.one_branch(scope, &choice.then_value()?, wanted, holds != Some(false));
+        let wanted = match &a {
+            Some((_, kind @ Kind::Option(_))) => kind.clone(),
+            _ => wanted.clone(),
+        };
+        if holds != Some(false) && a.is_none() {
+            return None;
         }
-        let c = self.expr_of(scope, &condition, &Kind::Bool)?;
-        let (a, kind) = self.expr_wanting(scope, &choice.then_value()?, wanted)?;
-        let wanted = if let Kind::Option(_) = kind { &kind } else { wanted };
-        let (b, other) = self.expr_wanting(scope, &choice.else_value()?, wanted)?;
+        let b = self.one_branch(scope, &choice.else_value()?, &wanted, holds != Some(true));
+        let ((a, kind), (b, other)) = match (holds, a, b) {
+            // the other branch need not have a meaning in this turn: `if i = 0 then 0 else xs[i - 1]`
+            (Some(true), a, None) => return a,
+            (Some(false), None, b) => return b,
+            (_, a, b) => (a?, b?),
+        };
         if !other.fits(&kind, &self.document) {
             self.mismatch(scope, choice.span(), None, (&kind, &other));
             return None;
@@ -413,7 +421,27 @@ impl Lowerer<'_> {
             measured(&self.document, a, &kind, &other),
             measured(&self.document, b, &other, &kind),
         );
-        Some((Term::If(Box::new(c), Box::new(a), Box::new(b)), kind.joined(other)))
+        let kind = kind.joined(other);
+        let term = match holds {
+            Some(true) => a,
+            Some(false) => b,
+            None => Term::If(Box::new(c), Box::new(a), Box::new(b)),
+        };
+        Some((term, kind))
+    }
+
+    /// Lowers a branch; one that is not taken says of its mistakes those alone that every turn of a loop would make.
+    fn one_branch(
+        &mut self,
+        scope: &Scope,
+        value: &Expr,
+        wanted: &Kind,
+        is_taken: bool,
+    ) -> Lowered {
+        self.untaken += u32::from(!is_taken);
+        let lowered = self.expr_wanting(scope, value, wanted);
+        self.untaken -= u32::from(!is_taken);
+        lowered
     }
 
     fn bindings(&mut self, scope: &Scope, bindings: &ast::LetExpr) -> Lowered {

@@ -110,6 +110,8 @@ fn a_billion_turns_are_too_many() {
     assert_eq!(codes("for i in 0..1000000000 { constraint 1 = 1 }"), ["too-many-members"]);
     let nested = "for i in 0..99 { for j in 0..99 { for k in 0..99 { for l in 0..99 { constraint 1 = 1 } } } }";
     assert_eq!(codes(nested), ["too-many-members"]);
+    let pairs = "for i in 0..1000 { for a, b in (0..900000).zip(0..900000) { constraint 1 = 1 } }";
+    assert_eq!(codes(pairs), ["too-many-members"]);
 }
 #[test]
 fn a_list_of_a_billion_is_too_long() {

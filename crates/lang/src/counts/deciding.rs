@@ -156,16 +156,6 @@ impl Lowerer<'_> {
         known.truth(e)
     }
 
-    /// Returns the truth value that an expression has in this turn of a loop, whatever the values are: `i = 0`.
-    pub(crate) fn truth_in_turn(&self, scope: &Scope, e: &Expr) -> Option<bool> {
-        let known = Known {
-            document: &self.document,
-            number: &|e| scope.constant(e),
-            kind: &|_| Deciding::Whole,
-        };
-        known.truth(e).filter(|_| !scope.constants.is_empty())
-    }
-
     /// Returns the numbers that the names and paths in an expression stand for, by where they stand. What stands in an
     /// index belongs to the element that it takes.
     pub(crate) fn constants_in(&mut self, scope: &Scope, e: &Expr) -> BTreeMap<Span, f64> {

@@ -3,7 +3,7 @@
 //! The list may stand in the loop, or be what a message answers: `ends => [(0, 1), (1, 2)]`. Elements of such a list,
 //! `ends[i][0]`, are constants.
 
-use super::{MOST_MEMBERS, Over, Written};
+use super::{Over, Written, turns_of};
 use crate::kinds::Kind;
 use crate::lower::Lowerer;
 use crate::members::Definition;
@@ -66,20 +66,17 @@ impl Lowerer<'_> {
         other: &Expr,
     ) -> Option<(u32, Over)> {
         let (one, other) = (inside(one), inside(other));
-        let both = (self.constant_range(scope, &one), self.constant_range(scope, &other));
-        let numbers = |from, to| (from..=to).map(|i| Written::Constant(Constant::Whole(i)));
+        let ranges = (self.constant_range(scope, &one), self.constant_range(scope, &other));
+        if let (Some(a), Some(b)) = ranges {
+            return Some((turns_of(a).min(turns_of(b)), Over::Numbers(vec![a.0, b.0])));
+        }
+        // of a range no more is written than the list beside it has
+        let numbers = |(from, to)| (from..=to).map(|i| Written::Constant(Constant::Whole(i)));
         let row = |(a, b)| vec![a, b];
-        let rows: Vec<Vec<Written>> = match both {
-            (Some((a, b)), Some((c, d))) => {
-                // what is more than all loops together may make is told where they are counted
-                numbers(a, b).zip(numbers(c, d)).take(MOST_MEMBERS + 1).map(row).collect()
-            }
-            (Some((a, b)), None) => {
-                numbers(a, b).zip(self.members_of_list(scope, &other)?).map(row).collect()
-            }
-            (None, Some((c, d))) => {
-                let one = self.members_of_list(scope, &one)?;
-                one.into_iter().zip(numbers(c, d)).map(row).collect()
+        let rows: Vec<Vec<Written>> = match ranges {
+            (Some(a), _) => numbers(a).zip(self.members_of_list(scope, &other)?).map(row).collect(),
+            (_, Some(b)) => {
+                self.members_of_list(scope, &one)?.into_iter().zip(numbers(b)).map(row).collect()
             }
             (None, None) => {
                 let one = self.members_of_list(scope, &one)?;
@@ -91,6 +88,10 @@ impl Lowerer<'_> {
 
     /// Returns the elements of a list: those that are written out, or the parts of one that is a part.
     fn members_of_list(&mut self, scope: &Scope, list: &Expr) -> Option<Vec<Written>> {
+        if let Expr::Range(range) = list {
+            self.refuse_range(scope, range);
+            return None;
+        }
         let is_here = matches!(list, Expr::List(_) | Expr::Tuple(_));
         let written = self.listed(scope, list);
         if let Some(listed) = written.filter(|w| is_here || self.are_constants(scope, w)) {
@@ -228,7 +229,7 @@ impl Definition {
 }
 
 /// Returns an expression without the brackets around it.
-fn inside(e: &Expr) -> Expr {
+pub(super) fn inside(e: &Expr) -> Expr {
     match e {
         Expr::Paren(paren) => paren.inner().map_or_else(|| e.clone(), |inner| inside(&inner)),
         _ => e.clone(),

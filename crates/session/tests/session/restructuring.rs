@@ -110,6 +110,16 @@ fn a_change_is_several_small_stretches() {
 }
 
 #[test]
+fn a_name_in_a_branch_that_no_turn_takes_is_renamed_with_its_part() {
+    let mut desk = Desk::of(
+        "a: Real = 1\nb: Real = 2\ny: List of 3 Real\n\
+         for i in 0..2 { constraint y[i] = if i = 5 then a else b }\n",
+    );
+    desk.apply(&Command::Rename { from: at("a"), to: "first".into() }).expect("it is free");
+    assert!(desk.text().contains("if i = 5 then first else b"), "{}", desk.text());
+}
+
+#[test]
 fn a_constraint_is_switched_off_and_on_and_values_stay() {
     let mut desk = Desk::of("a: Real = 3\nb: Real\nconstraint twice: b = 2 * a\n");
     let before = desk.moment();
