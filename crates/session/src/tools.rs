@@ -307,9 +307,18 @@ impl Tool {
         host: &dyn Host,
     ) -> Result<ToolView, Refusal> {
         let catch = self.catch(state, pointer);
-        if let Some(kind) = self.wanted().filter(|_| catch.joins.is_none()) {
-            let message = format!("{} sticks to a {kind}: there is none here", self.class);
-            return Err(words::refuse(message));
+        if let Some(kind) = self.wanted() {
+            let is_taken = |joined| self.set.iter().any(|was| was.joins.as_ref() == Some(joined));
+            let what = match &catch.joins {
+                None => format!("a {kind}: there is none here"),
+                Some(joined) if is_taken(joined) => {
+                    format!("another {kind}: {joined} is its part already")
+                }
+                Some(_) => String::new(),
+            };
+            if !what.is_empty() {
+                return Err(words::refuse(format!("{} sticks to {what}", self.class)));
+            }
         }
         self.set_to(catch, host)?;
         let mut view = self.view();

@@ -545,6 +545,8 @@ fn the_parts_of_a_relation_are_dropped_on_lines_and_circles() {
     let over = desk.session.tool_moved(desk.id, &pointer(51.0, 8.0)).expect("a tool");
     assert_eq!(over.caught.map(|c| c.word).as_deref(), Some("joins a"));
     click(&mut desk, &pointer(51.0, 8.0));
+    let again = desk.session.tool_set(desk.id, &pointer(21.0, 3.0)).expect_err("it is that line");
+    assert_eq!(again.message, "Parallel sticks to another Line: a is its part already");
     click(&mut desk, &pointer(45.0, 72.0));
     holds(&desk);
     let made = desk.text();
