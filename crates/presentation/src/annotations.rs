@@ -285,7 +285,8 @@ impl Desk<'_> {
         seen: &BTreeMap<&str, Seen>,
         edges: &Edges<'_>,
     ) -> Vec<Note> {
-        let key = |n: usize| format!("{:?} {} {n}", one.shows, one.of.join(" "));
+        let measure = one.measure.as_ref().unwrap_or(&one.words);
+        let key = |n: usize| format!("{measure} {:?} {} {n}", one.shows, one.of.join(" "));
         let note = |n: usize, (at, lines, axis): Stand| Note {
             path: one.path.clone(),
             words: one.words.clone(),
@@ -524,6 +525,7 @@ mod tests {
             shows,
             of: of.iter().map(|path| String::from(*path)).collect(),
             holds: true,
+            measure: None,
             number: words.split(' ').next().and_then(|number| number.parse().ok()),
             typed: None,
         }
@@ -618,6 +620,32 @@ mod tests {
         let nearer = View { scale: 4.0, ..view };
         let nearer = notes(&all, &corner(), &nearer, &moved);
         assert_eq!(nearer[0].lines[2], [(200.0, 356.0), (600.0, 356.0)]);
+    }
+
+    #[test]
+    fn each_of_two_notes_of_the_same_things_is_moved_by_itself() {
+        let view = View { scale: 2.0, x: 200.0, y: 300.0, ..View::default() };
+        let mut all = [
+            annotation("c1", Shows::Length, "100 mm", &["a"]),
+            annotation("c2", Shows::Length, "80 mm", &["a"]),
+            annotation("c3", Shows::Relation, "∥", &["a", "b"]),
+            annotation("c4", Shows::Relation, "=", &["a", "b"]),
+        ];
+        (all[0].measure, all[1].measure) = (Some("width".into()), Some("height".into()));
+        let first = notes(&all, &corner(), &view, &Moved::new());
+        for one in &first {
+            let mut moved = Moved::new();
+            shift(&first, &one.key, (0.0, 40.0), &mut moved);
+            let now = notes(&all, &corner(), &view, &moved);
+            let others = now.iter().zip(&first).filter(|(now, was)| now.at != was.at);
+            assert_eq!(others.count(), 1, "{}", one.key);
+        }
+        // told anew a dimension stands where it stood
+        let mut moved = Moved::new();
+        shift(&first, &first[0].key, (0.0, 40.0), &mut moved);
+        all[0].words = "101 mm".into();
+        let now = notes(&all, &corner(), &view, &moved);
+        assert_eq!(now[0].at.1, first[0].at.1 + 40.0);
     }
 
     #[test]

@@ -1,8 +1,8 @@
 //! Annotations: what the constraints of a document say, as a draughtsman writes it on the drawing.
 //!
-//! In: an open document. Out: for each constraint that the document itself says of things, a dimension (`30 mm`,
-//! `R 5 mm`, `45 deg`) or a sign (`∥`, `⟂`, `H`), with the paths of what it is of. Where these lie only the picture
-//! knows; so nothing here is made anew while something is dragged.
+//! In: an open document. Out: for each constraint that the document itself says of things, or a thing of it that draws
+//! nothing, a dimension (`30 mm`, `R 5 mm`, `45 deg`) or a sign (`∥`, `⟂`, `H`), with the paths of what it is of. Where
+//! these lie only the picture knows; so nothing here is made anew while something is dragged.
 
 use crate::by_hand::class_at;
 use crate::classing::{self, EqualsNumber};
@@ -12,6 +12,7 @@ use crate::session::thing_at;
 use crate::state::State;
 use crate::view::{Annotation, Offer, Shows};
 use crate::words;
+use base::Name;
 use eval::{Answer, Evaluator};
 use kernel::{BinaryOperator, ConstraintInstance, DOCUMENT, Path, Step, Term, ThingId};
 use std::collections::BTreeMap;
@@ -23,26 +24,34 @@ const MOST: usize = 1000;
 /// So many digits of an angle are shown, as of other numbers.
 const DIGITS: usize = 6;
 
-/// Returns what the document's own constraints say that can stand on a drawing, in the order of the text; in the pane of
-/// a class those of its prototype.
+/// Returns what the document's own constraints say that can stand on a drawing, after those of its relations; in the
+/// pane of a class those of its prototype.
 pub(crate) fn annotations(open: &Open) -> Vec<Annotation> {
     let state = &open.state;
-    let structure = &state.structure;
     let evaluator = state.evaluator(open.values());
     let prototype = open.pane.as_ref();
     let prototype = prototype.and_then(|pane| thing_at(state, &pane.part(&Path::default())));
     let owner = prototype.unwrap_or(DOCUMENT);
-    let own = (0u32..).zip(structure.constraints.iter().copied());
-    let on: Vec<(u32, ConstraintInstance)> = own
-        .filter(|(_, instance)| instance.owner == owner)
-        .filter(|(_, instance)| evaluator.is_on(*instance).unwrap_or(false))
-        .collect();
+    let is_part = |of: ThingId| state.structure.things[of].owner == Some(owner);
+    let on = on(state, &evaluator, |of| of == owner || is_part(of));
     if on.is_empty() || on.len() > MOST {
         return Vec::new();
     }
     // what is typed in a pane is of the class: the text stands elsewhere
     let numbers = if prototype.is_none() { numbers(state) } else { BTreeMap::new() };
-    on.into_iter().filter_map(|one| annotation(state, &evaluator, &numbers, one)).collect()
+    on.into_iter().filter_map(|one| annotation(state, &evaluator, (owner, &numbers), one)).collect()
+}
+
+/// The constraints of some things that are switched on, each with its index.
+fn on<'a>(
+    state: &'a State,
+    evaluator: &Evaluator<'a>,
+    is_owner: impl Fn(ThingId) -> bool,
+) -> Vec<(u32, ConstraintInstance)> {
+    let all = (0u32..).zip(state.structure.constraints.iter().copied());
+    all.filter(|(_, instance)| is_owner(instance.owner))
+        .filter(|(_, instance)| evaluator.is_on(*instance).unwrap_or(false))
+        .collect()
 }
 
 /// The constraints of the text that give something a number, by where they end.
@@ -60,9 +69,20 @@ fn numbers(state: &State) -> BTreeMap<u32, EqualsNumber> {
 
 /// Returns what gives a value another number that a constraint of the document's own says: `c.radius = 9`.
 pub(crate) fn telling(open: &Open, path: &Path) -> Option<Offer> {
-    let said = numbers(&open.state).into_values().find(|said| said.left == path.to_string())?;
-    let members = format!("constraint {} = {{}}", said.left);
-    open.pane.is_none().then(|| Offer { members, value: Some(said.value), ..Offer::default() })
+    if open.pane.is_some() {
+        return None;
+    }
+    let state = &open.state;
+    let document = &state.lowered.document;
+    let (numbers, left) = (numbers(state), path.to_string());
+    let on = on(state, &state.evaluator(open.values()), |of| of == DOCUMENT);
+    let said = on.into_iter().find_map(|(_, instance)| {
+        let written = &document.classes[instance.class].constraints[instance.index as usize];
+        let said = numbers.get(&state.lowered.own_span(written.origin)?.end)?;
+        (said.left == left).then_some(said)
+    })?;
+    let members = format!("constraint {left} = {{}}");
+    Some(Offer { members, value: Some(said.value.clone()), ..Offer::default() })
 }
 
 /// What a rule comes to on a drawing.
@@ -78,28 +98,36 @@ struct Reading {
 fn annotation<'a>(
     state: &'a State,
     evaluator: &Evaluator<'a>,
-    numbers: &BTreeMap<u32, EqualsNumber>,
+    (owner, numbers): (ThingId, &BTreeMap<u32, EqualsNumber>),
     (index, instance): (u32, ConstraintInstance),
 ) -> Option<Annotation> {
     let document = &state.lowered.document;
     let written = &document.classes[instance.class].constraints[instance.index as usize];
     let reader = Reader { state, evaluator, owner: instance.owner };
     let reading = reader.read(&written.rule)?;
+    if instance.owner != owner && !reader.is_unseen() {
+        return None;
+    }
     let of = reading.of.iter().map(|path| pictured(state, path)).collect::<Option<_>>()?;
-    let number = reading.measure.as_ref().map(|(_, number)| *number);
-    let typed = reading.measure.and_then(|(label, _)| {
+    let (measure, number) = reading.measure.unzip();
+    let typed = measure.clone().and_then(|label| {
         let said = numbers.get(&state.lowered.own_span(written.origin)?.end)?;
         let (members, value) =
             (format!("constraint {} = {{}}", said.left), Some(said.value.clone()));
         Some(Offer { label, members, value, ..Offer::default() })
     });
+    let path = match instance.owner == owner {
+        true => words::constraint_path(state, instance),
+        false => state.structure.path(document, instance.owner).to_string(),
+    };
     Some(Annotation {
-        path: words::constraint_path(state, instance),
+        path,
         says: words::rule_alone(state, index),
         words: reading.words,
         shows: reading.shows,
         of,
         holds: evaluator.test(instance).is_ok_and(|verdict| verdict.holds),
+        measure,
         number,
         typed,
     })
@@ -140,6 +168,12 @@ impl<'a> Reader<'a, '_> {
             }
             _ => None,
         }
+    }
+
+    /// Whether the thing whose rules are read draws nothing: a relation of others, which is seen by its sign.
+    fn is_unseen(&self) -> bool {
+        let drawn = self.evaluator.ask(self.owner, &Name::new("picture"));
+        matches!(drawn, Ok(Answer::Picture(elements)) if elements.is_empty())
     }
 
     /// The path from the document of what a term reads.

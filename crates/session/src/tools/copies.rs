@@ -239,9 +239,9 @@ pub(crate) fn pasting(
         // what the copies mean comes along, where it is not there
         let known = header(&own);
         let has_unit = open.state.lowered.document.unit.is_some();
-        let is_new =
-            |said: &&String| !known.contains(said) && !(has_unit && said.starts_with("unit "));
-        brought = clip.header.iter().filter(is_new).cloned().collect();
+        let is_known =
+            |said: &&String| known.contains(said) || has_unit && said.starts_with("unit ");
+        brought = clip.header.iter().filter(|said| !is_known(said)).cloned().collect();
         base = format!("{}\n{own}", brought.join("\n"));
         trial = with(&base);
     }

@@ -191,7 +191,7 @@ pub struct ValueWithin {
 /// What a constraint says, as it stands on a drawing.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Annotation {
-    /// The constraint's path.
+    /// The constraint's path; of a thing that draws nothing, which says it, that thing's.
     pub path: String,
     /// Its rule, as it is written.
     pub says: String,
@@ -203,6 +203,8 @@ pub struct Annotation {
     pub of: Vec<String>,
     /// Whether it holds.
     pub holds: bool,
+    /// What a dimension measures, as `width`.
+    pub measure: Option<String>,
     /// The number that a dimension gives, as the sheet counts.
     pub number: Option<f64>,
     /// What types another value of a dimension, where it is a number.

@@ -388,6 +388,22 @@ fn what_constraints_say_stands_on_the_drawing_and_is_typed_anew() {
 }
 
 #[test]
+fn a_relation_that_is_a_thing_has_its_sign_on_the_drawing() {
+    let desk = Desk::of(
+        "use geometry\na: Line { p1 = (0, 0)  p2 = (30, 0) }\nb: Line { p1 = (0, 9)  p2 = (30, 9) }\n\
+         parallel: Parallel\nmerge a = parallel.a\nmerge b = parallel.b\n\
+         box: Quadrilateral\nconstraint a.p1.y = a.p2.y\n\
+         class Both { a, b: Line  constraint a.parallel(to: b) }\nboth: Both\n",
+    );
+    assert!(desk.wrong().is_empty(), "{:?}", desk.wrong());
+    let all = desk.session.annotations(desk.id);
+    let all: Vec<String> =
+        all.iter().map(|one| format!("{} {} {}", one.path, one.words, one.of.join(" "))).collect();
+    // what is drawn itself is seen as it is
+    assert_eq!(all, ["parallel ∥ a b", "constraint1 H a.p1 a.p2"]);
+}
+
+#[test]
 fn a_number_that_a_dimension_says_is_typed_anew_where_the_value_stands() {
     let text = "use geometry\nunit mm\nc: Circle { center = (0, 0)  radius = 9 }\nconstraint c.radius = 9\n";
     let mut desk = Desk::of(text);
@@ -396,6 +412,14 @@ fn a_number_that_a_dimension_says_is_typed_anew_where_the_value_stands() {
     assert!(desk.text().ends_with("constraint c.radius = 16 mm / 2\n"), "{}", desk.text());
     desk.undo();
     assert_eq!(desk.text(), text);
+    // what is switched off says nothing, and is left as it is
+    let switched = format!("{text}constraint held: c.radius = 9 mm\n");
+    let mut desk = Desk::of(&switched);
+    desk.apply(&Command::Enable { path: at("constraint1"), on: false })
+        .expect("it is switched off");
+    desk.type_in("c.radius", "7").expect("the other one is told anew");
+    assert!(desk.text().contains("constraint rule: c.radius = 9\n"), "{}", desk.text());
+    assert!(desk.text().contains("constraint held: c.radius = 7\n"), "{}", desk.text());
     // what something else holds besides is refused as ever
     let both = format!("{text}constraint c.radius < 10\n");
     let mut desk = Desk::of(&both);
@@ -430,6 +454,19 @@ fn an_angle_between_two_lines_is_the_one_at_their_corner() {
         assert_eq!(again.len(), 1, "{again:?}");
         assert_eq!(again[0].value.as_deref(), Some("90 deg"));
     }
+    // where both run to their corner, both are turned round
+    let mut to = Desk::of(
+        &triangle
+            .replace(
+                "p1 = (100, 0)  p2 = (50, 86.6025403784439)",
+                "p1 = (50, 86.6025403784439)  p2 = (100, 0)",
+            )
+            .replace("b.p1", "b.p2"),
+    );
+    take(&mut to, &["a", "b"], "angle", Some("90 deg"));
+    assert!(to.text().contains("constraint (-b).angle(to: -a) = 90 deg\n"), "{}", to.text());
+    assert_eq!(to.session.annotations(to.id)[0].shows, Shows::Angle([true; 2]));
+    assert!((to.number("b.p1.x") - 100.0).abs() < 1e-9 && to.number("b.p1.y") > 0.0);
     let more = of_angle(&desk)[0].clone();
     let refused =
         desk.session.said(desk.id, &more, Some("200 deg")).expect_err("no angle is so large");
