@@ -27,6 +27,8 @@ pub struct Annotated {
     pub notes: StoredValue<Vec<Note>>,
     /// How far a hand has moved them, while the page shows the document.
     moved: RwSignal<Moved>,
+    /// How far they had been moved when a hand took one.
+    held: StoredValue<Option<Moved>>,
     /// Whether the next thing that is clicked is given a size.
     pub sizing: RwSignal<bool>,
     /// Where what is given a size was clicked, in the window: it is asked for there.
@@ -41,6 +43,7 @@ impl Annotated {
             all: RwSignal::new(Vec::new()),
             notes: StoredValue::new(Vec::new()),
             moved: RwSignal::new(Moved::new()),
+            held: StoredValue::new(None),
             sizing: RwSignal::new(false),
             clicked: StoredValue::new(None),
         }
@@ -105,14 +108,20 @@ impl Lab {
         self.annotated.notes.with_value(|notes| annotations::at(notes, at).cloned())
     }
 
-    /// Where a hand has moved notes so far.
-    pub fn moved_notes(self) -> Moved {
-        self.annotated.moved.get_untracked()
+    /// A hand takes a note, to move it.
+    pub fn take_note(self) {
+        self.annotated.held.set_value(Some(self.annotated.moved.get_untracked()));
     }
 
-    /// Puts notes where they were.
-    pub fn put_notes_back(self, moved: Moved) {
-        self.annotated.moved.set(moved);
+    /// Puts the note that a hand has taken where it was; returns whether one has been.
+    pub fn put_note_back(self) -> bool {
+        let before = self.annotated.held.try_update_value(Option::take).flatten();
+        before.map(|before| self.annotated.moved.set(before)).is_some()
+    }
+
+    /// Whether a hand has taken a note, and Escape has not put it back.
+    pub fn holds_note(self) -> bool {
+        self.annotated.held.with_value(Option::is_some)
     }
 
     /// Moves a note on, as far as a hand went on the canvas.
@@ -131,9 +140,10 @@ impl Lab {
         key.inspect(|key| self.move_note(key, way)).is_some()
     }
 
-    /// Says, when the first one has been moved, how long it stands there.
-    pub fn note_moved(self, before: &Moved) {
-        if before.is_empty() {
+    /// Lets go of a note; says, when the first one has been moved, how long it stands there.
+    pub fn drop_note(self) {
+        let before = self.annotated.held.try_update_value(Option::take).flatten();
+        if before.is_some_and(|before| before.is_empty()) {
             self.notice.set(Some(Notice::Said(String::from(words::NOTE_MOVED))));
         }
     }

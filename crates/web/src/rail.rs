@@ -134,6 +134,8 @@ impl Lab {
             self.band.set(None);
         } else if self.dragging.with_untracked(Option::is_some) {
             self.cancel();
+        } else if self.put_note_back() {
+            // the hand holds nothing any longer
         } else if self.stop_job() || self.stop_sweeping() {
             // what else there is, another Esc ends
         } else if self.leave_measure() {

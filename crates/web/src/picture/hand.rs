@@ -12,7 +12,7 @@ use drawing::Point;
 use leptos::ev::{MouseEvent, PointerEvent};
 use leptos::html::Canvas;
 use leptos::prelude::*;
-use presentation::annotations::{Moved, Note};
+use presentation::annotations::Note;
 use presentation::band::{Take, banded};
 use presentation::paths::covers;
 use presentation::pick::{pick, pick_word};
@@ -51,8 +51,8 @@ enum Mode {
     Band { start: (f64, f64) },
     /// A band is drawn over what is to be selected, besides what is selected already.
     Select { start: (f64, f64), besides: Vec<String> },
-    /// What a constraint says is pressed, and moved with the hand: by its key, and where all were at first.
-    Note { key: String, last: (f64, f64), before: Moved, is_moved: bool },
+    /// What a constraint says is pressed, and moved with the hand: by its key.
+    Note { key: String, last: (f64, f64), is_moved: bool },
     /// Two fingers: their middle and their distance.
     Pinch { middle: (f64, f64), distance: f64 },
 }
@@ -196,6 +196,7 @@ impl Hand {
             if let Mode::Drag { .. } = self.mode() {
                 self.lab.cancel();
             }
+            self.lab.put_note_back();
             self.set_mode(pinch);
         } else if e.button() == 1 || (e.button() == 0 && space == Space::Down) {
             self.set_mode(Mode::Pan { last: at });
@@ -245,11 +246,8 @@ impl Hand {
             } else if picked.as_ref().is_none_or(|path| self.together(path).is_none()) {
                 self.lab.select(picked.clone());
             }
-            let before = || self.lab.moved_notes();
             self.set_mode(match (self.note_at(at), picked) {
-                (Some(Note { key, .. }), _) => {
-                    Mode::Note { key, last: at, before: before(), is_moved: false }
-                }
+                (Some(Note { key, .. }), _) => Mode::Note { key, last: at, is_moved: false },
                 (None, Some(path)) => Mode::Pressed { path, start: at },
                 // a finger moves the sheet
                 (None, None) if e.pointer_type() == "touch" => Mode::Pan { last: at },
@@ -399,11 +397,16 @@ impl Hand {
                 }
             }
             Mode::Drag { .. } => self.drag_to(at),
-            Mode::Note { key, last, before, is_moved } => {
-                if is_moved || distance(at, last) >= STIR {
-                    self.lab.move_note(&key, (at.0 - last.0, at.1 - last.1));
-                    self.set_mode(Mode::Note { key, last: at, before, is_moved: true });
+            Mode::Note { is_moved: false, last, .. } if distance(at, last) < STIR => {}
+            Mode::Note { key, last, is_moved } => {
+                if !is_moved {
+                    self.lab.take_note();
                 }
+                // Escape may have put it back already.
+                if self.lab.holds_note() {
+                    self.lab.move_note(&key, (at.0 - last.0, at.1 - last.1));
+                }
+                self.set_mode(Mode::Note { key, last: at, is_moved: true });
             }
             Mode::Band { start } => self.lab.show_band(start, at),
             Mode::Select { start, .. } => {
@@ -543,7 +546,7 @@ impl Hand {
             {
                 self.lab.select(Some(path));
             }
-            Mode::Note { before, is_moved: true, .. } => self.lab.note_moved(&before),
+            Mode::Note { .. } => self.lab.drop_note(),
             // Escape may have ended the drag already.
             Mode::Drag { .. } if self.lab.dragging.with_untracked(Option::is_some) => {
                 match self.lab.dropping.get_untracked() {
@@ -556,11 +559,8 @@ impl Hand {
     }
 
     pub(super) fn lost(self, e: &PointerEvent) {
-        let mode = self.mode();
-        let dragged = matches!(mode, Mode::Drag { .. });
-        if let Mode::Note { before, .. } = mode {
-            self.lab.put_notes_back(before);
-        }
+        let dragged = matches!(self.mode(), Mode::Drag { .. });
+        self.lab.put_note_back();
         self.lab.band.set(None);
         self.let_go(e);
         if dragged {
