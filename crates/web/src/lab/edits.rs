@@ -94,7 +94,7 @@ impl Lab {
     /// Begins a drag; returns where the handle of what is dragged lies on the sheet, if there is one.
     pub fn press(self, path: &str) -> Option<(f64, f64)> {
         let paths = [String::from(path)];
-        self.press_by(&paths, |session, id, paths| session.press_all(id, paths))
+        self.press_by(&paths, Session::press_all)
     }
 
     /// Begins a drag where a pointer is, of several things as one.
