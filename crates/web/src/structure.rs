@@ -518,9 +518,13 @@ pub(crate) fn toggle_lock(lab: Lab, paths: &[String]) {
     lab.flush_text();
     lab.list();
     let held = !untrack(|| paths.iter().all(|path| is_locked(lab, path)));
-    let paths: Option<Vec<_>> = paths.iter().map(|path| session::parse_path(path)).collect();
-    if let Some(paths) = paths {
-        lab.settle(lab.tell(|session, id| session.hold(id, &paths, held)));
+    let others = paths.iter().filter(|path| untrack(|| is_locked(lab, path)) != held);
+    let paths: Option<Vec<_>> = others.map(|path| session::parse_path(path)).collect();
+    match paths.as_deref() {
+        // of one thing it is asked where it could be meant of all of its class
+        Some([path]) => _ = lab.apply(&Command::Anchor { path: path.clone(), held }),
+        Some(paths) => _ = lab.settle(lab.tell(|session, id| session.hold(id, paths, held))),
+        None => {}
     }
 }
 

@@ -219,13 +219,13 @@ async fn things_of_which_nothing_else_can_be_said_are_a_class_from_the_strip() {
     visit.put(
         "three.thing",
         "use geometry\na: Line { p1 = (0, 0)  p2 = (100, 0) }\nb: Line { p1 = (0, 40)  p2 = (70, 90) }\n\
-         k: Circle { center = (220, 40)  radius = 30 }\n",
+         k: Circle { center = (220, 40)  radius = 30 }\nanchor b\n",
     );
     show(&visit, "three.thing").await;
     visit.script("document.getElementById('picture').focus()").await;
     chord(&visit, &[key::CONTROL], 'a').await;
     visit.until("window.__thinglab.state().also.length === 2").await;
-    // all are locked in one step, and let go in one
+    // those that are not locked yet are locked in one step, and all let go in one
     let lock = "document.querySelector('.strip [data-action=lock]')";
     visit.until(&format!("{lock}?.innerText === 'lock'")).await;
     visit.script(&format!("{lock}.click()")).await;
