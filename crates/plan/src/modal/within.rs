@@ -29,8 +29,10 @@ pub(crate) fn attempt_in_mode(
 ) -> Tried {
     let (system, mut plan) = planner.in_mode(modes, mode);
     let Ground { x0, changed, .. } = ground;
-    let is_broken = |values: &[f64]| !modes.broken(mode, values).is_empty();
-    let is_within = |values: &[f64]| !is_broken(values) && !modes.contradicts(mode, values);
+    // how many inequalities a state breaks, and whether a condition is otherwise than assumed
+    let amiss =
+        |values: &[f64]| (modes.broken(mode, values).len(), modes.contradicts(mode, values));
+    let is_within = |values: &[f64]| amiss(values) == (0, false);
     let mut adapter = Adapter { planner, model, task, values, host };
     let mut leans = leans.to_vec();
     leans.extend(within_bounds(modes, mode, &plan, x0, &leans));
@@ -54,15 +56,20 @@ pub(crate) fn attempt_in_mode(
         None => by_plan(&plan),
     };
     planner.put_back(runner);
-    if outcome.is_solved() && plan.opens() && changed.is_empty() && !is_within(&local) {
+    if outcome.is_solved() && plan.is_curved() && changed.is_empty() && !is_within(&local) {
+        // one step after another takes another root, as long as less is amiss with it
         let other = |beside: Option<&[f64]>, adapter: &mut Adapter<'_>| {
-            let others = solve::others(&plan, &local, beside, MOST_OTHERS, adapter);
-            let mut others: Vec<Vec<f64>> = others.into_iter().map(|other| other.values).collect();
-            // what another condition allows is found in a mode in which it is assumed
-            let within = others.iter().position(|other| is_within(other)).or_else(|| {
-                others.iter().position(|other| !is_broken(other)).filter(|_| is_broken(&local))
-            });
-            within.map(|at| others.swap_remove(at))
+            let at_first = amiss(&local);
+            let (mut least, mut state) = (at_first, local.clone());
+            loop {
+                let others = solve::others(&plan, &state, beside, MOST_OTHERS, adapter);
+                let others = others.into_iter().map(|other| (amiss(&other.values), other.values));
+                match others.min_by_key(|other| other.0).filter(|other| other.0 < least) {
+                    Some(less) => (least, state) = less,
+                    // what another condition allows is found in a mode in which it is assumed
+                    None => return (least.0 == 0 && least < at_first).then_some(state),
+                }
+            }
         };
         let mut found = other(None, &mut adapter);
         // nor does a given number yield to a bound that has a root on its other side, nor does nothing hold then
