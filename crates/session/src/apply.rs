@@ -14,6 +14,7 @@ use crate::sheet;
 use crate::state::State;
 use crate::texts::Texts;
 use crate::view::{Change, Choice, DragState, Limit, Question, Refusal};
+use crate::views::analysis::only_reading;
 use crate::words;
 use crate::write_back::{Edited, differing, settle_places, sides_after, write_back, write_sides};
 use base::number::Toward;
@@ -143,8 +144,8 @@ fn edit(
     let report = open.planner.edit(state.model(), &mut values, kind, &targets, &mut texts);
     if let Some(reason) = &report.refusal {
         let refusal = words::refusal_for(&state, reason, &report);
-        let refusal = one_way(open, refusal, &report, &aims);
         let refusal = while_anchored(open, refusal, reason, &report, &aims);
+        let refusal = one_way(open, refusal, reason, &report, &aims);
         let refusal = of_computed(refusal, &aims);
         let refusal = too_hard(open, refusal, reason, &aims);
         return Err(match report.limit {
@@ -183,24 +184,20 @@ fn too_hard(
     Refusal { message: format!("{}; {together}", refusal.message), ..refusal }
 }
 
-/// Says of the one constraint that would not hold what it has no method for: there is no way back to that.
+/// Says of constraints that would not hold what they only read: there is no way back to that.
 fn one_way(
     open: &Open,
     refusal: Refusal,
+    reason: &RefusalReason,
     report: &plan::EditReport,
     aims: &[(Aim, Vec<Value>)],
 ) -> Refusal {
-    let [name] = refusal.constraints.as_slice() else { return refusal };
-    let is_it = |s: &plan::Source| words::source_name(&open.state, *s).as_ref() == Some(name);
-    let Some(source) = report.unmet.iter().map(|u| u.source).find(is_it) else { return refusal };
-    let aimed: Vec<SlotId> = aims.iter().flat_map(|(aim, _)| slots_of(&open.state, aim)).collect();
-    let read: Vec<SlotId> = open.planner.only_read(source).into_iter().collect();
-    if !read.iter().any(|s| aimed.contains(s)) && !read.is_empty() {
-        let read = words::listed(&words::slots_listed(&open.state, &read));
-        let message = format!("{}: it has no method for {read}", refusal.message);
-        return Refusal { message, ..refusal };
+    let sources = words::refusing(&open.state, report).0;
+    let aimed = aims.iter().flat_map(|(aim, _)| slots_of(&open.state, aim)).collect();
+    match only_reading(open, &sources, &aimed).filter(|_| *reason == RefusalReason::Unmet) {
+        Some(reads) => Refusal { message: format!("{}; {reads}", refusal.message), ..refusal },
+        None => refusal,
     }
-    refusal
 }
 
 /// Says of constraints that would not hold which anchored places they speak of, those that are edited apart.

@@ -223,7 +223,7 @@ pub(crate) fn contradiction(open: &Open, c: &Contradiction) -> ContradictionView
             (false, format!("not decided whether {few}{more} can hold: {bound}"))
         }
     };
-    let message = match one_way(open, c) {
+    let message = match only_reading(open, &c.constraints, &BTreeSet::new()) {
         Some(reads) if decided => format!("{message}; {reads}"),
         _ => message,
     };
@@ -351,8 +351,12 @@ pub(super) fn place_without_value(open: &Open, c: &Contradiction) -> Option<Plac
     words::place_of_fault(&open.state, source, &values)
 }
 
-/// Names what constraints of a contradiction only read, as `reads` says or since no method computes it.
-fn one_way(open: &Open, c: &Contradiction) -> Option<String> {
+/// Names what constraints only read, as `reads` says or since no method computes it; nothing of what is set itself.
+pub(crate) fn only_reading(
+    open: &Open,
+    constraints: &[plan::Source],
+    set: &BTreeSet<SlotId>,
+) -> Option<String> {
     let state = &open.state;
     let said = |&source: &plan::Source| {
         let plan::Source::Constraint(index) = source else { return None };
@@ -362,12 +366,15 @@ fn one_way(open: &Open, c: &Contradiction) -> Option<String> {
         let named = reads.filter_map(|path| state.structure.follow(instance.owner, path).ok());
         let mut read = open.planner.only_read(source);
         read.extend(named.flat_map(|thing| state.structure.slots_under(thing)));
+        if !read.is_disjoint(set) {
+            return None;
+        }
         let read: Vec<SlotId> = read.into_iter().collect();
         let name = rules::told(state, source)?;
         let read = words::listed(&words::slots_listed(state, &read));
         (!read.is_empty()).then(|| format!("{name} only reads {read}"))
     };
-    let said: Vec<String> = c.constraints.iter().filter_map(said).collect();
+    let said: Vec<String> = constraints.iter().filter_map(said).collect();
     (!said.is_empty()).then(|| words::listed(&said))
 }
 

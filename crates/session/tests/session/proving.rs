@@ -77,10 +77,12 @@ fn a_line_that_would_have_to_vanish_contradicts() {
 
 #[test]
 fn what_can_hold_elsewhere_is_no_contradiction() {
-    // two bars fold back: -8 + 8 = 0
-    let text = "use geometry\na: Point = (0, 0)\nb: Point = (8, 6)\nc: Point = (16, 0)\nanchor a\n\
-        constraint left: a.distance(to: b) = 10\nconstraint right: b.distance(to: c) = 10\n\
-        constraint high: b.y = 6\nconstraint low: c.y = 0\nconstraint side: c.x <= 1\n";
+    // two bars fold back, and two more: -8 + 8 = 0; one pair alone is not enough
+    let text = "use geometry\na: Point = (0, 0)\nb, d: Point = (8, 6)\nc, e: Point = (16, 0)\n\
+        anchor a\nconstraint b.y = 6\nconstraint c.y = 0\nconstraint d.y = 6\n\
+        constraint e.y = 0\nconstraint a.distance(to: b) = 10\nconstraint b.distance(to: c) = 10\n\
+        constraint a.distance(to: d) = 10\nconstraint d.distance(to: e) = 10\n\
+        constraint side: c.x + e.x <= 2\n";
     let mut desk = Desk::of(text);
     let found = desk.session.analysis(desk.id).contradictions;
     assert_eq!(found.len(), 1, "{found:?}");
@@ -89,7 +91,7 @@ fn what_can_hold_elsewhere_is_no_contradiction() {
         "side can hold with all the others, but not from where things are"
     );
     assert!(!found[0].decided);
-    assert_eq!(found[0].repairs, ["set b.x to -8, set c.x to 0"]);
+    assert_eq!(found[0].repairs, ["set b.x to -8, set d.x to -8, set c.x to 0, set e.x to 0"]);
     desk.type_text(&text.replace("(8, 6)", "(-8, 6)").replace("(16, 0)", "(0, 0)"));
     assert!(desk.session.status(desk.id).satisfied);
 }

@@ -125,10 +125,23 @@ fn a_refusal_says_what_a_rule_without_a_name_says() {
 }
 
 #[test]
+fn a_refusal_names_what_a_constraint_only_reads() {
+    let mut desk = Desk::of(
+        "s, out, r, u: Real = 1\nconstraint drives: out = s { reads s }\n\
+         constraint ohm: u = r * out\nanchor r\n",
+    );
+    let refusal = desk.set("u", 7.0).expect_err("nothing else could follow");
+    assert_eq!(
+        refusal.message,
+        "refused: drives, ohm would not all hold while r is anchored; drives only reads s"
+    );
+}
+
+#[test]
 fn a_text_of_a_number_names_what_it_has_no_method_for() {
     let text = "n: Real = 3.25\nt: Text\nconstraint told: t = n.text\n";
     let refusal = refused(&mut Desk::of(text), |d| d.type_in("t", "1.5"));
-    assert_eq!(refusal.message, "refused: told would not hold: it has no method for n");
+    assert_eq!(refusal.message, "refused: told would not hold; told only reads n");
 }
 
 #[test]
