@@ -3,7 +3,7 @@
 //! In: a task, how its slots are held, a state. Out: the rows that are combinations of others there, each with the
 //! rules of these. Slots that are held take no part.
 
-use crate::diagnose::gradient::{gradient, is_linear};
+use crate::diagnose::gradient::{Sizes, gradient, is_linear, is_rounding};
 use crate::holds::counts;
 use crate::host::Host;
 use crate::planner::{Model, Planner};
@@ -69,6 +69,7 @@ pub(super) fn dependents(
     let scratch = &mut Scratch::default();
     let patterns = planner.plans.patterns();
     let column = |s: SlotId| task.component.slots().binary_search(&s).ok().map(|i| i as u32);
+    let sizes = Sizes::of(model.structure, task.component.slots(), &at.numbers);
     let mut rows: Vec<Row> = Vec::with_capacity(core.len());
     let mut places: Vec<(u32, u32)> = Vec::with_capacity(core.len());
     // a rule is left out as a whole: of what depends on each other first what says several things, then what follows
@@ -91,7 +92,12 @@ pub(super) fn dependents(
             continue;
         }
         let moves = |s: SlotId| hold(model.structure, s) != Holding::Fixed;
-        let row = gradient(patterns, rule, &equations[e as usize], &at.numbers, scratch);
+        let equation = &equations[e as usize];
+        let mut row = gradient(patterns, rule, equation, &at.numbers, scratch);
+        let sides = rule.evaluate(equation, patterns, &at.numbers, scratch);
+        if is_rounding(&row, sides, &sizes) {
+            row.clear();
+        }
         let own = row.into_iter().filter(|e| moves(e.0));
         rows.push(own.filter_map(|(s, v)| Some((column(s)?, v))).collect());
         places.push((index, e));

@@ -5,7 +5,8 @@
 
 use crate::rule::{Body, Formula, Rule};
 use base::IdVec;
-use kernel::SlotId;
+use base::number::RULE_TOLERANCE;
+use kernel::{Primitive, SlotId, Structure};
 use solve::{Patterns, Scratch};
 
 /// Returns true if a rule's derivatives are the same at every state.
@@ -36,4 +37,42 @@ pub(crate) fn gradient(
         .collect();
     row.sort_unstable_by_key(|e| e.0);
     row
+}
+
+/// How large numbers of each kind are.
+pub(crate) struct Sizes<'s> {
+    structure: &'s Structure,
+    of_kinds: Vec<(Primitive, f64)>,
+}
+
+impl<'s> Sizes<'s> {
+    /// Measures some slots in a state.
+    pub(crate) fn of(
+        structure: &'s Structure,
+        slots: &[SlotId],
+        numbers: &IdVec<SlotId, f64>,
+    ) -> Self {
+        let mut of_kinds: Vec<(Primitive, f64)> = Vec::new();
+        for &slot in slots {
+            let (kind, size) = (structure.slots[slot].primitive, numbers[slot].abs());
+            match of_kinds.iter_mut().find(|known| known.0 == kind) {
+                Some(known) => known.1 = known.1.max(size),
+                None => of_kinds.push((kind, size)),
+            }
+        }
+        Self { structure, of_kinds }
+    }
+
+    fn at(&self, slot: SlotId) -> f64 {
+        let kind = self.structure.slots[slot].primitive;
+        self.of_kinds.iter().find(|known| known.0 == kind).map_or(0.0, |known| known.1)
+    }
+}
+
+/// Returns true if the slopes of an equation are rounding alone: were every number moved as far as numbers of its kind
+/// are large, its sides would not move apart by what a rule allows.
+pub(crate) fn is_rounding(row: &[(SlotId, f64)], sides: &[f64], sizes: &Sizes<'_>) -> bool {
+    let larger = sides.iter().fold(0.0_f64, |larger, side| larger.max(side.abs()));
+    let moved = row.iter().map(|&(slot, slope)| (slope * sizes.at(slot)).abs());
+    row.iter().all(|e| sizes.at(e.0) > 0.0) && moved.sum::<f64>() < RULE_TOLERANCE * larger
 }
