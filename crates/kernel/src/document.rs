@@ -395,7 +395,8 @@ impl Document {
         handles
     }
     /// Returns true if things of the class are a *place*: two or three stored parts, all real
-    /// numbers, no constraints. A place yields as one. A document is none, whatever it consists of.
+    /// numbers, no constraints. A place yields as one. A document is none, whatever it consists of; nor is what a program
+    /// draws, whatever it asks for.
     pub fn is_place(&self, class: ClassId) -> bool {
         if class == self.root {
             return false;
@@ -409,5 +410,6 @@ impl Document {
                 )
             })
             && self.lineage(class).iter().all(|&c| self.classes[c].constraints.is_empty())
+            && self.program(class).is_none()
     }
 }

@@ -487,6 +487,12 @@ impl Writer<'_> {
         }
     }
 
+    /// The unit of what is written anew, where its dimension tells none: an angle is read in degrees.
+    fn usual_unit(&self, class: Option<ClassId>) -> Option<&'static str> {
+        let class = self.document.named_class(class?);
+        (*self.document.classes[class].name == *"Angle").then_some("deg")
+    }
+
     /// Writes an option of a choice, as its class tells it apart.
     fn option(&self, class: Option<ClassId>, at: f64) -> Option<String> {
         let ClassKind::Primitive(Primitive::Choice(of)) = self.document.classes[class?].kind else {
@@ -499,7 +505,7 @@ impl Writer<'_> {
     fn text(&self, value: Value<'_>) -> String {
         match value.literal {
             Literal::Number(x) if let Some(option) = self.option(value.class, *x) => option,
-            Literal::Number(x) => self.number(*x, value, None),
+            Literal::Number(x) => self.number(*x, value, self.usual_unit(value.class)),
             Literal::Bool(b) => b.to_string(),
             Literal::Text(t) => quoted(t),
             Literal::Path(path) => path.to_string(),

@@ -108,6 +108,9 @@ pub(crate) fn begin(open: &mut Open, paths: &[Path]) -> Result<(f64, f64), Refus
     Ok(handle)
 }
 
+/// The most decimals of a number that follows a grasp.
+pub(crate) const MOST_DECIMALS: usize = 15;
+
 /// So many numbers are named that follow a drag.
 const MOST_FOLLOWING: usize = 3;
 
@@ -680,36 +683,60 @@ impl Drag {
             Turning::No | Turning::Plain => to.to_vec(),
         }
     }
-    /// Gives the numbers that follow a grasp its decimals, where what is held moves by no more than these.
+    /// Gives the numbers that follow a grasp its decimals, where what is held moves by no more than these; what is no
+    /// length, as an angle, gets the fewest in its own unit that leave what is held where it is.
     fn shorten(&mut self, state: &State, planner: &mut Planner) {
         let (Some(decimals), Some(before)) = (self.grasp, self.computed_now(state)) else { return };
-        let round = |x: f64| rounded(x, decimals).parse().unwrap_or(x);
+        let of = |slot: SlotId| state.structure.slots[slot].primitive;
         let is_length = |slot: SlotId| {
-            let of = state.structure.slots[slot].primitive;
-            before.iter().all(|(_, dimension)| of == Primitive::Real(*dimension))
+            before.iter().all(|(_, dimension)| of(slot) == Primitive::Real(*dimension))
         };
-        let follows = |slot: SlotId| state.values.numbers[slot] != self.values.numbers[slot];
-        let slots: Vec<SlotId> =
-            { &self.slots }.iter().copied().filter(|&s| is_length(s) && follows(s)).collect();
+        let follows = |slot: SlotId| {
+            matches!(of(slot), Primitive::Real(_))
+                && state.values.numbers[slot] != self.values.numbers[slot]
+        };
+        let slots: Vec<SlotId> = self.slots.iter().copied().filter(|&s| follows(s)).collect();
         if slots.is_empty() {
             return;
         }
-        let wished: Vec<f64> = slots.iter().map(|&s| round(self.values.numbers[s])).collect();
-        let targets: Vec<Target<'_>> =
-            slots.iter().map(|&s| Target::Thing(state.structure.slots[s].thing)).collect();
-        let Ok(mut press) = planner.press(state.model(), &self.values, &targets) else { return };
-        let mut texts = Texts::new(&state.lowered.document, &state.structure);
-        let mut values = self.values.clone();
-        let report = planner.drag(state.model(), &mut press, &mut values, &wished, &mut texts);
-        let long = std::mem::replace(&mut self.values, values);
-        let now = self.computed_now(state).unwrap_or_default();
+        let tries = if slots.iter().all(|&s| is_length(s)) { 1 } else { MOST_DECIMALS };
         let least = (0..decimals).fold(1.0, |step, _| step / 10.0);
-        let is_near = |((a, _), (b, _)): (&(f64, _), &(f64, _))| (a - b).abs() <= least;
-        if report.reached && now.len() == before.len() && now.iter().zip(&before).all(is_near) {
-            self.press = press;
-        } else {
+        for fewest in 0..tries {
+            let short = |&slot: &SlotId| match is_length(slot) {
+                true => {
+                    let x = self.values.numbers[slot];
+                    rounded(x, decimals).parse().unwrap_or(x)
+                }
+                false => words::shortened(state, slot, &self.values, fewest),
+            };
+            let wished: Vec<f64> = slots.iter().map(short).collect();
+            let Some((press, values)) = self.tried(state, planner, (&slots, &wished)) else {
+                continue;
+            };
+            let long = std::mem::replace(&mut self.values, values);
+            let now = self.computed_now(state).unwrap_or_default();
+            let is_near = |((a, _), (b, _)): (&(f64, _), &(f64, _))| (a - b).abs() <= least;
+            if now.len() == before.len() && now.iter().zip(&before).all(is_near) {
+                self.press = press;
+                return;
+            }
             self.values = long;
         }
+    }
+    /// Gives numbers other values, and returns what came of it where they reached these.
+    fn tried(
+        &self,
+        state: &State,
+        planner: &mut Planner,
+        (slots, wished): (&[SlotId], &[f64]),
+    ) -> Option<(Press, Values)> {
+        let targets: Vec<Target<'_>> =
+            slots.iter().map(|&s| Target::Thing(state.structure.slots[s].thing)).collect();
+        let mut press = planner.press(state.model(), &self.values, &targets).ok()?;
+        let mut texts = Texts::new(&state.lowered.document, &state.structure);
+        let mut values = self.values.clone();
+        let report = planner.drag(state.model(), &mut press, &mut values, wished, &mut texts);
+        report.reached.then_some((press, values))
     }
     /// Lets go: soft constraints act again, and the change is written.
     ///

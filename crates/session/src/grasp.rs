@@ -46,9 +46,8 @@ fn grasp(open: &mut Open, path: &Path, pointer: &Pointer) -> Option<(f64, f64)> 
 
 /// How many decimals a pointer tells that has such a reach on the sheet.
 fn decimals(reach: f64) -> usize {
-    /// The most decimals of a number that follows a grasp.
-    const MOST: usize = 15;
-    let tenths = (0..MOST).scan(1.0, |step, _| Some(std::mem::replace(step, *step / 10.0)));
+    let tenths =
+        (0..drag::MOST_DECIMALS).scan(1.0, |step, _| Some(std::mem::replace(step, *step / 10.0)));
     // a tenth of the reach is about a pixel
     tenths.take_while(|step| *step > reach / 10.0).count()
 }

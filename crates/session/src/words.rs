@@ -495,6 +495,28 @@ pub(crate) fn written_for(state: &State, slot: SlotId) -> String {
     given.map_or_else(String::new, |given| state.lowered.source_of(given.origin))
 }
 
+/// Returns a number that is near the one of a slot and has no more than so many decimals as it is written: a number
+/// without a unit in the text as it is, else in the unit in which people read it.
+pub(crate) fn shortened(state: &State, slot: SlotId, values: &Values, decimals: usize) -> f64 {
+    let x = values.numbers[slot];
+    let document = &state.lowered.document;
+    let written = written_for(state, slot);
+    let quantity = quantity_of(state, slot, &written);
+    let is_own = state.structure.given(slot).is_some_and(|given| !given.of_class);
+    let unit = match is_own && written.trim().parse::<f64>().is_ok() {
+        true => String::new(),
+        false => kernel::quantity::spelling_for(x, quantity, document),
+    };
+    let shown = kernel::in_unit(x, quantity.dimension, &unit, document);
+    let text = base::number::rounded(shown, decimals);
+    match expr::units::read_quantity(&text, &unit).filter(|_| !unit.is_empty()) {
+        Some((si, of)) => kernel::quantity::from_si(document, si, of),
+        None => text
+            .parse()
+            .map_or(x, |bare| kernel::quantity::from_bare(document, bare, quantity.dimension)),
+    }
+}
+
 /// Returns a value as a person reads it: six digits and its unit.
 pub(crate) fn show_slot(state: &State, slot: SlotId, values: &Values) -> Shown {
     match (state.structure.slots[slot].primitive, values.get(slot)) {

@@ -170,6 +170,42 @@ fn a_rim_of_what_has_no_place_is_dragged_larger() {
 }
 
 #[test]
+fn an_angle_and_a_ratio_that_a_rim_moves_have_few_digits() {
+    let fan = |turn: &str, thing: &str| {
+        format!(
+            "use geometry\nprogram Fan(turn: Angle = {turn}) {{\n    hub = Point(0, 0)\n    \
+             blade = Line.polar(from: hub, length: 50, angle: turn)\n}}\n{thing}\n"
+        )
+    };
+    // the end of a blade of 50 lies at (30, 40) by 53.1301 degrees, 0.9273 in radians; a tenth of a degree moves it by 0.087
+    for (text, written) in [
+        (fan("30 deg", "fan: Fan"), "turn = 53.13 deg"),
+        (fan("0.5", "fan: Fan"), "turn = 53.13 deg"),
+        (fan("30 deg", "fan: Fan { turn = 40 deg }"), "turn = 53.13 deg"),
+        (fan("30 deg", "fan: Fan { turn = 0.5 }"), "turn = 0.9273"),
+    ] {
+        let mut desk = Desk::of(&text);
+        let [x, y] = ["x", "y"].map(|of| number(&desk, &format!("fan.blade.p2.{of}")));
+        drag_at(&mut desk, "fan", (x, y), (30.0, 40.0));
+        assert!(desk.text().contains(written), "{}", desk.text());
+    }
+    let text = "use geometry\nprogram Ring(part: Real = 0.5) {\n    hole = Circle(Point(0, 0), 7 * part)\n}\nring: Ring\n";
+    let mut desk = Desk::of(text);
+    drag_at(&mut desk, "ring", (0.0, 3.5), (0.0, 5.0));
+    assert!(desk.text().contains("part = 0.714"), "{}", desk.text());
+    assert_eq!(number(&desk, "ring.part"), 0.714);
+}
+
+#[test]
+fn two_parameters_that_are_dragged_are_written_by_their_names() {
+    let text = "use geometry\nprogram Peg(across: Length = 10, up: Length = 5) {\n    rim = Circle(Point(across, up), 3)\n}\npeg: Peg\n";
+    let mut desk = Desk::of(text);
+    desk.drag("peg.rim.center", &[(12.0, 7.0)]);
+    assert!(desk.text().ends_with("peg: Peg { across = 12; up = 7 }\n"), "{}", desk.text());
+    assert_eq!(circle(&desk, "peg.rim"), [12.0, 7.0, 3.0]);
+}
+
+#[test]
 fn a_rim_that_is_held_where_it_is_tells_what_holds_it() {
     let bounded = WASHER.replace("outer: Length =", "outer: Length in 2..30 =");
     assert_ne!(bounded, WASHER);
