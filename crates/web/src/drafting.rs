@@ -7,7 +7,7 @@ use session::drafting::view::{
     Ends, Go, MeasureKind, NewParameter, OlderUse, ParameterRow, Prompt, StepRow, StepsView, Turn,
     Wants,
 };
-use session::view::{Change, Pointer, Refusal};
+use session::view::{Change, DocumentId, Pointer, Refusal};
 use wasm_bindgen::JsCast;
 use wasm_bindgen::closure::Closure;
 
@@ -144,6 +144,9 @@ impl Lab {
 
     /// Shows something over the picture: what would be made, or what a step made.
     fn show_made(self, mut preview: drawing::Drawing) {
+        if let Some(set) = self.ask_of_shown(session::Session::set_drawing) {
+            preview.elements.extend(set.elements);
+        }
         if let Some(Some(visited)) = self.ask_of_shown(session::Session::drawn_so_far) {
             preview.elements.extend(visited.elements);
         }
@@ -346,7 +349,7 @@ impl Lab {
     /// Does something about a block that is demonstrated, and shows what is waited for then.
     fn about_block(
         self,
-        run: impl FnOnce(&mut session::Session, session::DocumentId) -> Result<Change, Refusal>,
+        run: impl FnOnce(&mut session::Session, DocumentId) -> Result<Change, Refusal>,
     ) {
         self.tell(session::Session::give_up);
         if self.settle(self.tell(run)) {
@@ -366,7 +369,7 @@ impl Lab {
     /// Asks for something that a session waits for then.
     fn ask_prompt(
         self,
-        run: impl FnOnce(&mut session::Session, session::DocumentId) -> Result<Option<Prompt>, Refusal>,
+        run: impl FnOnce(&mut session::Session, DocumentId) -> Result<Option<Prompt>, Refusal>,
     ) {
         self.tell(session::Session::give_up);
         if let Some(Err(refusal)) = self.tell(run) {
@@ -401,6 +404,20 @@ impl Lab {
             return;
         }
         self.about_block(|session, id| session.begin_each(id, (a, b)));
+    }
+
+    /// Leaves what is under the pointer out of the set that a loop goes over, or takes it in; returns whether there is one.
+    pub fn take_of_set_at(self, pointer: &Pointer) -> bool {
+        let found = self.ask_of_shown(|session, id| session.of_set_at(id, pointer)).flatten();
+        let Some(figure) = found else { return false };
+        self.take_of_set(&figure);
+        true
+    }
+
+    fn take_of_set(self, figure: &str) {
+        self.settle(self.tell(|session, id| session.take_of_set(id, figure)));
+        self.show_made(drawing::Drawing::default());
+        self.drafting.turned.update(|n| *n += 1);
     }
 
     /// Shows the rubber band.
@@ -561,25 +578,60 @@ impl Lab {
     }
 }
 
+/// What follows something else, and is made only once that has been painted: lists beside a picture.
+pub(crate) fn once_painted<T: Default + PartialEq + Send + Sync + 'static>(
+    track: impl Fn() + 'static,
+    make: impl Fn() -> T + Copy + 'static,
+) -> RwSignal<T> {
+    let made = RwSignal::new(T::default());
+    let is_due = StoredValue::new(false);
+    Effect::new(move |_| {
+        track();
+        if is_due.get_value() {
+            return;
+        }
+        is_due.set_value(true);
+        js::after_painting(move || {
+            // it may have gone from the page
+            if is_due.try_set_value(false).is_some() {
+                return;
+            }
+            let now = make();
+            if made.try_with_untracked(|before| *before != now) == Some(true) {
+                made.set(now);
+            }
+        });
+    });
+    made
+}
+
 /// The drawer of drawing: recording, its parameters and steps, and every construction in scope.
 #[component]
 pub fn Drawing(
     /// The lab.
     lab: Lab,
 ) -> impl IntoView {
-    let steps = Memo::new(move |_| {
+    let track = move || {
         lab.text.track();
         lab.values.track();
         lab.drafting.turned.track();
-        let selected = lab.selected.get();
-        lab.id().and_then(|id| lab.ask(|session| session.steps(id, selected.as_deref())))
+        lab.selected.track();
+    };
+    let ask = move |what: fn(&session::Session, DocumentId, Option<&str>) -> Option<StepsView>| {
+        let selected = lab.selected.get_untracked();
+        lab.id().and_then(|id| lab.ask(|session| what(session, id, selected.as_deref())))
+    };
+    let steps = Memo::new(move |_| {
+        track();
+        ask(session::Session::program_shown)
     });
+    let rows = once_painted(track, move || ask(session::Session::steps).unwrap_or_default());
     view! {
         <section class="panel drawing" aria-label=words::DRAW>
             <div class="scroll recorded">
                 <recorder::Recorder lab=lab steps=steps />
                 <Show when=move || steps.with(Option::is_some)>
-                    <steps::Steps lab=lab steps=steps />
+                    <steps::Steps lab=lab steps=steps listed=rows />
                 </Show>
             </div>
             <div class="scroll">

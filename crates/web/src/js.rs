@@ -5,8 +5,15 @@
 //! All offsets are UTF-8 byte offsets into the editor's text.
 
 use js_sys::{Array, Function, Object, Uint8Array, Uint32Array};
+use leptos::prelude::{request_animation_frame, set_timeout};
+use std::time::Duration;
 use wasm_bindgen::JsValue;
 use wasm_bindgen::prelude::wasm_bindgen;
+
+/// Does something once the page has been painted as it stands now.
+pub fn after_painting(run: impl FnOnce() + 'static) {
+    request_animation_frame(move || set_timeout(run, Duration::ZERO));
+}
 
 #[wasm_bindgen(raw_module = "./host.js")]
 extern "C" {

@@ -147,10 +147,13 @@ async fn a_wrong_step_is_found_by_what_it_drew_and_replaced() {
     press(&visit, "[data-visit='picked']").await;
     pick(&visit, -40.0, 96.6).await;
     visit.until("document.querySelector('.steps .next')?.dataset.step === 'turns.circle'").await;
+    // its rows tell that turn
+    let told = "document.querySelector(\"[data-step='turns'] .step\").innerText";
+    visit.until(&format!("{told}.includes('turn 2 of 3')")).await;
     // the inner circle shall have a quarter of the radius
     press(&visit, "[data-step='turns.circle2'] [data-step-replace]").await;
     press(&visit, "[data-construction='Circle.concentric(with,radius)']").await;
-    pick(&visit, -80.0, 40.0).await;
+    pick(&visit, -40.0, 96.6).await;
     enter(&visit, "circle.radius / 4").await;
     visit
         .until("window.__thinglab.state().text.includes('with: circle, radius: circle.radius / 4')")
@@ -158,7 +161,7 @@ async fn a_wrong_step_is_found_by_what_it_drew_and_replaced() {
     // its numbers stand on the drawing: another one is typed there
     press(&visit, "[data-step='turns.circle2'] .step").await;
     let number = "document.querySelector(\"[data-step-number='radius']\")";
-    visit.until(&format!("{number}?.innerText.includes('10')")).await;
+    visit.until(&format!("{number}?.innerText.includes('5')")).await;
     visit
         .script(&format!("{number}.dispatchEvent(new MouseEvent('dblclick', {{bubbles: true}}))"))
         .await;

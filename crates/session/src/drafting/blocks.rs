@@ -44,6 +44,15 @@ impl Recording {
             text::block(source, &self.program, &address).is_some()
         });
         let kept = kept.count();
+        let mut address = String::new();
+        for block in &mut self.blocks[..kept] {
+            address = text::joined(&address, &block.around.address);
+            if let Kind::Loop(it) = &mut block.kind
+                && let Some((set, _)) = super::repeat::set_of(source, &self.program, &address)
+            {
+                it.agree(&set);
+            }
+        }
         if kept < self.blocks.len() {
             self.before = self.blocks.get(kept).and_then(|block| block.before.clone());
             self.blocks.truncate(kept);
@@ -187,29 +196,51 @@ pub(crate) fn name_for(
 }
 
 /// Lists the blocks that are open.
-pub(crate) fn view(recording: &Recording) -> Vec<OpenBlock> {
+pub(crate) fn view(source: &text::Source, recording: &Recording) -> Vec<OpenBlock> {
     let mut address = String::new();
     let one = |block: &Block| {
         address = text::joined(&address, &block.around.address);
         let name = block.around.name.as_ref().map_or("", Name::as_str);
+        let set = super::repeat::set_of(source, &recording.program, &address);
+        let set = set.map(|(set, _)| set).unwrap_or_default();
         let (kind, words) = match &block.kind {
             Kind::Loop(it) if it.is_drawn() => {
                 (OpenKind::Asking, format!("{name}: what the second turn does"))
             }
-            Kind::Loop(it) => match it.first_of_set() {
-                Some(first) => {
-                    let words =
-                        format!("{name}: draw what is done for {first}, the first of the set");
-                    (OpenKind::Each, words)
-                }
-                None => (OpenKind::Turn, format!("{name}: draw its first turn")),
-            },
+            Kind::Loop(it) if it.element().is_some() => {
+                let first = set.first().map_or("the first", String::as_str);
+                let words = format!("{name}: draw what is done for {first}, the first of the set");
+                (OpenKind::Each, words)
+            }
+            Kind::Loop(_) => (OpenKind::Turn, format!("{name}: draw its first turn")),
             Kind::Choice(choice) => choice.view(),
             Kind::Visited => (OpenKind::Visited, format!("visiting {address}")),
         };
-        OpenBlock { address: address.clone(), words, kind }
+        let caught = match &block.kind {
+            Kind::Loop(it) => it.caught(),
+            Kind::Choice(_) | Kind::Visited => &[],
+        };
+        let set = caught.iter().map(|name| (name.clone(), set.contains(name))).collect();
+        OpenBlock { address: address.clone(), words, kind, set }
     };
     recording.blocks.iter().map(one).collect()
+}
+
+/// What was caught for the set that the open loop goes over, as long as that may be changed; nothing else.
+pub(crate) fn caught(open: &Open) -> &[String] {
+    match open.recording.as_ref().and_then(Recording::innermost).map(|block| &block.kind) {
+        Some(Kind::Loop(it)) => it.caught(),
+        Some(Kind::Choice(_) | Kind::Visited) | None => &[],
+    }
+}
+
+/// What of it is in the set.
+pub(crate) fn taken(open: &Open) -> Vec<String> {
+    let source = text::Source::now(&open.state);
+    let blocks = open.recording.as_ref().map(|recording| view(&source, recording));
+    let innermost = blocks.and_then(|mut blocks| blocks.pop());
+    let set = innermost.map(|block| block.set).unwrap_or_default();
+    set.into_iter().filter(|(_, is_in)| *is_in).map(|(name, _)| name).collect()
 }
 
 /// What is waited for, where no construction is.

@@ -60,16 +60,18 @@ impl Changing {
 fn home_of(
     source: &text::Source,
     (program, example): (&Name, &Name),
-    address: &str,
+    (address, turns): (&str, &[u32]),
     is_within: bool,
 ) -> Option<Home> {
-    let outer = visit::home_of(source, (program, example), address, &[])?;
+    let outer = visit::home_of(source, (program, example), address, turns)?;
     let Home::Program { mut way, before, .. } = outer.clone() else { return None };
     if !is_within {
         return Some(outer);
     }
     let name = text::step_at(source, program, address)?.name.as_deref().map(Name::new);
-    way.push(Around { address: before?, name, turn: Some(0) });
+    let around = way.iter().filter(|around| around.turn.is_some()).count();
+    let turn = turns.get(around).copied().or(Some(0));
+    way.push(Around { address: before?, name, turn });
     Some(Home::Program { program: program.clone(), example: example.clone(), way, before: None })
 }
 
@@ -87,14 +89,15 @@ fn find(
 pub(crate) fn list(
     state: &State,
     (program, example): (&Name, &Name),
-    address: &str,
+    (address, turns): (&str, &[u32]),
 ) -> Vec<StepOperand> {
     let Some(step) = text::step_at(&text::Source::now(state), program, address) else {
         return Vec::new();
     };
-    let curve = curve_of(state, example, address);
+    let curve = curve_of(state, example, (address, turns));
     let one = |(found, is_within): (Occurrence, bool)| {
-        let home = home_of(&text::Source::now(state), (program, example), address, is_within);
+        let at = (address, turns);
+        let home = home_of(&text::Source::now(state), (program, example), at, is_within);
         let value = home.and_then(|home| in_words(state, &home, &found.first));
         let is_number = value.is_some() && matches!(step.value, Some(Value::Expr(_)));
         let curve = curve.filter(|_| is_number);
@@ -123,13 +126,14 @@ fn in_words(state: &State, home: &Home, says: &str) -> Option<String> {
     found
 }
 
-/// Where a step's figure lies in the example, in the first turn of the loops around it.
-fn curve_of(state: &State, example: &Name, address: &str) -> Option<Curve> {
+/// Where a step's figure lies in the example, in such turns of the loops around it, else the first.
+fn curve_of(state: &State, example: &Name, (address, turns): (&str, &[u32])) -> Option<Curve> {
     let evaluator = state.evaluator(&state.values);
     let mut path = Path::of(&[example]);
+    let mut turns = turns.iter().copied();
     for name in address.split('.').filter(|s| text::is_name(s)) {
         if matches!(evaluator.at(&path), Ok(Answer::List(_))) {
-            path = path.then(Step::Index(0));
+            path = path.then(Step::Index(turns.next().unwrap_or(0)));
         }
         path = path.then(Step::Part(name.into()));
     }
@@ -146,12 +150,13 @@ pub(crate) fn begin(open: &mut Open, (address, slot): (&str, &str)) -> Result<()
         return Err(words::refuse("a block is demonstrated: end it, or undo it, first".into()));
     }
     let (program, example) = (recording.program.clone(), recording.example.clone());
+    let turns = visit::turns_in(&Home::of(Some(recording)), address);
     let state = open.state.clone();
     let none = || words::refuse(format!("{address} says nothing called {slot}"));
-    let (found, is_within) =
-        find(&text::Source::now(&state), &program, (address, slot)).ok_or_else(none)?;
-    let home = home_of(&text::Source::now(&state), (&program, &example), address, is_within)
-        .ok_or_else(none)?;
+    let source = text::Source::now(&state);
+    let (found, is_within) = find(&source, &program, (address, slot)).ok_or_else(none)?;
+    let at = (address, &turns[..]);
+    let home = home_of(&source, (&program, &example), at, is_within).ok_or_else(none)?;
     let is_value = in_words(&state, &home, &found.first).is_some();
     let is_place = outcome::place(&state, &home, &found.first).is_some();
     open.dialogue = None;
@@ -169,7 +174,8 @@ pub(crate) fn home(open: &Open) -> Option<Home> {
     let Changing { step, slot, .. } = recording.changing.as_ref()?;
     let source = text::Source::now(&open.state);
     let (_, is_within) = find(&source, &recording.program, (step, slot))?;
-    home_of(&source, (&recording.program, &recording.example), step, is_within)
+    let turns = visit::turns_in(&Home::of(Some(recording)), step);
+    home_of(&source, (&recording.program, &recording.example), (step, &turns), is_within)
 }
 
 /// Gives what is changed another object or value: as it is typed, or as a pointer finds it.

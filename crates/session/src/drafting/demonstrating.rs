@@ -5,7 +5,7 @@ use super::view::{Ends, NewParameter, ParameterReading, Prompt, Turn};
 use super::{blocks, choice, parameters, reading, recording, repeat, scene};
 
 use crate::session::Session;
-use crate::view::{Change, DocumentId, Refusal};
+use crate::view::{Change, DocumentId, Pointer, Refusal};
 use crate::words;
 
 impl Session {
@@ -77,6 +77,50 @@ impl Session {
         };
         let change = repeat::begin_each(open, &beside, ("", &set)).map_err(of_one_kind)?;
         Ok(*self.with_reach(id, change))
+    }
+
+    /// Leaves a figure out of the set that the open loop goes over, by its name, or takes it in.
+    ///
+    /// # Errors
+    /// No such loop is open, its first turn is drawn for this figure, none would be left, or it is of another kind.
+    pub fn take_of_set(&mut self, id: DocumentId, figure: &str) -> Result<Change, Refusal> {
+        let (open, beside) = self.beside_others(id);
+        blocks::recorded(open)?;
+        let names: Vec<String> =
+            blocks::caught(open).iter().cloned().chain([figure.to_string()]).collect();
+        let all = scene::scene(&open.state, &home(open));
+        let kinds = scene::kinds_in_words(&open.state, &all, &names);
+        let of_one_kind = |refusal| match &kinds {
+            None => refusal,
+            Some(kinds) => words::refuse(format!(
+                "a loop goes over figures of one kind: {kinds} would be in this one"
+            )),
+        };
+        let is_new = !blocks::caught(open).iter().any(|name| name == figure);
+        let change = repeat::take_of_set(open, &beside, figure)
+            .map_err(|refusal| if is_new { of_one_kind(refusal) } else { refusal })?;
+        Ok(*self.with_reach(id, change))
+    }
+
+    /// Returns what can be left out of the set of the open loop, or taken in, under a pointer; nothing where no set may
+    /// be changed, or no figure lies there.
+    pub fn of_set_at(&self, id: DocumentId, pointer: &Pointer) -> Option<String> {
+        let open = self.document(id);
+        let home = home(open);
+        let all = scene::scene(&open.state, &home);
+        let caught = blocks::caught(open);
+        let is_caught = |found: &&scene::Found| caught.contains(&scene::whole_of(found));
+        let figures = all.iter().filter(|found| !found.is_place && !caught.is_empty());
+        let found = scene::nearest(figures.clone().filter(is_caught), pointer);
+        found.or_else(|| scene::nearest(figures, pointer)).map(scene::whole_of)
+    }
+
+    /// Returns how the set of the open loop is drawn, as long as it may be changed.
+    pub fn set_drawing(&self, id: DocumentId) -> drawing::Drawing {
+        let open = self.document(id);
+        let home = home(open);
+        let set = blocks::taken(open);
+        scene::drawing_of_all(&open.state, &home, &set)
     }
 
     /// Ends the first turn of the loop, and says how the loop ends; what is asked of the second turn is then waited for.

@@ -28,8 +28,19 @@ pub(crate) struct Loop {
     ends: Option<Ends>,
     /// Once the turn is drawn: what is asked of the second.
     asked: Vec<Asked>,
-    /// What runs through a set, and the set's first.
-    each: Option<(String, String)>,
+    /// The set that it goes over, if it does.
+    each: Option<Each>,
+}
+
+/// A set that a loop goes over.
+#[derive(Clone, PartialEq, Eq, Debug)]
+struct Each {
+    /// What runs through it.
+    element: String,
+    /// Its first.
+    first: String,
+    /// What was caught, or taken in, in order: what is left out can be taken in again.
+    caught: Vec<String>,
 }
 
 /// A question of the second turn.
@@ -55,12 +66,25 @@ impl Loop {
 
     /// What runs through the set, of a loop over one.
     pub(crate) fn element(&self) -> Option<&str> {
-        self.each.as_ref().map(|(element, _)| element.as_str())
+        self.each.as_ref().map(|each| each.element.as_str())
     }
 
     /// The first of the set, of a loop over one.
     pub(crate) fn first_of_set(&self) -> Option<&str> {
-        self.each.as_ref().map(|(_, first)| first.as_str())
+        self.each.as_ref().map(|each| each.first.as_str())
+    }
+
+    /// What was caught for the set, of a loop over one whose second turn is not asked about.
+    pub(crate) fn caught(&self) -> &[String] {
+        let each = self.each.as_ref().filter(|_| !self.is_drawn());
+        each.map_or(&[], |each| &each.caught)
+    }
+
+    /// Makes it agree with the text, which undo may have changed.
+    pub(crate) fn agree(&mut self, set: &[String]) {
+        if let (Some(each), Some(first)) = (&mut self.each, set.first()) {
+            each.first.clone_from(first);
+        }
     }
 
     /// The question that is open.
@@ -166,8 +190,79 @@ pub(crate) fn begin_each(
     let element = blocks::name_for(&text::Source::now(&open.state), &program, ("", "element"))?;
     let around = Around { address: name.to_string(), name: Some(name.clone()), turn: Some(0) };
     let lines = format!("{name} = for {element} in [{}] {{\n}}", set.join(", "));
-    let it = Loop { each: Some((element.to_string(), first.clone())), ..Loop::default() };
+    let (element, first, caught) = (element.to_string(), first.clone(), set.to_vec());
+    let it = Loop { each: Some(Each { element, first, caught }), ..Loop::default() };
     blocks::begin(open, host, (&lines, format!("for each {name}")), (around, Kind::Loop(it)))
+}
+
+/// The figures that a loop goes over, as its text names them, and where that stands.
+pub(crate) fn set_of(
+    source: &text::Source,
+    program: &str,
+    address: &str,
+) -> Option<(Vec<String>, Span)> {
+    let step = text::step_at(source, program, address)?;
+    let Some(syntax::ast::Value::For(each)) = step.value else { return None };
+    let Some(syntax::ast::Expr::List(list)) = each.range() else { return None };
+    let names = list.elements().map(|one| one.syntax().text().to_string().trim().to_string());
+    Some((names.collect(), list.span()))
+}
+
+/// Leaves a figure out of the set that the open loop goes over, or takes it in, as long as the second turn is not asked
+/// about. In the set it stands where it was caught.
+///
+/// # Errors
+/// No such loop is open; the first turn is drawn for this figure; the others would be none, or it is of another kind.
+pub(crate) fn take_of_set(
+    open: &mut Open,
+    host: &dyn Host,
+    figure: &str,
+) -> Result<Change, Refusal> {
+    let none = || words::refuse("no loop over a set is open".into());
+    let Opened { mut it, program, address, .. } = opened(open)?;
+    if it.is_drawn() {
+        let message = "its second turn is asked about: take the answers back first";
+        return Err(words::refuse(message.into()));
+    }
+    let each = it.each.as_mut().ok_or_else(none)?;
+    let source = text::Source::now(&open.state);
+    let (mut set, span) = set_of(&source, &program, &address).ok_or_else(none)?;
+    let is_out = !set.iter().any(|name| name == figure);
+    let label = match is_out {
+        true => {
+            if !each.caught.iter().any(|name| name == figure) {
+                each.caught.push(figure.into());
+            }
+            let place = |name: &String| each.caught.iter().position(|caught| caught == name);
+            let own = place(&figure.to_string());
+            let at = set.iter().position(|name| place(name) > own).unwrap_or(set.len());
+            set.insert(at, figure.into());
+            format!("take {figure} in")
+        }
+        false => {
+            set.retain(|name| name != figure);
+            format!("leave {figure} out")
+        }
+    };
+    let Some(first) = set.first() else {
+        let message = format!("{figure} is all that is left: a loop goes over one figure at least");
+        return Err(words::refuse(message));
+    };
+    let body = text::block(&source, &program, &address).ok_or_else(none)?;
+    if *first != each.first && !questions(&body, Some(&each.first)).is_empty() {
+        let message = format!(
+            "the first turn is drawn for {}: the set begins with it; undo what is drawn first",
+            each.first
+        );
+        return Err(words::refuse(message));
+    }
+    each.first.clone_from(first);
+    let mut edited = source.to_string();
+    let places = span.start as usize..span.end as usize;
+    edited.replace_range(places, &format!("[{}]", set.join(", ")));
+    let change = recording::retext(open, host, edited, label)?;
+    keep(open, it);
+    Ok(change)
 }
 
 /// The loop that is open, its home, and its address.
@@ -219,7 +314,7 @@ pub(crate) fn end_turn(
         return Err(words::refuse("draw the first turn of the loop first".into()));
     }
     it.ends = it.each.is_none().then_some(ends);
-    it.asked = questions(&body, it.each.as_ref());
+    it.asked = questions(&body, it.first_of_set());
     for asked in &mut it.asked {
         let worth = outcome::worth(&open.state, &home, &asked.first);
         asked.is_value = matches!(worth, Ok(Worth::Truth(_) | Worth::Number(_)));
@@ -562,7 +657,7 @@ fn closed(
 
 /// Returns what the second turn is asked: every operand, in order, that speaks of something from outside; of a loop
 /// over a set, of the set's first.
-fn questions(body: &syntax::ast::Body, each: Option<&(String, String)>) -> Vec<Asked> {
+fn questions(body: &syntax::ast::Body, first_of_set: Option<&str>) -> Vec<Asked> {
     let asked = |o: Occurrence| Asked {
         step: o.step,
         slot: o.slot,
@@ -570,8 +665,8 @@ fn questions(body: &syntax::ast::Body, each: Option<&(String, String)>) -> Vec<A
         is_value: false,
         answer: None,
     };
-    let speaks = |o: &Occurrence| match each {
-        Some((_, first)) => !text::places_of(&o.first, first).is_empty(),
+    let speaks = |o: &Occurrence| match first_of_set {
+        Some(first) => !text::places_of(&o.first, first).is_empty(),
         None => true,
     };
     operands(body).into_iter().filter(speaks).map(asked).collect()

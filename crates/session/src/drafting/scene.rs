@@ -147,6 +147,11 @@ pub(crate) fn whole_sets(
     (single, sets)
 }
 
+/// The name of a figure, or of what is made of others that it is a side of.
+pub(crate) fn whole_of(found: &Found) -> String {
+    found.side_of.and(found.wholes.first()).unwrap_or(&found.text).clone()
+}
+
 /// Names figures, and what is made of others in the place of its sides, where all of these are among them.
 pub(crate) fn wholes_of(state: &State, home: &Home, caught: &[Found]) -> Vec<String> {
     let all = scene(state, home);

@@ -16,68 +16,108 @@ use syntax::ast::{AstNode, Expr, Member, Value};
 
 /// Returns the steps of what is recorded, or of the program of a thing.
 pub(crate) fn view(open: &Open, home: &Home, thing: Option<&str>) -> Option<StepsView> {
-    let state = &open.state;
-    let example = match (home, thing) {
-        (Home::Program { example, .. }, _) => example.to_string(),
-        (Home::Document, Some(thing)) => thing.to_string(),
-        (Home::Document, None) => return None,
-    };
-    let document = &state.lowered.document;
-    let path = crate::session::parse_path(&example)?;
-    let thing = state.structure.follow(DOCUMENT, &path).ok()?;
-    let program = document.program(state.structure.things[thing].class)?;
-    let name = program_of(state, &example)?.to_string();
-    let evaluator = state.evaluator(open.values());
-    // a program of a library is shown as well
-    let own = text::Source::now(state);
-    let others = state.lowered.files.iter().skip(1).map(|(_, file)| text::Source::of_file(file));
-    let names = state.lowered.files.iter().map(|(_, file)| file.name.as_str());
-    let found = std::iter::once(own).chain(others).zip(names).find_map(|(source, user)| {
-        let body = text::program(&source, &name)?.body()?;
-        Some((source, body, user.to_string()))
-    });
-    let rows = found.as_ref().map_or_else(Vec::new, |(source, body, _)| {
-        let drawn =
-            Drawn { source, program: name.as_str().into(), example: example.as_str().into() };
-        let mut rows = Rows { state, evaluator: &evaluator, drawn, rows: Vec::new() };
-        rows.block(&text::steps_of(body), ("", true), &path, 0);
-        rows.rows
-    });
-    let declared = found.as_ref().map(|(source, ..)| parameters::declared(source, &name));
-    let declared = declared.unwrap_or_default();
-    let user = found.as_ref().map_or_else(String::new, |(.., user)| user.clone());
-    let parameter = |asked: &kernel::program::Asked| {
-        let said = declared.iter().find(|said| *said.name == *asked.name);
-        let of = |get: fn(&parameters::Declared) -> &String| {
-            said.map_or_else(String::new, |said| get(said).clone())
+    let found = Found::of(open, home, thing)?;
+    let evaluator = open.state.evaluator(open.values());
+    let blocks = open.recording.as_ref().map_or(&[][..], |recording| &recording.blocks);
+    let is_visited = blocks.iter().all(|block| block.kind == blocks::Kind::Visited);
+    let visited = if is_visited { home } else { &Home::Document };
+    let rows = found.rows(&open.state, visited, &evaluator);
+    Some(StepsView { rows, ..found.head(open, home, &evaluator) })
+}
+
+/// Returns the same without the steps.
+pub(crate) fn head(open: &Open, home: &Home, thing: Option<&str>) -> Option<StepsView> {
+    let found = Found::of(open, home, thing)?;
+    Some(found.head(open, home, &open.state.evaluator(open.values())))
+}
+
+/// A program whose steps are shown, and where it is written.
+struct Found<'s> {
+    program: &'s kernel::program::Program,
+    name: base::Name,
+    example: String,
+    path: Path,
+    /// Its text, its body, and the file that they stand in; nothing where it is of no text.
+    written: Option<(text::Source, syntax::ast::Body, String)>,
+}
+
+impl<'s> Found<'s> {
+    fn of(open: &'s Open, home: &Home, thing: Option<&str>) -> Option<Self> {
+        let state = &open.state;
+        let example = match (home, thing) {
+            (Home::Program { example, .. }, _) => example.to_string(),
+            (Home::Document, Some(thing)) => thing.to_string(),
+            (Home::Document, None) => return None,
         };
-        ParameterRow {
-            class: of(|said| &said.class),
-            range: of(|said| &said.range),
-            choices: said.map_or_else(Vec::new, |said| parameters::table_of(state, (&user, said))),
-            example: of(|said| &said.example),
-            name: asked.name.to_string(),
-            prompt: asked.prompt.clone(),
-            value: evaluator
-                .at(&path.then(kernel::Step::Part(asked.name.clone())))
-                .map_or_else(|fault| fault.message, |value| value_words(state, &evaluator, &value)),
+        let document = &state.lowered.document;
+        let path = crate::session::parse_path(&example)?;
+        let thing = state.structure.follow(DOCUMENT, &path).ok()?;
+        let program = document.program(state.structure.things[thing].class)?;
+        let name = program_of(state, &example)?;
+        // a program of a library is shown as well
+        let own = text::Source::now(state);
+        let others =
+            state.lowered.files.iter().skip(1).map(|(_, file)| text::Source::of_file(file));
+        let names = state.lowered.files.iter().map(|(_, file)| file.name.as_str());
+        let written = std::iter::once(own).chain(others).zip(names).find_map(|(source, user)| {
+            let body = text::program(&source, &name)?.body()?;
+            Some((source, body, user.to_string()))
+        });
+        Some(Self { program, name, example, path, written })
+    }
+
+    fn rows<'a>(&self, state: &'a State, home: &Home, evaluator: &Evaluator<'a>) -> Vec<StepRow> {
+        let Some((source, body, _)) = &self.written else { return Vec::new() };
+        let (program, example) = (self.name.clone(), self.example.as_str().into());
+        let drawn = Drawn { source, program, example };
+        let mut rows = Rows { state, evaluator, drawn, home, rows: Vec::new() };
+        rows.block(&text::steps_of(body), ("", true), (&self.path, &[]), 0);
+        rows.rows
+    }
+
+    fn head<'a>(&self, open: &'a Open, home: &Home, evaluator: &Evaluator<'a>) -> StepsView {
+        let state = &open.state;
+        let declared = self.written.as_ref();
+        let declared = declared.map(|(source, ..)| parameters::declared(source, &self.name));
+        let declared = declared.unwrap_or_default();
+        let user = self.written.as_ref().map_or("", |(.., user)| user.as_str());
+        let parameter = |asked: &kernel::program::Asked| {
+            let said = declared.iter().find(|said| *said.name == *asked.name);
+            let of = |get: fn(&parameters::Declared) -> &String| {
+                said.map_or_else(String::new, |said| get(said).clone())
+            };
+            let value = evaluator.at(&self.path.then(kernel::Step::Part(asked.name.clone())));
+            ParameterRow {
+                class: of(|said| &said.class),
+                range: of(|said| &said.range),
+                choices: said
+                    .map_or_else(Vec::new, |said| parameters::table_of(state, (user, said))),
+                example: of(|said| &said.example),
+                name: asked.name.to_string(),
+                prompt: asked.prompt.clone(),
+                value: value.map_or_else(
+                    |fault| fault.message,
+                    |value| value_words(state, evaluator, &value),
+                ),
+            }
+        };
+        let recording = open.recording.as_ref().filter(|_| *home != Home::Document);
+        let source = text::Source::now(state);
+        StepsView {
+            program: self.name.to_string(),
+            is_recorded: recording.is_some(),
+            parameters: self.program.parameters.iter().map(parameter).collect(),
+            rows: Vec::new(),
+            open: recording.map(|it| blocks::view(&source, it)).unwrap_or_default(),
+            at: recording.filter(|_| visit::is_inside(open)).map(|recording| {
+                let before = recording.before.clone().unwrap_or_default();
+                text::joined(&text::address_of(home), &before)
+            }),
+            replaces: recording.and_then(|recording| recording.replaces.clone()),
+            by_others: recording.is_some_and(|recording| recording.own_values.is_some()),
+            example: self.example.clone(),
         }
-    };
-    let recording = open.recording.as_ref().filter(|_| *home != Home::Document);
-    Some(StepsView {
-        program: name,
-        is_recorded: recording.is_some(),
-        parameters: program.parameters.iter().map(parameter).collect(),
-        rows,
-        open: recording.map(blocks::view).unwrap_or_default(),
-        at: recording.filter(|_| visit::is_inside(open)).map(|recording| {
-            let before = recording.before.clone().unwrap_or_default();
-            text::joined(&text::address_of(home), &before)
-        }),
-        replaces: recording.and_then(|recording| recording.replaces.clone()),
-        by_others: recording.is_some_and(|recording| recording.own_values.is_some()),
-        example,
-    })
+    }
 }
 
 /// Returns the name of the program that draws a thing of a document.
@@ -119,20 +159,31 @@ impl Drawn<'_> {
     }
 }
 
+/// Says which turn of a loop its rows tell of.
+fn turn_in_words(turn: u32, of: usize) -> String {
+    match (turn as usize) < of {
+        true => format!("turn {} of {of}", turn + 1),
+        false => format!("turn {} is not come to: there are {of}", turn + 1),
+    }
+}
+
 struct Rows<'e, 'a> {
     state: &'a State,
     evaluator: &'e Evaluator<'a>,
     drawn: Drawn<'e>,
+    /// Where the program is visited, if it is.
+    home: &'e Home,
     rows: Vec<StepRow>,
 }
 
 impl<'a> Rows<'_, 'a> {
-    /// Lists the steps of a block: its address, and whether it is come to. `made` leads to what it made in the example.
+    /// Lists the steps of a block: its address, and whether it is come to. `made` leads to what it made in the example,
+    /// in such turns of the loops around it: those that are visited, else the first.
     fn block(
         &mut self,
         steps: &[StepNode],
         (way, is_come_to): (&str, bool),
-        made: &Path,
+        (made, turns): (&Path, &[u32]),
         depth: usize,
     ) {
         for step in steps {
@@ -145,6 +196,7 @@ impl<'a> Rows<'_, 'a> {
             let is_made = is_come_to && step.name.is_some();
             let answer = is_made.then(|| self.evaluator.at(&made).ok()).flatten();
             let is_failed = step.name.is_some() && answer.is_none();
+            let visited = visit::turn_of(self.home, &address);
             let formula = self.formula(step);
             self.rows.push(StepRow {
                 path: address.clone(),
@@ -156,14 +208,19 @@ impl<'a> Rows<'_, 'a> {
                 }
                 .unwrap_or_else(|| in_words(step, &formula)),
                 formula,
-                value: answer.map(|answer| value_words(self.state, self.evaluator, &answer)),
+                value: answer.map(|answer| match (&answer, visited) {
+                    (Answer::List(turns), Some(turn)) => turn_in_words(turn, turns.len()),
+                    _ => value_words(self.state, self.evaluator, &answer),
+                }),
                 is_guide: step.is_guide,
                 is_block: !matches!(step.value, Some(Value::Expr(_)) | None),
                 is_unmade: is_failed,
             });
             let Some(value) = &step.value else { continue };
             let is_loop = matches!(value, Value::Repeat(_) | Value::While(_) | Value::For(_));
-            let made = if is_loop { made.then(kernel::Step::Index(0)) } else { made };
+            let turn = is_loop.then(|| visited.unwrap_or(0));
+            let made = turn.map_or(made.clone(), |turn| made.then(kernel::Step::Index(turn)));
+            let turns: Vec<u32> = turns.iter().copied().chain(turn).collect();
             for (segment, steps) in text::inner_steps(value) {
                 if segment == "else" {
                     self.rows.push(StepRow {
@@ -177,8 +234,8 @@ impl<'a> Rows<'_, 'a> {
                 let inner = text::joined(&address, segment);
                 let is_branch = matches!(value, Value::If(_));
                 let is_come_to =
-                    is_come_to && (!is_branch || self.drawn.is_taken(self.state, &inner, &[]));
-                self.block(&steps, (&inner, is_come_to), &made, depth + 1);
+                    is_come_to && (!is_branch || self.drawn.is_taken(self.state, &inner, &turns));
+                self.block(&steps, (&inner, is_come_to), (&made, &turns), depth + 1);
             }
         }
     }

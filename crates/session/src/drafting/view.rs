@@ -284,6 +284,8 @@ pub struct OpenBlock {
     pub words: String,
     /// What it is.
     pub kind: OpenKind,
+    /// Of a loop over a set what was caught, and whether it is in the set, as long as that may be changed.
+    pub set: Vec<(String, bool)>,
 }
 
 /// What is open, and how far its demonstration has got.

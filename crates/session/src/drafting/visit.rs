@@ -47,6 +47,28 @@ pub(crate) fn home_of(
     Some(Home::Program { program, example, way, before: Some((*last).to_string()) })
 }
 
+/// The turns that are visited of the loops around a step, from the outermost, as far as they are.
+pub(crate) fn turns_around(home: &Home, address: &str) -> Vec<u32> {
+    let ends = address.match_indices('.').map(|(at, _)| &address[..at]);
+    ends.filter_map(|around| turn_of(home, around)).collect()
+}
+
+/// The same, with its own where the step is a loop.
+pub(crate) fn turns_in(home: &Home, address: &str) -> Vec<u32> {
+    turns_around(home, &format!("{address}."))
+}
+
+/// The turn that is visited of a loop, by its address.
+pub(crate) fn turn_of(home: &Home, address: &str) -> Option<u32> {
+    let Home::Program { way, .. } = home else { return None };
+    let mut at = String::new();
+    let mut around = way.iter().map(|around| {
+        at = text::joined(&at, &around.address);
+        (at.clone(), around.turn)
+    });
+    around.find(|(at, _)| at == address)?.1
+}
+
 /// Goes somewhere in the program that is recorded.
 ///
 /// # Errors
@@ -113,12 +135,14 @@ pub(crate) fn go(open: &mut Open, go: &Go) -> Result<(), Refusal> {
             let segment = before.clone().ok_or_else(none)?;
             let address = text::joined(&text::address_of(&home), &segment);
             let inner = inner_of(&open.state, (&home, &program), &address).ok_or_else(none)?;
-            let first = home_of(&source, (&program, &example), &inner, &[]);
+            let first =
+                home_of(&source, (&program, &example), &inner, &turns_around(&home, &inner));
             first.ok_or_else(none)?
         }
         Go::To(address) => {
             let none = || words::refuse(format!("{program} has no step {address}"));
-            home_of(&source, (&program, &example), address, &[]).ok_or_else(none)?
+            let turns = turns_around(&home, address);
+            home_of(&source, (&program, &example), address, &turns).ok_or_else(none)?
         }
         Go::UntilPicked(pointer) => until_picked(open, (&program, &example), pointer)?,
     };

@@ -2,7 +2,9 @@
 
 use super::hands::{home, prompt, replaced, turn_of};
 use super::view::{Go, Prompt, StepOperand, StepsView, Turn};
-use super::{blocks, changing, choice, patterns, recording, remove, scene, steps, text, visit};
+use super::{
+    Home, blocks, changing, choice, patterns, recording, remove, scene, steps, text, visit,
+};
 
 use crate::session::Session;
 use crate::view::{Change, DocumentId, Refusal};
@@ -72,9 +74,13 @@ impl Session {
     /// Returns what a step of the program of a thing says that can be changed by itself: its operands; of a loop what it
     /// begins with, carries on and ends by.
     pub fn step_operands(&self, id: DocumentId, example: &str, step: &str) -> Vec<StepOperand> {
-        let state = &self.document(id).state;
+        let open = self.document(id);
+        let state = &open.state;
         let Some(program) = steps::program_of(state, example) else { return Vec::new() };
-        changing::list(state, (&program, &example.into()), step)
+        let home = home(open);
+        let is_visited = matches!(&home, Home::Program { example: own, .. } if *own == *example);
+        let turns = if is_visited { visit::turns_in(&home, step) } else { Vec::new() };
+        changing::list(state, (&program, &example.into()), (step, &turns))
     }
 
     /// Returns the step that made what a path leads to, with the thing whose program it is of.
@@ -196,6 +202,12 @@ impl Session {
     pub fn steps(&self, id: DocumentId, thing: Option<&str>) -> Option<StepsView> {
         let open = self.document(id);
         steps::view(open, &home(open), thing)
+    }
+
+    /// Returns the same without its steps.
+    pub fn program_shown(&self, id: DocumentId, thing: Option<&str>) -> Option<StepsView> {
+        let open = self.document(id);
+        steps::head(open, &home(open), thing)
     }
 
     /// Returns what something comes to, in words: a number, a place, a circle's centre and radius. Of whatever a path

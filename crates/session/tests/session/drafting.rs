@@ -759,13 +759,32 @@ fn a_wrong_step_is_found_by_what_it_drew_and_replaced() {
     desk.session.visit(desk.id, &Go::UntilPicked(pointer(-20.0, 124.85))).expect("it lies there");
     let view = desk.session.steps(desk.id, None).expect("it is recorded");
     assert_eq!(view.at.as_deref(), Some("column.circle"));
+    // the rows tell the third turn, and say so
+    let told = |desk: &Desk, path: &str| {
+        let rows = desk.session.steps(desk.id, None).expect("it is recorded").rows;
+        rows.into_iter().find(|row| row.path == path).and_then(|row| row.value)
+    };
+    assert_eq!(told(&desk, "column").as_deref(), Some("turn 3 of 6"));
+    assert_eq!(told(&desk, "column.circle"), Some(third));
+    let radius = |desk: &Desk| {
+        let operands = desk.session.step_operands(desk.id, "rings", "column.circle");
+        let radius = operands.into_iter().find(|operand| operand.slot == "radius");
+        radius.and_then(|radius| Some((radius.value?, radius.along?[0])))
+    };
+    let (size, (x, y)) = radius(&desk).expect("a circle has a radius");
+    assert_eq!(size, "10 mm");
+    assert!((x + 10.0).abs() < 1e-4 && (y - 124.8528).abs() < 1e-4, "{x} {y}");
+    // a row of it leads to that turn, and not to the first
+    desk.session.visit(desk.id, &Go::To("column.circle2".into())).expect("it is a step");
+    assert_eq!(told(&desk, "column").as_deref(), Some("turn 3 of 6"));
+    desk.session.visit(desk.id, &Go::To("column.circle".into())).expect("it is a step");
     // two turns are drawn before it, and both lines
     let drawn = desk.session.drawn_so_far(desk.id).expect("it is visited");
     assert_eq!(drawn.elements.len(), 2 + 4);
     // the second circle is drawn anew: half of the first circle's radius
     desk.session.begin_replace(desk.id, "column.circle2").expect("it is a step");
     begin(&mut desk, "Circle.concentric(with,radius)");
-    point(&mut desk, -80.0, 40.0);
+    point(&mut desk, -20.0, 124.85);
     made(enter(&mut desk, "circle.radius / 2"));
     assert_eq!(desk.wrong(), [], "{}", desk.text());
     assert_eq!(value(&desk, "rings.column[5].circle2.radius"), "0.625 mm");
@@ -907,13 +926,38 @@ fn a_loop_runs_over_what_a_rubber_band_catches() {
     }
     let nothing = desk.session.begin_each(desk.id, ((200.0, 200.0), (300.0, 300.0)));
     assert!(nothing.is_err());
+    begin(&mut desk, "Rectangle.between(first,second)");
+    enter(&mut desk, "0,-60");
+    made(enter(&mut desk, "40,-50"));
     desk.session.begin_each(desk.id, ((0.0, 0.0), (100.0, 100.0))).expect("three circles");
-    let open = desk.session.steps(desk.id, None).expect("it is recorded").open;
-    assert_eq!(open[0].words, "turns: draw what is done for circle, the first of the set");
+    let first = |desk: &Desk| {
+        let open = desk.session.steps(desk.id, None).expect("it is recorded").open;
+        open[0].words.clone()
+    };
+    assert_eq!(first(&desk), "turns: draw what is done for circle, the first of the set");
+    // one is left out by a click, and comes back to its place by its name
+    let figure = desk.session.of_set_at(desk.id, &pointer(14.0, 10.0)).expect("it lies there");
+    desk.session.take_of_set(desk.id, &figure).expect("two are left");
+    assert!(desk.text().contains("for element in [circle2, circle3] {"), "{}", desk.text());
+    assert_eq!(first(&desk), "turns: draw what is done for circle2, the first of the set");
+    assert_eq!(desk.session.set_drawing(desk.id).elements.len(), 2);
+    desk.undo();
+    assert_eq!(first(&desk), "turns: draw what is done for circle, the first of the set");
+    desk.session.take_of_set(desk.id, "circle").expect("two are left");
+    desk.session.take_of_set(desk.id, "circle").expect("it was caught");
+    assert!(desk.text().contains("for element in [circle, circle2, circle3] {"), "{}", desk.text());
+    let of_two_kinds = desk.session.take_of_set(desk.id, "rectangle").expect_err("it is no circle");
+    assert_eq!(
+        of_two_kinds.message,
+        "a loop goes over figures of one kind: 3 Circle and 1 Rectangle would be in this one"
+    );
     begin(&mut desk, "Circle.concentric(with,radius)");
     point(&mut desk, 14.0, 10.0);
     made(enter(&mut desk, "circle.radius + 2"));
+    let begun = desk.session.take_of_set(desk.id, "circle").expect_err("it is drawn for this one");
+    assert!(begun.message.starts_with("the first turn is drawn for circle"), "{}", begun.message);
     desk.session.end_turn(desk.id, Ends::Until).expect("it is drawn");
+    assert_eq!(desk.session.of_set_at(desk.id, &pointer(54.0, 10.0)), None, "it is asked about");
     // both the circle and its radius: each in turn
     for _ in 0..2 {
         let question = asked(&desk).expect("it is asked");

@@ -336,6 +336,15 @@ fn is_within(step: &str, told: &BTreeSet<String>) -> bool {
     told.iter().any(|t| step == t || step.starts_with(&format!("{t}.")))
 }
 
+/// How many turns a loop took, whether it says that or which of them is visited.
+fn counted(value: &str) -> String {
+    match value.strip_prefix("turn ").and_then(|rest| rest.split_once(" of ")) {
+        Some((_, "1")) => "1 turn".into(),
+        Some((_, all)) => format!("{all} turns"),
+        None => value.into(),
+    }
+}
+
 #[test]
 fn what_a_change_is_not_told_to_touch_stays_what_it_is() {
     let (mut programs, mut changed, mut compared) = (0, 0, 0);
@@ -378,7 +387,8 @@ fn what_a_change_is_not_told_to_touch_stays_what_it_is() {
                 // how many figures a whole block has is told of it
                 let counts = was.value.as_ref().is_some_and(|value| value.contains(" figure"));
                 if is_whole && !may_change.contains(&was.path) && !counts {
-                    assert_eq!(now.value, was.value, "{key}: {at}");
+                    let [now, was] = [now, was].map(|row| row.value.as_deref().map(counted));
+                    assert_eq!(now, was, "{key}: {at}");
                     compared += 1;
                 }
             }

@@ -52,6 +52,7 @@ pub fn Recorder(
 #[component]
 fn Blocks(lab: Lab, open: Vec<OpenBlock>) -> impl IntoView {
     let innermost = open.last().map(|block| block.kind);
+    let set = open.last().map(|block| block.set.clone()).unwrap_or_default();
     let lines =
         open.into_iter().map(|block| view! { <p class="asked" role="status">{block.words}</p> });
     let button = |label: &'static str, mark: &'static str, run: Box<dyn Fn() + Send>| {
@@ -82,8 +83,19 @@ fn Blocks(lab: Lab, open: Vec<OpenBlock>) -> impl IntoView {
         {button(words::IF, "if", Box::new(move || lab.ask_prompt(session::Session::begin_choice)))}
         {button(words::FOR_EACH, "for-each", Box::new(move || lab.begin_band()))}
     });
+    let member = |(name, is_in): (String, bool)| {
+        let own = name.clone();
+        view! {
+            <button data-set=name.clone() aria-pressed=is_in.to_string() title=words::of_set(&name, is_in)
+                on:click=move |_| lab.take_of_set(&own)>{name.clone()}</button>
+        }
+    };
+    let set = (!set.is_empty()).then(|| view! {
+        <div class="line set" role="group" aria-label=words::SET title=words::SET_HELP>{set.into_iter().map(member).collect_view()}</div>
+    });
     view! {
         {lines.collect_view()}
+        {set}
         <div class="line blocks">{ends}{begins}</div>
     }
 }

@@ -15,6 +15,8 @@ pub fn Steps(
     lab: Lab,
     /// What is recorded, or selected.
     steps: Memo<Option<StepsView>>,
+    /// The same with its steps, which come once the picture is painted.
+    listed: RwSignal<StepsView>,
 ) -> impl IntoView {
     let view = move || steps.get().unwrap_or_default();
     let parameters = move || {
@@ -29,7 +31,7 @@ pub fn Steps(
     };
     // each row with what it is of: of many only those that are others are made anew
     let rows = move || {
-        let StepsView { rows, example, program, is_recorded, at, .. } = view();
+        let StepsView { rows, example, program, is_recorded, at, .. } = listed.get();
         let one = |row: StepRow| {
             let (example, program) = (example.clone(), program.clone());
             let at = at.clone().filter(|at| *at == row.path);
@@ -39,9 +41,9 @@ pub fn Steps(
     };
     // the step that was drawn last, or comes next, is in sight
     Effect::new(move |seen: Option<(usize, Option<String>)>| {
-        let drawn = steps.with(|s| {
-            let recorded = s.as_ref().filter(|s| s.is_recorded);
-            recorded.map_or((0, None), |s| (s.rows.len(), s.at.clone()))
+        let drawn = listed.with(|s| match s.is_recorded {
+            true => (s.rows.len(), s.at.clone()),
+            false => (0, None),
         });
         if seen.is_some_and(|seen| seen != drawn) {
             request_animation_frame(show_newest);
@@ -54,7 +56,7 @@ pub fn Steps(
         drawn
     });
     Effect::new(move |_| {
-        steps.track();
+        listed.track();
         lab.drafting.lit.track();
         keyboard::one_stop(LIST);
     });

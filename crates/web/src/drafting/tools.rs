@@ -1,5 +1,6 @@
 //! Every construction in scope, by the class of what it makes.
 
+use super::once_painted;
 use crate::lab::Lab;
 use crate::{keyboard, words};
 use leptos::prelude::*;
@@ -16,9 +17,11 @@ pub fn Constructions(
     lab: Lab,
 ) -> impl IntoView {
     let wanted = RwSignal::new(String::new());
-    let all = Memo::new(move |_| {
+    let track = move || {
         lab.text.track();
         lab.drafting.turned.track();
+    };
+    let all = once_painted(track, move || {
         lab.id().map(|id| lab.ask(|session| session.constructions(id))).unwrap_or_default()
     });
     let found = Memo::new(move |_| {

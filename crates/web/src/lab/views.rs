@@ -62,7 +62,7 @@ impl Lab {
                 return self.list();
             }
             // nobody looks at a list of them: the picture comes first
-            return set_timeout(move || self.go_on_listing(number), Duration::ZERO);
+            return js::after_painting(move || self.go_on_listing(number));
         }
         self.renew_rows(id);
         self.go_on_listing(number);

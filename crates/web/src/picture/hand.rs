@@ -232,6 +232,11 @@ impl Hand {
             // what is asked for has the keyboard
             e.prevent_default();
             self.set_mode(Mode::Idle);
+        } else if e.button() == 0
+            && (e.ctrl_key() || e.meta_key() || e.shift_key())
+            && self.lab.take_of_set_at(&self.pointer(at))
+        {
+            self.set_mode(Mode::Idle);
         } else if e.button() == 0 {
             let adding = self.lab.adding.get_untracked();
             let besides = e.ctrl_key() || e.meta_key() || e.shift_key() || adding;

@@ -98,3 +98,13 @@ pub fn change_parameter(name: &str) -> String {
 }
 /// What a guide is.
 pub const GUIDE_HELP: &str = "Drawn for construction alone: no part of the result";
+/// The figures that a loop goes over.
+pub const SET: &str = "Figures of the set";
+/// How these are changed.
+pub const SET_HELP: &str =
+    "Press one, or click it with Ctrl or Shift held, to leave it out or take it in";
+
+/// Leaves a figure out of a set, or takes it in.
+pub fn of_set(name: &str, is_in: bool) -> String {
+    if is_in { format!("Leave {name} out") } else { format!("Take {name} in") }
+}
