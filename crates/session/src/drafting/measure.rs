@@ -142,10 +142,10 @@ impl Measuring {
 }
 
 /// Writes how far two figures are from each other where they are nearest; of two unbounded lines how far apart they run.
-/// Arcs are only told from the circles that they are parts of where the other is a point.
 fn distance(state: &State, a: &Found, b: &Found) -> Option<String> {
     let (one, other) = (sort(state, a)?, sort(state, b)?);
     let is_segment = |found: &Found| is_a(state, found, "Line");
+    let is_arc = |found: &Found| is_a(state, found, "Arc");
     let (first, second) = (&a.text, &b.text);
     Some(match (one, other) {
         (Sort::Point, Sort::Point) => format!("{first}.distance(to: {second})"),
@@ -161,6 +161,10 @@ fn distance(state: &State, a: &Found, b: &Found) -> Option<String> {
             }
             (true, false) => return distance(state, b, a),
         },
+        (Sort::Straight | Sort::Round, Sort::Round) if is_arc(b) => {
+            format!("{first}.gap(to: {second})")
+        }
+        (Sort::Round, Sort::Round) if is_arc(a) => return distance(state, b, a),
         (Sort::Straight, Sort::Round) => {
             let (center, r) = (format!("{second}.center"), radius(b));
             let nearest = format!("{first}.clearance(to: {center}) - {r}");

@@ -373,8 +373,10 @@ fn a_distance_is_that_to_the_nearest_of_what_is_picked() {
     assert_eq!(far(axis, circle), "45");
     // one within the other
     assert_eq!(far(circle, inner), "0.5");
-    // an arc's circle
-    assert_eq!(far(arc, line), "95");
+    // an arc, and not the circle that it is a part of: from its ends
+    assert_eq!(far(arc, line), "100");
+    assert_eq!(far(arc, axis), "150");
+    assert_eq!(far(circle, arc), "132.931");
     assert_eq!(far(box_, point), "196");
     let mut desk = Desk::of(FAR);
     desk.session.record(desk.id, "Far").expect("it is there");
