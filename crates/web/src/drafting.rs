@@ -512,6 +512,13 @@ impl Lab {
         self.show_waiting();
     }
 
+    /// The next click says until where the program is visited; or it does not any more.
+    fn seek(self) {
+        let seeks = !self.drafting.seeking.get_untracked();
+        self.drafting.seeking.set(seeks);
+        self.notice.set(seeks.then(|| Notice::Said(words::VISIT_PICK.into())));
+    }
+
     /// The visit goes on until what is under the pointer is drawn.
     pub fn visit_picked(self, pointer: &Pointer) {
         self.drafting.seeking.set(false);

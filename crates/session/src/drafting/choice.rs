@@ -48,10 +48,13 @@ impl Choice {
 
     /// What is waited for.
     pub(crate) fn prompt(&self) -> Option<Prompt> {
+        let Self { condition, is_then, .. } = self;
+        let holds = if *is_then { "does not hold" } else { "holds" };
         self.asks.then(|| Prompt {
             label: "Otherwise".into(),
-            words: "draw the other branch with the same values, or under values that take it"
-                .into(),
+            words: format!(
+                "draw the other branch with the same values; or set parameters first, so that {condition} {holds}"
+            ),
             wants: Wants::Otherwise,
             ..Prompt::default()
         })

@@ -121,8 +121,9 @@ impl Loop {
                     "{operand} of {step} was {first}: the same, which object of the turn before, or how far on, `@dx,dy`?"
                 ),
                 None => {
+                    let what = if question.is_value { "value" } else { "object" };
                     format!(
-                        "{operand} of {step} was {first}: the same, or which object of the turn before?"
+                        "{operand} of {step} was {first}: the same, or which {what} of the turn before?"
                     )
                 }
             };

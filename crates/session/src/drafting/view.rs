@@ -195,6 +195,8 @@ pub struct StepsView {
     pub by_others: bool,
     /// Its parameters: name and the example's value.
     pub parameters: Vec<ParameterRow>,
+    /// Whether it has any step.
+    pub has_steps: bool,
     /// Its steps, in order.
     pub rows: Vec<StepRow>,
 }

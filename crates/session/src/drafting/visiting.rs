@@ -210,6 +210,19 @@ impl Session {
         steps::head(open, &home(open), thing)
     }
 
+    /// Returns the step that comes next where what is recorded is visited, with the thing that shows it; nothing at the
+    /// end of a block.
+    pub fn step_next(&self, id: DocumentId) -> Option<(String, String)> {
+        let open = self.document(id);
+        let home = home(open);
+        let Home::Program { program, example, before: Some(before), .. } = &home else {
+            return None;
+        };
+        let step = text::joined(&text::address_of(&home), before);
+        let found = text::step_at(&text::Source::now(&open.state), program, &step);
+        found.map(|_| (example.to_string(), step))
+    }
+
     /// Returns what something comes to, in words: a number, a place, a circle's centre and radius. Of whatever a path
     /// leads to, what is drawn and computed too; nothing where it leads nowhere.
     pub fn comes_to(&self, id: DocumentId, path: &str) -> Option<String> {

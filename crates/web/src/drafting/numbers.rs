@@ -6,6 +6,7 @@ use crate::words;
 use drawing::Point;
 use leptos::html::Input;
 use leptos::prelude::*;
+use session::Session;
 use session::drafting::view::StepOperand;
 
 /// A step of a thing's program: the thing, and the step's address.
@@ -21,6 +22,8 @@ pub fn StepNumbers(
     let numbers = Memo::new(move |_| {
         lab.values.track();
         lab.text.track();
+        // another turn may be visited
+        lab.drafting.turned.track();
         let (example, step) = of.get()?;
         let all = lab.ask_of_shown(|session, id| session.step_operands(id, &example, &step));
         Some(all.unwrap_or_default().into_iter().filter(|o| o.at.is_some()).collect::<Vec<_>>())
@@ -61,17 +64,15 @@ pub fn StepNumbers(
 fn step_shown(lab: Lab) -> Option<Of> {
     lab.drafting.turned.track();
     let selected = lab.selected.get();
-    let steps = || lab.ask_of_shown(|session, id| session.steps(id, selected.as_deref())).flatten();
     if let Some(lit) = lab.drafting.lit.get() {
-        return Some((steps()?.example, lit));
+        let shown = |session: &Session, id| session.program_shown(id, selected.as_deref());
+        return Some((lab.ask_of_shown(shown).flatten()?.example, lit));
     }
     if lab.drafting.prompt.with(Option::is_some) {
         return None;
     }
-    if let Some(steps) = steps()
-        && let Some(at) = steps.at.filter(|at| steps.rows.iter().any(|row| row.path == *at))
-    {
-        return Some((steps.example, at));
+    if let Some(next) = lab.ask_of_shown(Session::step_next).flatten() {
+        return Some(next);
     }
     lab.ask_of_shown(|session, id| session.step_of(id, selected.as_deref()?)).flatten()
 }

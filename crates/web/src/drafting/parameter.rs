@@ -59,7 +59,7 @@ pub fn Define(
         Memo::new(move |_| steps.with(|steps| steps.as_ref().is_some_and(is_it)))
     };
     // what is drawn already wants the room
-    let is_drawn = of_program(|steps| !steps.rows.is_empty());
+    let is_drawn = of_program(|steps| steps.has_steps);
     let is_first = of_program(|steps| steps.parameters.is_empty());
     let new = lab.drafting.parameter;
     let folded = RwSignal::new(false);

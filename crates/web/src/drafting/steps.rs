@@ -4,6 +4,7 @@ use crate::lab::Lab;
 use crate::{js, keyboard, words};
 use leptos::prelude::*;
 use session::drafting::view::{Go, ParameterRow, StepOperand, StepRow, StepsView};
+use web_sys::Element;
 
 /// The list of steps.
 const LIST: &str = ".drawing .steps";
@@ -75,7 +76,7 @@ pub fn Steps(
                 <button data-visit="end" title=words::VISIT_END on:click=go(Go::End)>"▶|"</button>
                 <button data-visit="picked" title=words::VISIT_PICKED
                     aria-pressed=move || lab.drafting.seeking.get().to_string()
-                    on:click=move |_| lab.drafting.seeking.update(|on| *on = !*on)>{words::VISIT_UNTIL}</button>
+                    on:click=move |_| lab.seek()>{words::VISIT_UNTIL}</button>
             </div>
         }
         .into_any(),
@@ -106,15 +107,23 @@ pub fn Steps(
     }
 }
 
-/// Brings the step that comes next, or the last one, into the list's frame.
+/// Brings the step that comes next, or the last one, into the list's frame; where one is visited, into the drawer's as
+/// well, which scrolls as a whole on narrow pages.
 fn show_newest() {
     let found = |selector: &str| document().query_selector(selector).ok().flatten();
-    let step = found(".steps li.next").or_else(|| found(".steps li:last-child"));
-    let Some((step, list)) = step.zip(found(".drawing .steps")) else { return };
-    let (own, frame) = (step.get_bounding_client_rect(), list.get_bounding_client_rect());
-    let below = (own.bottom() - frame.bottom()).max(0.0);
-    let above = (own.top() - frame.top()).min(0.0);
-    list.set_scroll_top(list.scroll_top() + (below + above).round() as i32);
+    let next = found(".steps li.next");
+    if let Some(step) = next.clone().or_else(|| found(".steps li:last-child")) {
+        let frames = [found(LIST), next.and_then(|_| found(".drawer .drawing"))];
+        frames.into_iter().flatten().for_each(|frame| bring_into(&frame, &step));
+    }
+}
+
+/// Scrolls a frame so far that something in it is in sight.
+fn bring_into(frame: &Element, what: &Element) {
+    let (own, around) = (what.get_bounding_client_rect(), frame.get_bounding_client_rect());
+    let below = (own.bottom() - around.bottom()).max(0.0);
+    let above = (own.top() - around.top()).min(0.0);
+    frame.set_scroll_top(frame.scroll_top() + (below + above).round() as i32);
 }
 
 /// What a parameter's value is changed for.
@@ -267,6 +276,8 @@ fn Operands(lab: Lab, steps: StepsView, row: StepRow) -> impl IntoView {
     let own = StoredValue::new((steps, row.path));
     let operands = Memo::new(move |_| {
         lab.values.track();
+        // another turn may be visited
+        lab.drafting.turned.track();
         let ask = |(steps, step): &(StepsView, String)| {
             lab.ask_of_shown(|s, id| s.step_operands(id, &steps.example, step))
         };

@@ -108,3 +108,5 @@ pub const SET_HELP: &str =
 pub fn of_set(name: &str, is_in: bool) -> String {
     if is_in { format!("Leave {name} out") } else { format!("Take {name} in") }
 }
+/// What is waited for where a program is visited until something is drawn.
+pub const VISIT_PICK: &str = "Pick what the program drew: it is visited until that is drawn.";
