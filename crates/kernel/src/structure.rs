@@ -69,6 +69,15 @@ pub struct GivenTerm {
     pub of_copy: bool,
 }
 
+/// What a part of a copy begins with.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Copied {
+    /// What it is a copy of: something computed, and no copy itself.
+    pub of: SlotId,
+    /// Where that is written.
+    pub origin: OriginId,
+}
+
 /// A constraint of a thing.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub struct ConstraintInstance {
@@ -153,6 +162,8 @@ pub struct Form {
     pub constraints: Rc<Vec<ConstraintInstance>>,
     /// What bindings say: slots that are given by others at all times, and have no given value.
     pub bound: BTreeSet<SlotId>,
+    /// Parts of copies that stand for what is computed, and are given nothing.
+    pub copied: BTreeMap<SlotId, Copied>,
     /// The constraints that are switched off.
     pub off: BTreeSet<ConstraintInstance>,
     /// The constraints that hold only while something else is true.

@@ -99,7 +99,7 @@ impl Planner {
         }
     }
 
-    /// Returns the numbers that are arbitrary: neither given, nor determined by constraints and by all that is
+    /// Returns the numbers that are arbitrary: neither given, nor copied, nor determined by constraints and by all that is
     /// given, the places that are given as well. Layout is arbitrary by its nature and none of them.
     ///
     /// Plans what speaks of a number that is not given once more. Changes nothing.
@@ -112,7 +112,8 @@ impl Planner {
         let structure = model.structure;
         let is_asked = |slot: SlotId| {
             let s = &structure.slots[slot];
-            s.given.is_none() && !s.anchored && !s.is_layout && s.primitive.is_number()
+            let is_given = s.given.is_some() || structure.copied.contains_key(&slot);
+            !is_given && !s.anchored && !s.is_layout && s.primitive.is_number()
         };
         let lone = |&slot: &SlotId| is_asked(slot) && self.net.rules_of(slot).is_empty();
         let mut found: BTreeSet<SlotId> = structure.slots.ids().filter(lone).collect();

@@ -17,6 +17,9 @@ use std::rc::Rc;
 /// The code for a reference that names nothing.
 const LOST: &str = "unknown-reference";
 
+/// How many times a document is opened for what copies begin with: so deep may copies be computed from other copies.
+const MOST_COPIES: usize = 16;
+
 /// A document at one moment.
 pub(crate) struct State {
     /// The text.
@@ -209,10 +212,22 @@ impl Planned {
     pub(crate) fn solved(mut self) -> Solved {
         let Structured { lowered, structure, .. } = &self.of;
         let model = Model { document: &lowered.document, structure };
-        let (given, given_faults) = eval::given_values(&lowered.document, structure);
+        let (given, mut given_faults) = eval::given_values(&lowered.document, structure);
         let mut values = Values::new(structure.slots.len());
         let mut texts = Texts::knowing(&lowered.document, structure, &given);
-        let double_roots = self.planner.open(model, &mut values, &mut texts).double_roots;
+        let mut double_roots = self.planner.open(model, &mut values, &mut texts).double_roots;
+        // what a copy begins with is known once that is computed which it is a copy of
+        for _ in 0..MOST_COPIES {
+            if !texts.copy(&values) {
+                break;
+            }
+            double_roots = self.planner.open(model, &mut values, &mut texts).double_roots;
+        }
+        given_faults.extend(texts.unlike_copy(&values).map(|origin| eval::Fault {
+            origin: Some(origin),
+            kind: eval::FaultKind::Endless,
+            message: "a copy that what it is a copy of depends on".into(),
+        }));
         crate::placing::place_layout(structure, &self.planner, &mut values);
         let on_course = self.planner.course_faults().iter().filter(|f| !follows(lowered, f));
         self.unplanned.extend(on_course.cloned());

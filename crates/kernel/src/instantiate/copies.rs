@@ -1,13 +1,14 @@
 //! Copies: what a part gets of another that is computed is not given.
 //!
 //! Where a thing is given another, `copy of wheel`, it has the same constraints as that: what they compute
-//! there they compute here as well. What is given by itself, `z: Real = p.m`, has a value whatever `m` is.
+//! there they compute here as well. What other constraints compute there a copy begins with, once that is known. What is
+//! given by itself, `z: Real = p.m`, has a value whatever `m` is.
 
 use crate::path::{Path, Step};
-use crate::structure::{DOCUMENT, Form, Givens, Slot, SlotId, ThingId};
+use crate::structure::{Copied, DOCUMENT, Form, Givens, Slot, SlotId, ThingId};
 use crate::term::Term;
 
-/// Takes given values away that are those of computed parts, and of copies of such.
+/// Takes given values away that are those of computed parts, and of copies of such, and notes what these are copies of.
 pub(super) fn forget_computed(form: &mut Form, givens: &Givens) {
     if !givens.iter().any(|(_, given)| given.of_copy) {
         return;
@@ -23,7 +24,11 @@ pub(super) fn forget_computed(form: &mut Form, givens: &Givens) {
         waiting.retain(|&(slot, source)| {
             let is_known = slot == source || form.slots[source].given.is_some();
             if !is_known {
-                form.slots[slot].given = None;
+                let given = form.slots[slot].given.take();
+                // of a copy of a copy, what that one is a copy of
+                let of = form.copied.get(&source).map_or(source, |copied| copied.of);
+                let copied = given.map(|given| Copied { of, origin: givens[given.value].origin });
+                form.copied.extend(copied.map(|copied| (slot, copied)));
             }
             is_known
         });
