@@ -207,11 +207,21 @@ pub enum Toward {
 /// assert_eq!(base::number::rounded(9.0, 3), "9");
 /// ```
 pub fn rounded(x: f64, digits: usize) -> String {
+    let text = decimals(x, digits);
+    if !text.contains('.') {
+        return text;
+    }
+    text.trim_end_matches('0').trim_end_matches('.').into()
+}
+
+/// Writes a number with so many decimals, zeros too.
+///
+/// ```
+/// assert_eq!(base::number::decimals(24.0, 2), "24.00");
+/// assert_eq!(base::number::decimals(-0.001, 2), "0.00");
+/// ```
+pub fn decimals(x: f64, digits: usize) -> String {
     let text = format!("{x:.digits$}");
-    let text = if text.contains('.') {
-        text.trim_end_matches('0').trim_end_matches('.')
-    } else {
-        text.as_str()
-    };
-    if text == "-0" { "0".into() } else { text.into() }
+    let is_nothing = text.bytes().all(|b| matches!(b, b'-' | b'0' | b'.'));
+    if is_nothing { text.trim_start_matches('-').into() } else { text }
 }

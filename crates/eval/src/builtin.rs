@@ -8,7 +8,7 @@ use crate::numerals::number_text;
 use crate::operate::finite;
 use crate::replay::{Binary, Unary};
 use base::Name;
-use base::number::{joined, shortest};
+use base::number::{decimals, joined, shortest};
 use expr::dimension::Dimension;
 use kernel::builtin::{
     Builtin, Domain, FUNCTIONS, Function, LIST_MESSAGES, ListMessage, NUMBER_MESSAGES,
@@ -179,6 +179,11 @@ impl<'a> Evaluator<'a> {
                 let digits = arguments.first().map(|d| self.digits(d)).transpose()?;
                 let x = x / self.document.scale.factor(dimension);
                 Ok(Answer::text(&number_text(x, digits)))
+            }
+            NumberMessage::Decimals => {
+                let (x, _) = self.number(to)?;
+                let x = x / self.document.scale.factor(dimension);
+                Ok(Answer::text(&decimals(x, self.digits(&arguments[0])?)))
             }
             NumberMessage::Shown => {
                 let (x, _) = self.number(to)?;

@@ -333,7 +333,7 @@ impl<'a> Evaluator<'a> {
     /// Returns true if a text reads as the number whose text a term asks for, to the digits asked for.
     fn reads_as(&self, text: &str, term: &'a Term, frame: &Frame<'a>) -> Result<bool> {
         let Term::Send { to, name, arguments, search: None } = term else { return Ok(false) };
-        if name != "text" {
+        if !matches!(name.as_str(), "text" | "decimals") {
             return Ok(false);
         }
         let (Answer::Number(x, _), Some(read)) = (self.term(to, frame)?, read_number(text)) else {

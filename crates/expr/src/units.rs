@@ -59,7 +59,10 @@ pub const NAMED_UNITS: &[NamedUnit] = &[
     lone("nmi", "nautical mile", scaled(Dimension::LENGTH, 1852.0, 0)),
     lone("au", "astronomical unit", scaled(Dimension::LENGTH, 149_597_870_700.0, 0)),
     lone("ly", "light year", scaled(Dimension::LENGTH, 9_460_730_472_580_800.0, 0)),
+    // 648 000 / π astronomical units, as the IAU has defined it in 2015
+    si("pc", "parsec", scaled(Dimension::LENGTH, 3.085_677_581_491_367e16, 0)),
     lone("ha", "hectare", decimal(Dimension::AREA, 4)),
+    lone("acre", "acre", scaled(Dimension::AREA, 40_468_564_224.0, -7)),
     si("L", "litre", decimal(Dimension::VOLUME, -3)),
     // `l`, `dl` and `cl` are names like any other: `{ d = 8  l = 40 }`, `{ cd = 0.3  cl = 1.2 }`
     lone("ml", "millilitre", decimal(Dimension::VOLUME, -6)),
@@ -70,6 +73,7 @@ pub const NAMED_UNITS: &[NamedUnit] = &[
     lone("grad", "gradian", scaled(Dimension::ANGLE, PI / 200.0, 0)),
     lone("arcmin", "arc minute", scaled(Dimension::ANGLE, PI / 10_800.0, 0)),
     lone("arcsec", "arc second", scaled(Dimension::ANGLE, PI / 648_000.0, 0)),
+    lone("mas", "milliarcsecond", scaled(Dimension::ANGLE, PI / 648_000.0, -3)),
     lone("turn", "turn", scaled(Dimension::ANGLE, 2.0 * PI, 0)),
     lone("rev", "revolution", scaled(Dimension::ANGLE, 2.0 * PI, 0)),
     lone("%", "percent", decimal(Dimension::NONE, -2)),
@@ -80,6 +84,8 @@ pub const NAMED_UNITS: &[NamedUnit] = &[
     lone("Mt", "megatonne", decimal(Dimension::MASS, 9)),
     lone("lb", "pound", scaled(Dimension::MASS, 45_359_237.0, -8)),
     lone("oz", "ounce", scaled(Dimension::MASS, 28_349_523_125.0, -12)),
+    // a pound-force second squared a foot
+    lone("slug", "slug", scaled(Dimension::MASS, 14.593_902_937_206_365, 0)),
     si("s", "second", decimal(Dimension::TIME, 0)),
     lone("min", "minute", scaled(Dimension::TIME, 60.0, 0)),
     lone("h", "hour", scaled(Dimension::TIME, 3600.0, 0)),
@@ -89,18 +95,23 @@ pub const NAMED_UNITS: &[NamedUnit] = &[
     lone("yr", "year", scaled(Dimension::TIME, 31_557_600.0, 0)),
     si("Hz", "hertz", decimal(Dimension::FREQUENCY, 0)),
     lone("rpm", "revolution a minute", scaled(Dimension::FREQUENCY, PI / 30.0, 0)),
+    lone("knot", "nautical mile an hour", scaled(Dimension::VELOCITY, 1852.0 / 3600.0, 0)),
     lone("mph", "mile an hour", scaled(Dimension::VELOCITY, 44_704.0, -5)),
     si("N", "newton", decimal(Dimension::FORCE, 0)),
     lone("lbf", "pound-force", scaled(Dimension::FORCE, 44_482_216_152_605.0, -13)),
     lone("kgf", "kilogram-force", scaled(Dimension::FORCE, 980_665.0, -5)),
     lone("kip", "kilopound-force", scaled(Dimension::FORCE, 44_482_216_152_605.0, -10)),
+    lone("dyn", "dyne", decimal(Dimension::FORCE, -5)),
     si("Pa", "pascal", decimal(Dimension::PRESSURE, 0)),
     si("bar", "bar", decimal(Dimension::PRESSURE, 5)),
     lone("atm", "atmosphere", scaled(Dimension::PRESSURE, 101_325.0, 0)),
     lone("psi", "pound a square inch", scaled(Dimension::PRESSURE, 6_894.757_293_168_361, 0)),
     lone("ksi", "kilopound a square inch", scaled(Dimension::PRESSURE, 6_894.757_293_168_361, 3)),
+    lone("Torr", "torr", scaled(Dimension::PRESSURE, 101_325.0 / 760.0, 0)),
     lone("mmHg", "millimetre of mercury", scaled(Dimension::PRESSURE, 133_322_387_415.0, -9)),
     si("J", "joule", decimal(Dimension::ENERGY, 0)),
+    lone("erg", "erg", decimal(Dimension::ENERGY, -7)),
+    lone("BTU", "British thermal unit", scaled(Dimension::ENERGY, 105_505_585_262.0, -8)),
     si("Wh", "watt-hour", scaled(Dimension::ENERGY, 3600.0, 0)),
     si("eV", "electronvolt", scaled(Dimension::ENERGY, 1_602_176_634.0, -28)),
     si("cal", "calorie", scaled(Dimension::ENERGY, 4184.0, -3)),
@@ -250,6 +261,10 @@ pub fn meant(word: &str) -> Vec<String> {
         found
     };
     let lower = word.to_lowercase();
+    // a thousand of what is not said
+    if word == "k" {
+        return Vec::new();
+    }
     let in_words = prefixed(&|prefix, prefix_name, named| {
         let rest = lower.strip_prefix(prefix_name);
         let rest = rest.or_else(|| word.strip_prefix(prefix));
@@ -283,7 +298,7 @@ pub fn meant(word: &str) -> Vec<String> {
 }
 
 /// What people say for a unit and no table of them knows.
-const COLLOQUIAL: [(&str, &str); 18] = [
+const COLLOQUIAL: [(&str, &str); 32] = [
     ("sec", "s"),
     ("secs", "s"),
     ("hr", "h"),
@@ -292,6 +307,20 @@ const COLLOQUIAL: [(&str, &str); 18] = [
     ("amp", "A"),
     ("amps", "A"),
     ("lbs", "lb"),
+    ("kgs", "kg"),
+    ("kilo", "kg"),
+    ("kilos", "kg"),
+    ("gms", "g"),
+    ("knots", "knot"),
+    ("micron", "um"),
+    ("microns", "um"),
+    ("psf", "lbf/ft^2"),
+    ("pcf", "lb/ft^3"),
+    ("plf", "lbf/ft"),
+    ("klf", "kip/ft"),
+    ("gpm", "gal/min"),
+    ("cfm", "ft^3/min"),
+    ("fps", "ft/s"),
     ("ftlb", "ft*lbf"),
     ("kph", "km/h"),
     ("kmh", "km/h"),

@@ -228,6 +228,7 @@ table! {
     /// A message that numbers know.
     NumberMessage, NUMBER_MESSAGES:
     Text "text" Number [perhaps("digits", Kind::Plain)] Text "The shortest decimal that reads back as the number, or rounded to so many decimals.";
+    Decimals "decimals" Number [one("count", Kind::Plain)] Text "The number rounded to so many decimals, zeros kept: `24.00`.";
     Shown "shown" Number [perhaps("class", Kind::Text), perhaps("unit", Kind::Text)] Text "The number as people read it: six digits, with its unit and prefix.";
     Sqrt "sqrt" Number [] Root NonNegative "The square root.";
     Abs "abs" Number [] Same "The number without its sign.";

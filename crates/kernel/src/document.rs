@@ -41,6 +41,8 @@ pub struct Document {
     /// The units in which the text writes quantities, by what they measure and the sort of their class
     /// ([`crate::Quantity::sort`]); without a sort, where the class is not known.
     pub usual: BTreeMap<(Dimension, Option<Name>), Usual>,
+    /// The system of units in which the text counts, where that is not SI.
+    pub customary: Option<crate::Customary>,
     /// The units of given numbers as they are written, by where that is; bare numbers have none.
     pub units: BTreeMap<OriginId, Name>,
 }

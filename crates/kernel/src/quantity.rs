@@ -140,7 +140,7 @@ pub fn spelling_for(x: f64, quantity: Quantity<'_>, document: &Document) -> Stri
         // a sum of several units, `52 deg + 30 arcmin`, reads in degrees
         let is_one = written_units <= 1;
         let is_read = |s: &&str| x == 0.0 || READABLE.contains(&size(s));
-        let is_of_degrees = |s: &&str| is_one && matches!(*s, "arcmin" | "arcsec") && is_read(s);
+        let is_of_degrees = |s: &&str| is_one && matches!(*s, "arcmin" | "arcsec" | "mas") && is_read(s);
         return written.filter(is_of_degrees).unwrap_or("deg").into();
     }
     if let Some(spelling) = written.filter(|s| x == 0.0 || READABLE.contains(&size(s))) {
@@ -168,13 +168,19 @@ fn spelling_of_text(x: f64, quantity: Quantity<'_>, document: &Document) -> Stri
     if let Some(spelling) = usual(class, dimension, document, size) {
         return spelling;
     }
+    let sort = || sort_in(document, class, dimension).unwrap_or_default();
+    if let Some(customary) = document.customary.as_ref().filter(|_| dimension != Dimension::LENGTH)
+        && let Some(spelling) = customary.spelling(dimension, sort() == "Torque", size)
+    {
+        return spelling;
+    }
     if let Some(litres) = in_litres(class, dimension, document, size) {
         return litres.into();
     }
     if is_of_the_sheet(dimension) {
         return of_the_sheet(dimension, document, size);
     }
-    match of_si(sort_in(document, class, dimension).unwrap_or_default(), dimension) {
+    match of_si(sort(), dimension) {
         Some(spelling) => prefixed(spelling, size),
         None => dimension.to_string(),
     }

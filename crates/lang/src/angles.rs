@@ -34,7 +34,17 @@ impl Lowerer<'_> {
         let Some(written) = call.args().and_then(|args| args.args().next()?.value()) else {
             return;
         };
-        let angle = match &written {
+        self.warn_of_bare_angle(scope, &written, |degrees| format!("`{}({degrees})`", word.text()));
+    }
+
+    /// Warns of an angle of more than a whole turn that is written without a unit; `shown` is how it stands there.
+    pub(crate) fn warn_of_bare_angle(
+        &mut self,
+        scope: &Scope,
+        written: &Expr,
+        shown: impl Fn(&str) -> String,
+    ) {
+        let angle = match written {
             Expr::Unary(unary) if unary.op() == Some(UnaryOp::Negate) => unary.operand(),
             other => Some(other.clone()),
         };
@@ -48,10 +58,8 @@ impl Lowerer<'_> {
         let message = format!("{number} is an angle in radians here");
         let degrees = format!("{number} deg");
         let d = Diagnostic::warning("bare-angle", place, message);
-        let hint = format!(
-            "degrees have their unit: `{}({degrees})`; so may radians, `{number} rad`",
-            word.text()
-        );
+        let hint =
+            format!("degrees have their unit: {}; so may radians, `{number} rad`", shown(&degrees));
         self.report(d.hint(hint).fix(format!("write {degrees}"), [(place, degrees)]));
     }
 

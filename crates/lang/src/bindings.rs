@@ -150,14 +150,15 @@ impl Lowerer<'_> {
         let origin = self.rule_origin(scope, span);
         let part = Box::new(Term::at(Term::Me, path));
         let method = Method { targets: vec![path.clone()], values: vec![term.clone()], origin };
-        // of several numbers and of elements they are derived, one by one
-        let is_of_several = match self.document.classes[class].kind {
+        // of several numbers and of elements they are derived, one by one; of a text that is another's, either way
+        let are_derived = match self.document.classes[class].kind {
             ClassKind::List(_) => true,
             ClassKind::Composite => is_of_numbers(&self.document, class),
-            ClassKind::Primitive(_) | ClassKind::Set(_) | ClassKind::Reference(_) => false,
+            ClassKind::Primitive(primitive) => !primitive.is_number() && is_bare_path(value),
+            ClassKind::Set(_) | ClassKind::Reference(_) => false,
         };
         let rule = Term::Binary(BinaryOperator::Equal, part, Box::new(term.clone()));
-        let methods = if is_of_several { Vec::new() } else { vec![method] };
+        let methods = if are_derived { Vec::new() } else { vec![method] };
         let constraint = Constraint { methods, ..Constraint::required(rule, origin) };
         let of = &mut self.document.classes[scope.class()];
         let index = of.constraints.len() as u32;

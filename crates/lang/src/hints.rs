@@ -5,11 +5,12 @@ use crate::lower::Lowerer;
 use crate::members::is_constant;
 use crate::names::{LONGEST_WORD, raised};
 use crate::scope::Scope;
+use crate::terms::code_for;
 use base::{Diagnostic, Name, Place, Span};
 use expr::dimension::Dimension;
 use kernel::builtin::{FUNCTIONS, find};
 use kernel::quantity::is_of_the_sheet;
-use kernel::{Class, ClassId, Document, Message, Path};
+use kernel::{BinaryOperator, Class, ClassId, Document, Message, PartRef, Path};
 use syntax::ast::{self, AstNode, BinaryOp, Expr, UnaryOp};
 
 /// How many names a hint lists.
@@ -65,6 +66,9 @@ impl Lowerer<'_> {
         self.diagnostics[before + at] = match near {
             Some(near) => plain.meant(&near),
             None if let Some(hint) = maker => plain.hint(hint),
+            None if let Some(part) = self.part_with(class, word.text()) => {
+                plain.hint(format!("its {part} has one: `{part}.{} = {written}`", word.text()))
+            }
             None if !(is_constant(value) || self.document.classes[class].is_of_one)
                 || class == self.document.root
                 || of_one && names.is_empty() =>
@@ -82,6 +86,18 @@ impl Lowerer<'_> {
             }
             None => plain.hint(format!("there are {}", names.join(", "))),
         };
+    }
+
+    /// Returns the part of a class, not of the document itself, that has a part of this name.
+    fn part_with(&self, class: ClassId, name: &str) -> Option<Name> {
+        let document = &self.document;
+        let mut fields = document.layout(class).into_iter().filter(|_| class != document.root);
+        let has_it = |field: &PartRef| {
+            let parts = document.layout(document.field_class(*field));
+            parts.into_iter().any(|part| document.field_name(part) == name)
+        };
+        let found = fields.find(has_it)?;
+        Some(document.field_name(found).clone())
     }
 
     /// Returns true for a name that a class, a message of one or a part has that can be spoken of here.
@@ -236,6 +252,9 @@ impl Lowerer<'_> {
                 }
                 _ => d,
             },
+            (Kind::Number(_), Kind::Bool, Expr::Number(_)) => {
+                d.hint("a truth value is `true` or `false`")
+            }
             (Kind::Text, Kind::Option(choice), Expr::Text(text)) => match text.plain() {
                 Some(plain) if self.document.option_named(*choice, &plain).is_some() => d
                     .hint(format!("an option has no quotes: `{plain}`"))
@@ -256,6 +275,73 @@ impl Lowerer<'_> {
             }
             _ => d,
         }
+    }
+
+    /// Reports a value of one kind where another is wanted.
+    pub(crate) fn wrong_kind(&mut self, scope: &Scope, span: Span, found: &Kind, wanted: &Kind) {
+        let (found_words, wanted_words) =
+            (found.words(&self.document), wanted.words(&self.document));
+        let message = format!("found {found_words}, wanted {wanted_words}");
+        let d = Diagnostic::error(code_for(found, wanted), Place { file: scope.file, span }, message);
+        let range = span.start as usize..span.end as usize;
+        let written = self.files[scope.file].text.get(range).unwrap_or_default();
+        let is_name = |text: &str| text.chars().all(|c| c.is_alphanumeric() || "_.".contains(c));
+        self.report(match (found, wanted) {
+            (Kind::List(_), Kind::Number(_)) if is_name(written) => d.hint(format!(
+                "one of its elements is `{written}[0]`, what is made of each `{written}.map(x => 2 * x)`"
+            )),
+            (Kind::Number(_), Kind::Bool) => {
+                d.hint("each side of `and` and `or` is a rule by itself: `x = 3 or x = 4`")
+            }
+            _ => d,
+        });
+    }
+
+    pub(crate) fn mismatch(
+        &mut self,
+        scope: &Scope,
+        span: Span,
+        operator: Option<BinaryOperator>,
+        (left, right): (&Kind, &Kind),
+    ) {
+        let (a, b) = (left.words(&self.document), right.words(&self.document));
+        let place = Place { file: scope.file, span };
+        let apart = match (left, right) {
+            (Kind::Thing(left), Kind::Thing(right)) => self.counts_apart(*left, *right),
+            _ => None,
+        };
+        let message = match apart {
+            Some((name, left, right)) => {
+                format!("left is {a} with {name} = {left}, right is {b} with {name} = {right}")
+            }
+            None => format!("left is {a}, right is {b}"),
+        };
+        let mut d = Diagnostic::error(code_for(left, right), place, message);
+        if let (Kind::Text, Kind::Number(_)) | (Kind::Number(_), Kind::Text) = (left, right) {
+            d = d.hint("put the value into the text: `\"x = {x}\"`");
+        }
+        if let (Kind::Text, Kind::Color) | (Kind::Color, Kind::Text) = (left, right) {
+            d = d.hint(
+                "colours are mixed with colours, `c: Color = \"navy\"`; texts are joined by `\"{a}{b}\"`",
+            );
+        }
+        if let (Kind::List(_), Kind::List(_), Some(BinaryOperator::Add)) = (left, right, operator) {
+            d = d.hint("what either list has, each once, is `xs.union(other: ys)`; numbers of two lists are added by `xs.zip(other: ys).map(pair => pair[0] + pair[1])`");
+        }
+        if (left, right) == (&Kind::Picture, &Kind::Picture) {
+            d = d.hint("`picture(a, b)` draws both");
+        }
+        let is_plain = |k: &Kind| *k == Kind::PLAIN;
+        if matches!((left, right), (Kind::Number(_), Kind::Number(_)))
+            && is_plain(left) != is_plain(right)
+        {
+            let measures = if is_plain(left) { b } else { a };
+            let quantity = measures.split(" (").next().unwrap_or_default();
+            d = d.hint(format!(
+                "a product measures what its factors do: declare one as {quantity}, or give it a unit"
+            ));
+        }
+        self.report(d);
     }
 
     /// Reports a part that is called like a message; an element of a list stands in square brackets.
@@ -368,13 +454,21 @@ pub(crate) fn called_otherwise(word: &str) -> Option<&'static str> {
         "integrate" | "integral" => "sum steps: `(0..<n).map(i => …).sum * h`",
         "PI" | "Pi" | "π" => "write `pi`",
         "this" | "self" | "me" => "a part is named by itself: `width`",
-        "null" | "nil" | "none" | "None" => "what nothing is said of is zero, false or empty",
+        "null" | "nil" | "none" | "None" | "undefined" | "NaN" => "what nothing is said of is zero, false or empty",
         "True" | "TRUE" | "yes" => "write `true`",
         "False" | "FALSE" | "no" => "write `false`",
         "len" | "length" | "COUNT" | "size" => {
             "how many a list has is `list.count`, a text `text.length`"
         }
         "math" | "Math" | "np" | "numpy" => "functions stand by themselves: `sqrt(2)`",
+        "unknown" | "auto" | "any" => {
+            "of what nothing is said the constraints decide: leave the value out"
+        }
+        "random" | "rand" | "now" | "today" => {
+            "a text comes to the same whenever it is read: write the value down"
+        }
+        "input" | "prompt" => "a value is given in the text, and set in the lab",
+        "Number" | "parseFloat" | "parseInt" | "VALUE" => "the number of a text is `text.number`",
         "lambda" => "a function of one argument is `x => 2 * x`",
         "SUM" | "Sum" => "a sum is `a + b`, of a list `[a, b].sum`",
         "AVERAGE" | "average" | "avg" | "mean" | "Mean" => "the mean of a list is `[a, b].mean`",
@@ -511,6 +605,9 @@ pub(crate) fn unknown_unit(place: Place, spelling: &str) -> Diagnostic {
     match spelling {
         "weak" | "medium" | "strong" | "required" => {
             return d.hint(format!("a strength stands before its rule: `{spelling} constraint …`"));
+        }
+        "where" | "and" | "with" => {
+            return d.hint("two rules are joined by `and`: `constraint x^2 = 2 and x > 0`");
         }
         "unless" | "when" => {
             return d.hint("a rule under a condition is `constraint if x > 3 { y = 1 }`");

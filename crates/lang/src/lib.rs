@@ -74,6 +74,7 @@ mod switches;
 pub mod tables;
 mod terms;
 mod trails;
+mod twice;
 mod uses;
 mod views;
 mod visible;

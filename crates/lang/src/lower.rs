@@ -157,6 +157,7 @@ fn counting_of(document: &Document) -> Counting {
         scale: document.scale,
         writes_lengths: document.writes_lengths,
         usual: document.usual.clone(),
+        customary: document.customary.clone(),
     }
 }
 
@@ -335,6 +336,7 @@ impl<'l> Lowerer<'l> {
                 unit: None,
                 writes_lengths: false,
                 usual: BTreeMap::new(),
+                customary: None,
                 units: BTreeMap::new(),
             },
             visible: Visible::default(),

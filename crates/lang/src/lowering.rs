@@ -116,6 +116,7 @@ impl Lowerer<'_> {
         self.document.scale = counting.scale;
         self.document.writes_lengths = counting.writes_lengths;
         self.document.usual = counting.usual;
+        self.document.customary = counting.customary;
         let scale = self.document.scale;
         // what was read in other units is read anew
         self.before = self.before.filter(|before| before.document.scale == scale);

@@ -390,6 +390,11 @@ impl Lowerer<'_> {
                 .fix(format!("write {power}"), [(place, power)]),
             _ if of_each => d.meant(&format!("map(each => each.{})", word.text())),
             _ if is_list && matches!(word.text(), "length" | "size" | "len") => d.meant("count"),
+            _ if matches!(word.text(), "toFixed" | "toPrecision") => {
+                d.hint("so many decimals are `x.decimals(2)`")
+            }
+            _ if matches!(word.text(), "toString" | "str") => d.meant("text"),
+            _ if matches!(word.text(), "copy" | "clone") => d.hint("write `copy of thing`"),
             _ if is_list && matches!(word.text(), "average" | "avg") => d.meant("mean"),
             _ if is_list && matches!(word.text(), "contains" | "has" | "includes") => {
                 d.hint("whether something is in a list is asked by `x in xs`")

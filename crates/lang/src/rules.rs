@@ -1,5 +1,6 @@
 //! Rules: everything that speaks of parts, lowered once all parts are declared.
 
+use crate::angles::ANGLE;
 use crate::hints::{is_a_unit, unit_before_equals};
 use crate::kinds::{Kind, measured};
 use crate::lower::Lowerer;
@@ -199,6 +200,9 @@ impl Lowerer<'_> {
             || self.other_count(scope, &path, &term, value)
         {
             return;
+        }
+        if class.is_some_and(|class| self.document.classes[class].name.as_str() == ANGLE) {
+            self.warn_of_bare_angle(scope, value, |degrees| format!("`{degrees}`"));
         }
         let origin = self.origin(scope.file, value.span());
         if let Some(unit) = crate::numbers::unit_of(value) {

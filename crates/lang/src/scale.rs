@@ -8,10 +8,11 @@ use base::Name;
 use expr::dimension::Dimension;
 use kernel::builtin::{FUNCTIONS, NUMBER_MESSAGES, find};
 use kernel::quantity::{is_of_si, is_of_the_sheet, sharing};
-use kernel::{Quantity, Scale, Usual};
+use kernel::{Customary, Quantity, Scale, Usual};
 use std::collections::BTreeMap;
 use syntax::ast::{
-    Arg, Assign, AstNode, Expr, FieldExpr, Member, NumberExpr, Param, Part, Type, Value, Word,
+    Arg, Assign, AstNode, Expr, FieldExpr, Member, NumberExpr, Param, Part, Type, UnitLine, Value,
+    Word,
 };
 use syntax::{Parse, SyntaxKind, SyntaxNode, WalkEvent};
 
@@ -41,6 +42,8 @@ pub(crate) struct Counting {
     pub(crate) writes_lengths: bool,
     /// The units of its quantities, as [`kernel::Document::usual`] has them.
     pub(crate) usual: BTreeMap<(Dimension, Option<Name>), Usual>,
+    /// The system of its units, where that is not SI.
+    pub(crate) customary: Option<Customary>,
 }
 
 /// Returns how a text counts that uses others; the scale is that of the text `before` where it is near.
@@ -64,12 +67,13 @@ pub(crate) fn of<'a>(
         && (any(is_of_the_sheet)
             || stated.iter().chain(&read).any(joins_a_length) && !has_bare_places(parse, &stated));
     let usual = usual(parse, &stated);
+    let customary = Customary::of(written_units(parse, &stated).iter().map(|unit| &**unit));
     let keeps_length = has_unit || !any(|d| d == Dimension::LENGTH);
     let all = quantities.into_iter().chain(read.iter().filter_map(quantity)).collect();
     let best = best(all, keeps_length);
     let is_near = |scale: &Scale| scale.0.iter().zip(best.0).all(|(a, b)| a.abs_diff(b) <= NEAR);
     let before = before.filter(|scale| *scale != Scale::default()).filter(is_near);
-    Counting { scale: before.unwrap_or(best), writes_lengths, usual }
+    Counting { scale: before.unwrap_or(best), writes_lengths, usual, customary }
 }
 
 /// Returns the units that a text writes for each sort of quantity; none for those that it writes in one of SI with a
@@ -121,6 +125,13 @@ fn usual(parse: &Parse, stated: &[NumberExpr]) -> BTreeMap<(Dimension, Option<Na
         usual.insert((Dimension::TIME, Some(Name::new(""))), within);
     }
     usual
+}
+
+/// Returns the units that a text writes, that of its sheet too; not those of nothing, which is nothing in every unit.
+fn written_units(parse: &Parse, stated: &[NumberExpr]) -> Vec<Name> {
+    let told = stated.iter().filter(|n| !is_nothing(n)).filter_map(NumberExpr::unit);
+    let sheet = parse.syntax().children().find_map(UnitLine::cast).map(|line| line.unit());
+    told.map(|unit| unit.text().into()).chain(sheet.map(|unit| Name::new(&unit))).collect()
 }
 
 fn is_nothing(number: &NumberExpr) -> bool {

@@ -193,61 +193,6 @@ impl Lowerer<'_> {
         self.expr_of(scope, e, &Kind::PLAIN)
     }
 
-    /// Reports a value of one kind where another is wanted.
-    pub(crate) fn wrong_kind(&mut self, scope: &Scope, span: Span, found: &Kind, wanted: &Kind) {
-        let (found_words, wanted_words) =
-            (found.words(&self.document), wanted.words(&self.document));
-        let message = format!("found {found_words}, wanted {wanted_words}");
-        self.error(code_for(found, wanted), scope.file, span, message);
-    }
-
-    fn mismatch(
-        &mut self,
-        scope: &Scope,
-        span: Span,
-        operator: Option<BinaryOperator>,
-        (left, right): (&Kind, &Kind),
-    ) {
-        let (a, b) = (left.words(&self.document), right.words(&self.document));
-        let place = Place { file: scope.file, span };
-        let apart = match (left, right) {
-            (Kind::Thing(left), Kind::Thing(right)) => self.counts_apart(*left, *right),
-            _ => None,
-        };
-        let message = match apart {
-            Some((name, left, right)) => {
-                format!("left is {a} with {name} = {left}, right is {b} with {name} = {right}")
-            }
-            None => format!("left is {a}, right is {b}"),
-        };
-        let mut d = Diagnostic::error(code_for(left, right), place, message);
-        if let (Kind::Text, Kind::Number(_)) | (Kind::Number(_), Kind::Text) = (left, right) {
-            d = d.hint("put the value into the text: `\"x = {x}\"`");
-        }
-        if let (Kind::Text, Kind::Color) | (Kind::Color, Kind::Text) = (left, right) {
-            d = d.hint(
-                "colours are mixed with colours, `c: Color = \"navy\"`; texts are joined by `\"{a}{b}\"`",
-            );
-        }
-        if let (Kind::List(_), Kind::List(_), Some(BinaryOperator::Add)) = (left, right, operator) {
-            d = d.hint("what either list has, each once, is `xs.union(other: ys)`; numbers of two lists are added by `xs.zip(other: ys).map(pair => pair[0] + pair[1])`");
-        }
-        if (left, right) == (&Kind::Picture, &Kind::Picture) {
-            d = d.hint("`picture(a, b)` draws both");
-        }
-        let is_plain = |k: &Kind| *k == Kind::PLAIN;
-        if matches!((left, right), (Kind::Number(_), Kind::Number(_)))
-            && is_plain(left) != is_plain(right)
-        {
-            let measures = if is_plain(left) { b } else { a };
-            let quantity = measures.split(" (").next().unwrap_or_default();
-            d = d.hint(format!(
-                "a product measures what its factors do: declare one as {quantity}, or give it a unit"
-            ));
-        }
-        self.report(d);
-    }
-
     fn number(&mut self, scope: &Scope, n: &ast::NumberExpr) -> Lowered {
         let digits = n.digits()?;
         let (value, dimension) = match n.unit() {

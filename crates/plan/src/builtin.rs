@@ -191,7 +191,7 @@ impl<'a> Opening<'a> {
             return self.unary(operator, to);
         }
         match (name.as_str(), arguments) {
-            ("text" | "shown", _) => Ok(self.opaque(arguments.iter().chain([to]))),
+            ("text" | "decimals" | "shown", _) => Ok(self.opaque(arguments.iter().chain([to]))),
             ("ceil", []) => self.ceil(to),
             ("min", [x]) => self.fold(Binary::Min, &[to.clone(), x.clone()]),
             ("max", [x]) => self.fold(Binary::Max, &[to.clone(), x.clone()]),

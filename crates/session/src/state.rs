@@ -275,6 +275,7 @@ impl Solved {
         let mut warnings = crate::yielding::warnings(&state, &planner);
         warnings.extend(crate::unlike::warnings(&state));
         warnings.extend(state.lowered.mixed_lengths());
+        warnings.extend(state.lowered.given_twice());
         if !warnings.is_empty() {
             state.diagnostics.extend(warnings);
             state.diagnostics.sort_by_key(|d| (d.place.file, d.place.span.start));

@@ -1,13 +1,14 @@
 //! Parts that are one and are given unlike values: a warning that says which of these counts.
 //!
 //! In: a state. Out: for every line of the document that gives a value which does not count, where another part's
-//! does. What a class gives its things yields without a word: that is what a default is for.
+//! does. What a class gives its things yields without a word: that is what a default is for. Where both are anchored
+//! neither yields, and the merge is an error.
 
 use crate::state::State;
 use crate::words::show_thing;
 use base::{Diagnostic, Place};
 use kernel::{SlotId, Term, ThingId, Value};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// The code of the warning.
 const CODE: &str = "unlike-given";
@@ -20,6 +21,8 @@ struct Line {
     counts: Place,
     /// By slot, what the line gives and what counts.
     values: Vec<(SlotId, [Value; 2])>,
+    /// True if either is anchored at what it is given.
+    holds: bool,
 }
 
 /// Returns a warning for every line that gives what does not count.
@@ -28,6 +31,12 @@ struct Line {
 pub(crate) fn warnings(state: &State) -> Vec<Diagnostic> {
     let structure = &state.structure;
     let mut lines: BTreeMap<(u32, u32), (Place, Line)> = BTreeMap::new();
+    let anchors = structure.stays.iter().filter(|stay| stay.strength.is_none());
+    let anchored: BTreeSet<ThingId> = anchors.map(|stay| stay.thing).collect();
+    let is_anchored = |thing: ThingId| {
+        let mut around = std::iter::successors(Some(thing), |&t| structure.owner(t));
+        around.any(|t| anchored.contains(&t))
+    };
     let merged = structure.merged.iter().filter(|(t, _)| structure.is_merged(*t));
     for (thing, _) in merged {
         let Some(slot) = structure.slot_of(thing) else { continue };
@@ -45,7 +54,8 @@ pub(crate) fn warnings(state: &State) -> Vec<Diagnostic> {
         let (_, line) = lines.entry((place.span.start, place.span.end)).or_insert_with(|| {
             let parts = [whole(state, thing), whole(state, by)];
             let counts = state.lowered.place(given.origin);
-            (place, Line { parts, counts, values: Vec::new() })
+            let holds = is_anchored(thing) && is_anchored(by);
+            (place, Line { parts, counts, values: Vec::new(), holds })
         });
         line.values.push((slot, [was, is]));
     }
@@ -92,9 +102,14 @@ fn warning(state: &State, place: Place, line: &Line) -> Diagnostic {
     };
     let [part, other] = line.parts.map(path);
     let (was, is) = (shown(0), shown(1));
+    let merged = merged_at(state, line.parts[0], line.parts[1]);
+    if line.holds {
+        let message = format!("{part} is anchored at {was}, and {other} at {is}: they cannot be one");
+        let d = Diagnostic::error(CODE, merged.unwrap_or(place), message);
+        return d.label(line.counts, "here").label(place, "here").hint("anchor one of them alone");
+    }
     let message = format!("{part} is given here as {was}, and is one with {other}: {is} counts");
     let d = Diagnostic::warning(CODE, place, message).label(line.counts, "here");
-    let merged = merged_at(state, line.parts[0], line.parts[1]);
     let d = match merged {
         Some(merge) => d.label(merge, "they are made one here"),
         None => d,

@@ -21,11 +21,13 @@ use crate::conditional::{Conditional, DemandKind};
 use crate::pattern::Patterns;
 use crate::system::{RelationBody, Slot, SlotIndex, Stay};
 use crate::truth::{Comparing, Comparison, Truth, is_truth, truth};
-use domain::{Domain, MOST};
+pub(crate) use domain::Domain;
+use domain::MOST;
 use explore::{End, Net, Visitor, explore};
 use expr::{Arena, ExprId};
 use propagate::{Field, Prospect};
-use row::{Cells, Row, different, row, whole_number};
+pub(crate) use row::{Cells, Linear, Row, Sum, row};
+use row::{different, whole_number};
 
 /// How many states are visited in search of a solution.
 pub const PATIENCE: u64 = 200_000;

@@ -686,6 +686,9 @@ fn meant_by(text: &str, span: Span) -> Option<&'static str> {
         Some('½') => "write `0.5`",
         Some('¼') => "write `0.25`",
         Some('¾') => "write `0.75`",
+        Some('?') if follows(text, span, "?\n") => {
+            "every part has a value, at first zero, false or empty: leave `?` out"
+        }
         Some('?') => "a value is chosen by `if c then a else b`",
         Some('√') => "write `sqrt(x)`",
         Some('°') if follows(text, span, "°C") => {

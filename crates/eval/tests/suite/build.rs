@@ -51,6 +51,7 @@ impl Build {
             unit: None,
             writes_lengths: false,
             usual: std::collections::BTreeMap::new(),
+            customary: None,
             units: std::collections::BTreeMap::new(),
         };
         let mut b = Self {

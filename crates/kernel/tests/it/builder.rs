@@ -80,6 +80,7 @@ impl Builder {
             unit: None,
             writes_lengths: false,
             usual: std::collections::BTreeMap::new(),
+            customary: None,
             units: std::collections::BTreeMap::new(),
         }
     }

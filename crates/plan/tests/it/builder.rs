@@ -48,6 +48,7 @@ impl Builder {
             unit: None,
             writes_lengths: false,
             usual: std::collections::BTreeMap::new(),
+            customary: None,
             units: std::collections::BTreeMap::new(),
         };
         let mut builder = Self { document };

@@ -197,7 +197,7 @@ impl<'a> Field<'a> {
         if low > constant || linear.comparing == Sum::Equal && high < constant {
             return Err(Dead);
         }
-        if linear.comparing == Sum::Equal && !self.divides(linear) {
+        if linear.comparing == Sum::Equal && !linear.divides(|cell| self.of(cell).known()) {
             return Err(Dead);
         }
         let (mut low, mut high) = (low, high);
@@ -223,22 +223,6 @@ impl<'a> Field<'a> {
             high += newer_h - h;
         }
         Ok(())
-    }
-
-    /// Returns true if the greatest common divisor of the open terms divides what the known ones leave, without
-    /// which no whole numbers make the sum.
-    fn divides(&self, linear: &Linear) -> bool {
-        let (mut rest, mut divisor) = (i128::from(linear.constant), 0u64);
-        for &(cell, c) in &linear.terms {
-            match self.of(cell).known() {
-                Some(v) => rest -= i128::from(c) * i128::from(v),
-                None => divisor = common_divisor(divisor, c.unsigned_abs()),
-            }
-            if divisor == 1 {
-                return true;
-            }
-        }
-        divisor == 0 || rest % i128::from(divisor) == 0
     }
 
     fn different(&mut self, cells: &[Shifted]) -> Result<(), Dead> {
@@ -587,10 +571,6 @@ fn floor(a: i128, b: i128) -> i128 {
 }
 
 /// Returns the greatest common divisor of two numbers; of nothing and a number, that number.
-fn common_divisor(a: u64, b: u64) -> u64 {
-    if b == 0 { a } else { common_divisor(b, a % b) }
-}
-
 fn ceiling(a: i128, b: i128) -> i128 {
     -((-a).div_euclid(b))
 }

@@ -189,6 +189,28 @@ pub(crate) fn whole_number(x: f64) -> Option<i64> {
     (x == x.trunc() && x.abs() <= super::domain::MOST as f64).then_some(x as i64)
 }
 
+impl Linear {
+    /// Returns true if the greatest common divisor of the open terms divides what the known ones leave, without
+    /// which no whole numbers make the sum.
+    pub(crate) fn divides(&self, known: impl Fn(u32) -> Option<i64>) -> bool {
+        let (mut rest, mut divisor) = (i128::from(self.constant), 0u64);
+        for &(cell, c) in &self.terms {
+            match known(cell) {
+                Some(v) => rest -= i128::from(c) * i128::from(v),
+                None => divisor = common_divisor(divisor, c.unsigned_abs()),
+            }
+            if divisor == 1 {
+                return true;
+            }
+        }
+        divisor == 0 || rest % i128::from(divisor) == 0
+    }
+}
+
+fn common_divisor(a: u64, b: u64) -> u64 {
+    if b == 0 { a } else { common_divisor(b, a % b) }
+}
+
 impl Row {
     /// Names the cells that it speaks of.
     pub(crate) fn cells(&self) -> Vec<u32> {

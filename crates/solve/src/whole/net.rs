@@ -5,6 +5,7 @@
 
 use crate::conditional::{Conditional, DemandKind};
 use crate::pattern::Patterns;
+use crate::search::{self, Cells, Domain, Linear, Sum};
 use crate::system::{Level, RelationBody, SlotIndex};
 use crate::truth::{Comparing, Comparison, Truth, truth};
 use base::number::{RULE_TOLERANCE, Tolerance};
@@ -32,6 +33,8 @@ struct Row {
     truth: Truth,
     within: Tolerance,
     slots: Vec<SlotIndex>,
+    /// The sum with whole coefficients that it says, where it is one.
+    sum: Option<Linear>,
 }
 
 impl Net {
@@ -48,6 +51,12 @@ impl Net {
             let own = &mut ranges[r.slot as usize];
             *own = own.meet(Interval { low: r.low as f64, high: r.high as f64 });
         }
+        let mut domains = vec![Domain::between(-(MOST as i64), MOST as i64); slots.len()];
+        for r in &conditional.ranges {
+            let own = &mut domains[r.slot as usize];
+            *own = own.clip(r.low, r.high);
+        }
+        let cells = Cells { whole: &is_whole, ranges: &domains };
         let mut arena = Arena::new();
         let mut rows = Vec::new();
         for (index, relation) in (0..).zip(&system.relations) {
@@ -91,7 +100,8 @@ impl Net {
                 slots_of(&arena, &truth, &mut slots);
                 slots.sort_unstable();
                 slots.dedup();
-                rows.push(Row { truth, within: relation.within, slots });
+                let sum = sum(&arena, cells, &truth);
+                rows.push(Row { truth, within: relation.within, slots, sum });
             }
         }
         let mut watching = vec![Vec::new(); slots.len()];
@@ -150,6 +160,13 @@ impl Net {
             *narrowed += row.slots.len();
             before.clear();
             before.extend(row.slots.iter().map(|&s| boxes[s as usize]));
+            let known = |slot: u32| {
+                let Interval { low, high } = boxes[slot as usize];
+                (low == high).then_some(low as i64)
+            };
+            if row.sum.as_ref().is_some_and(|sum| !sum.divides(known)) {
+                return false;
+            }
             if !self.leave(&row.truth, row.within, boxes) {
                 return false;
             }
@@ -223,6 +240,15 @@ impl Net {
             }
         };
         self.arena.narrow(left, of_left, boxes) && self.arena.narrow(right, of_right, boxes)
+    }
+}
+
+/// Returns the sum with whole coefficients that a truth says to be a constant; nothing where it says something else.
+fn sum(arena: &Arena, cells: Cells<'_>, truth: &Truth) -> Option<Linear> {
+    let Truth::Holds(comparison) = truth else { return None };
+    match search::row(arena, cells, Truth::Holds(*comparison)) {
+        search::Row::Linear(sum) if sum.comparing == Sum::Equal => Some(sum),
+        _ => None,
     }
 }
 

@@ -187,14 +187,13 @@ fn binary(p: &mut Parser<'_>, start: Checkpoint, right: Power, kind: SyntaxKind)
 fn comparisons(p: &mut Parser<'_>, start: Checkpoint) -> u32 {
     let (mut height, mut count) = (0, 0);
     while operator(p) == Some(Power::Compare) && !(p.at(Ident) && p.word(0) == "is") {
-        let turned = p.at(Less) && p.nth(1) == Greater && p.is_adjacent(1);
+        let turned = p.is_adjacent(1).then(|| mistakes::elsewhere::turned(p)).flatten();
         bump_operator(p);
-        if turned {
+        if let Some((found, wanted, hint)) = turned {
             let at = p.pos();
-            let said =
-                ("unlike", "found `<>`, wanted `!=`".to_string(), "unlike is `!=`".to_string());
+            let said = ("unlike", format!("found `{found}`, wanted `{wanted}`"), hint.to_string());
             let span = p.span_at(at - 1).join(p.span_at(at));
-            p.report_mistake((at - 1, at), said, Some((span, "!=".into())));
+            p.report_mistake((at - 1, at), said, Some((span, wanted.into())));
             p.bump();
         }
         height = height.max(operators(p, Power::Range));
@@ -250,7 +249,16 @@ fn operand(p: &mut Parser<'_>, start: Checkpoint) -> u32 {
                 in_brackets(p, |p| {
                     p.bump();
                     height = height.max(operators(p, Power::Or));
-                    p.expect(RBracket, "expected-bracket", "`]`");
+                    if p.at(Comma) && p.behind(1) == Number && p.nth(1) == Number {
+                        let (row, column) = (p.text_between(p.pos() - 1, p.pos() - 1), p.word(1));
+                        let hint = format!("a list of lists is asked twice: `[{row}][{column}]`");
+                        p.expected_hint("expected-bracket", "`]`", Some(hint));
+                    } else if p.at(Colon) {
+                        let hint = "some elements of a list are `(0..1).map(i => xs[i])`".into();
+                        p.expected_hint("expected-bracket", "`]`", Some(hint));
+                    } else {
+                        p.expect(RBracket, "expected-bracket", "`]`");
+                    }
                 });
                 p.start_at(start, IndexExpr);
                 p.finish();
@@ -540,8 +548,14 @@ fn conditional(p: &mut Parser<'_>, start: Checkpoint) -> u32 {
 /// `then a else b` of the `if` that begins at `start`.
 pub(super) fn conditional_rest(p: &mut Parser<'_>, start: Checkpoint) -> u32 {
     let mut height = 0;
-    if p.expect(ThenKw, "expected-then", "`then`") {
+    // `if(c, a, b)`, as in a spreadsheet
+    let is_call = p.text_between(p.pos().saturating_sub(1), p.pos().saturating_sub(1)) == ")";
+    if p.at(ThenKw) {
+        p.bump();
         height = operators(p, Power::Or);
+    } else {
+        let hint = is_call.then(|| "a value is chosen by `if c then a else b`".to_string());
+        p.expected_hint("expected-then", "`then`", hint);
     }
     if p.at(ElseKw) {
         p.bump();

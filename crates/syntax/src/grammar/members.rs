@@ -169,6 +169,7 @@ pub(super) fn into(p: &mut Parser<'_>, word: &'static str, rest: impl FnOnce(&mu
 /// What begins with its own name: a part, a message, a value.
 fn named(p: &mut Parser<'_>) -> bool {
     match p.nth(1) {
+        Colon if mistakes::elsewhere::colon_without_name(p) => {}
         Colon | Comma => part(p),
         LParen if mistakes::calls::called_member(p) => p.skip_line(),
         FatArrow | LParen => {
@@ -303,6 +304,10 @@ fn assigned(p: &mut Parser<'_>) {
             "what is asked is the value of something: `name => {}`",
             p.quoted(first, p.pos() - 1)
         )
+    });
+    let hint = hint.or_else(|| {
+        let assigns = p.at(ColonEq);
+        assigns.then(|| "a value is given with `=`; `:=` stands in the methods of a constraint".into())
     });
     p.expected_hint("expected-value", "`=` and a value", hint);
 }

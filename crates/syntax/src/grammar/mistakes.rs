@@ -172,7 +172,8 @@ fn decimal_comma(p: &mut Parser<'_>) -> bool {
     if is_one {
         let at = p.pos();
         let (before, after) = (p.text_between(at - 1, at - 1), p.word(1));
-        let number = format!("{before}.{after}");
+        // `1.000,50`: the point stands between thousands
+        let number = format!("{}.{after}", before.replace('.', ""));
         let is_either = is_first_group(p) && after.len() == 3 && !before.starts_with('0');
         let hint = match is_either {
             true => {

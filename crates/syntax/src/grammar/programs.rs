@@ -134,6 +134,11 @@ fn for_rest(p: &mut Parser<'_>, scope: Scope) {
         });
         return;
     }
+    if p.at(Colon) {
+        let head = p.quoted(first, p.pos() - 1);
+        let hint = format!("what a loop repeats stands in braces: `{head} {{ … }}`");
+        p.expected_hint("expected-body", "a body in `{ }`", Some(hint));
+    }
     body(p, scope);
 }
 

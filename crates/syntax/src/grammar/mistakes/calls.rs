@@ -85,6 +85,9 @@ fn meant(p: &Parser<'_>) -> String {
         "translate" | "rotate" | "scale" | "mirror" => {
             "a thing says itself where it is: `c: Circle { center = (1, 2) }`; a set of steps is `moved`, `turned`, `scaled`".into()
         }
+        word if p.nth(2) == RParen && p.nth(3) == LBrace => {
+            format!("what is computed is a message, without `return`: `{word}() => …`")
+        }
         _ => "a thing is declared with a name and its class, `c: Circle { … }`; a rule begins with `constraint`".into(),
     }
 }
@@ -93,6 +96,13 @@ fn meant(p: &Parser<'_>) -> String {
 pub(in crate::grammar) fn no_operand(p: &Parser<'_>) -> Option<String> {
     match (p.behind(1), p.current()) {
         (Eq, Eq) => Some("one `=` is enough".into()),
+        (Eq, LBrace) if p.nth(2) != Colon => {
+            Some("a list stands in square brackets: `[1, 2, 3]`".into())
+        }
+        (Eq, LBrace) => Some("the parts of a thing stand in round brackets: `(x: 1, y: 2)`".into()),
+        (_, LBrace) if p.text_between(p.pos() - 1, p.pos() - 1) == "in" => {
+            Some("a range is `1..3`; what is one of several is a rule, `x in [1, 2, 4]`".into())
+        }
         (AndKw, Less | LessEq | Greater | GreaterEq) => {
             Some("comparisons stand in a chain: `0 < x < 3`".into())
         }

@@ -3,7 +3,7 @@
 use super::MEMBER;
 use crate::kind::SyntaxKind;
 use crate::kind::SyntaxKind::{
-    Caret, Colon, Comma, Eof, Eq, Greater, GreaterEq, Ident, LBrace, LParen, Less, LessEq, Minus,
+    Caret, Colon, Comma, Eof, Eq, FatArrow, Greater, GreaterEq, Ident, LBrace, LParen, Less, LessEq, Minus,
     NotEq, NotKw, Number, Plus, RBrace, RParen, Semicolon, Slash, Star, Text, Unit,
 };
 use crate::parser::Parser;
@@ -132,6 +132,27 @@ fn sign(p: &Parser<'_>) -> Option<String> {
                 p.word(0).trim_matches('"')
             )
         }
+        Less | LessEq | Greater | GreaterEq
+            if p.behind(1) == Ident && p.behind(2) == Colon && before(1) != "List" =>
+        {
+            let bound = p.quoted(p.pos(), p.line_end());
+            format!("a bound is a rule of its own: `constraint {} {bound}`", before(3))
+        }
+        // `5 ft 3 in`
+        Number if p.behind(1) == Unit && p.behind(2) == Number && p.nth(1) == Unit => {
+            let (large, small) = (p.quoted(p.pos() - 2, p.pos() - 1), p.quoted(p.pos(), p.pos() + 1));
+            format!("what is measured in two units is a sum: `{large} + {small}`")
+        }
+        Ident if p.behind(1) == Unit && expr::units::unit(p.word(0)).is_some() => {
+            format!("units are joined without spaces: `{}*{}`", before(1), p.word(0))
+        }
+        Number | Ident if before(1) == "%" && p.behind(2) == Number => {
+            format!("the remainder is `{} mod {}`", before(2), p.word(0))
+        }
+        FatArrow if p.behind(2) == Eq && p.behind(3) == Ident => {
+            let (name, of, body) = (before(3), before(1), p.quoted_line(p.pos() + 1));
+            format!("what is computed is a message: `{name}({of}: Real) => {body}`")
+        }
         Number | Ident | Minus if is_bound(p) => {
             let bound = p.quoted(p.pos(), p.line_end());
             format!("a bound is a rule of its own: `constraint {bound}`")
@@ -169,6 +190,37 @@ fn sign(p: &Parser<'_>) -> Option<String> {
         _ => return None,
     };
     Some(hint)
+}
+
+/// `<>`, `=<`: what it is, what is written for it, and the hint.
+pub(in crate::grammar) fn turned(
+    p: &Parser<'_>,
+) -> Option<(&'static str, &'static str, &'static str)> {
+    match (p.current(), p.nth(1)) {
+        (Less, Greater) => Some(("<>", "!=", "unlike is `!=`")),
+        (Eq, Less) => Some(("=<", "<=", "less or equal is `<=`")),
+        _ => None,
+    }
+}
+
+/// `constraint: x = 3`: a rule of which the name was left out, with its colon. Returns true where it was reported.
+pub(in crate::grammar) fn colon_without_name(p: &mut Parser<'_>) -> bool {
+    let (first, last) = (p.pos(), p.line_end());
+    let is_class = p.nth(2) == Ident && p.word(2).starts_with(char::is_uppercase);
+    let is_one = p.word(0) == "constraint"
+        && !is_class
+        && (2..=last - first).any(|n| compares(p.nth(n)));
+    if is_one {
+        let rule = p.quoted_line(first + 2);
+        let said = (
+            "expected-name",
+            "found `:` after `constraint`, wanted a name or a rule".to_string(),
+            format!("a rule without a name has no colon: `constraint {rule}`"),
+        );
+        p.report_mistake((first + 1, first + 1), said, Some((p.span_at(first + 1), String::new())));
+        p.skip_line();
+    }
+    is_one
 }
 
 fn compares(kind: SyntaxKind) -> bool {
@@ -221,6 +273,7 @@ pub(in crate::grammar) fn strange_number(p: &mut Parser<'_>) -> Option<usize> {
         return None;
     }
     let found = underscored(p).or_else(|| power_of_ten(p)).or_else(|| resistance(p));
+    let found = found.or_else(|| thousands(p)).or_else(|| spelled(p));
     let ((length, number), at) = (found?, p.pos());
     let (digits, last) = (p.text_between(at - 1, at - 1), at + length - 1);
     let said = (
@@ -229,6 +282,9 @@ pub(in crate::grammar) fn strange_number(p: &mut Parser<'_>) -> Option<usize> {
         match length {
             1 if p.word(0).starts_with('_') => {
                 format!("the digits of a number stand together: write `{number}`")
+            }
+            1 if p.word(0).starts_with(['h', 'x', 'º']) => {
+                format!("write `{number}`")
             }
             1 | 2 => format!("a number has its point and its unit: `{number}`"),
             _ => format!("write `{number}`"),
@@ -272,6 +328,35 @@ fn resistance(p: &Parser<'_>) -> Option<(usize, String)> {
     let has_unit = p.nth(1) == Ident && p.word(1) == "ohm" && !p.begins_line(1);
     let is_one = is_whole(digits) && is_whole(rest) && (has_unit || p.is_of("Resistance"));
     is_one.then(|| (1 + usize::from(has_unit), format!("{digits}.{rest} {unit}")))
+}
+
+/// `2h30m`, `45º`, `0x1F`: how many tokens it has behind its number, and how it is written.
+fn spelled(p: &Parser<'_>) -> Option<(usize, String)> {
+    let (digits, rest) = (p.text_between(p.pos() - 1, p.pos() - 1), p.word(0));
+    let number = match rest.split_at_checked(1) {
+        Some(("h", minutes)) if is_whole(minutes.trim_end_matches(['m', 'i', 'n'])) => {
+            format!("{digits} h + {} min", minutes.trim_end_matches(['m', 'i', 'n']))
+        }
+        Some(("x", hexadecimal)) if digits == "0" => {
+            i64::from_str_radix(hexadecimal, 16).ok()?.to_string()
+        }
+        _ if rest == "º" => format!("{digits} deg"),
+        _ => return None,
+    };
+    Some((1, number))
+}
+
+/// `4.7k`: how many tokens it has behind its number, and how it is written.
+fn thousands(p: &Parser<'_>) -> Option<(usize, String)> {
+    let digits = p.text_between(p.pos() - 1, p.pos() - 1);
+    let is_plain = digits.chars().all(|c| c.is_ascii_digit() || c == '.');
+    let number = match (p.word(0), p.is_of("Resistance")) {
+        ("k", true) => format!("{digits} kohm"),
+        ("M", true) => format!("{digits} Mohm"),
+        ("k", false) => format!("{digits}e3"),
+        _ => return None,
+    };
+    is_plain.then_some((1, number))
 }
 
 fn is_whole(number: &str) -> bool {
