@@ -178,20 +178,31 @@ impl Model {
         self.values = values.collect();
     }
     /// Writes what keeps the values as they are: where it is written already, else at the first path; a spot
-    /// as a whole.
+    /// as a whole, but for one of which its class gives a number that stays as it is.
     fn hold(&mut self) {
-        let wanted = self.values.clone();
-        for (first, (counts, x)) in self.counting() {
+        let (wanted, counting, groups) = (self.values.clone(), self.counting(), self.groups());
+        let written = self.written.clone();
+        let stays = |leaf: &Names| {
+            let (counts, x) = &counting[&groups[leaf]];
+            let is_far = counts.len() >= 2 && counts[counts.len() - 2] == "q";
+            let is_of_class = !written.contains_key(counts) && !is_far;
+            is_of_class
+                && counts.split_last().map(|c| c.1) == leaf.split_last().map(|l| l.1)
+                && wanted[leaf] == *x
+        };
+        for (first, (counts, x)) in counting.clone() {
             if wanted[&first] == x {
                 continue;
             }
             let at = if self.written.contains_key(&counts) { counts } else { first };
             let (name, owner) = at.split_last().expect("a leaf has a name");
             let is_place = ["x", "y"].contains(&name.as_str());
-            for name in if is_place { vec!["x", "y"] } else { vec![name.as_str()] } {
-                let leaf: Names =
-                    owner.iter().map(String::as_str).chain([name]).map(str::to_string).collect();
-                self.written.insert(leaf.clone(), wanted[&leaf]);
+            let leaf = |name: &str| -> Names {
+                owner.iter().map(String::as_str).chain([name]).map(str::to_string).collect()
+            };
+            let is_whole = is_place && !["x", "y"].into_iter().any(|name| stays(&leaf(name)));
+            for name in if is_whole { vec!["x", "y"] } else { vec![name.as_str()] } {
+                self.written.insert(leaf(name), wanted[&leaf(name)]);
             }
         }
         self.settle();

@@ -75,6 +75,10 @@ impl<I: Id, T> IdVec<I, T> {
     pub fn reserve(&mut self, more: usize) {
         self.items.reserve(more);
     }
+    /// Gives back the room that no element takes.
+    pub fn shrink_to_fit(&mut self) {
+        self.items.shrink_to_fit();
+    }
     /// Adds elements, in order.
     pub fn extend(&mut self, items: impl IntoIterator<Item = T>) {
         self.items.extend(items);

@@ -264,21 +264,32 @@ pub(crate) fn run(path: &Path, which: Rows, form: Form) -> Result<Report, OpenEr
         words.push_str(&show_diagnostic(&opened, d));
     }
     let arbitrary = opened.session.arbitrary(opened.id);
-    let rows: Vec<ValueRow> = opened.session.values(opened.id);
-    let listed: Vec<&ValueRow> =
-        rows.iter().filter(|row| which == Rows::All || !row.is_layout).collect();
-    words.push_str(&rows::written(&listed, &|row| mark(row, &arbitrary)));
-    if listed.iter().any(|row| mark(row, &arbitrary) == '~') {
-        words.push_str("~ arbitrary: nothing decides it\n");
+    if form == Form::Words {
+        // what is not read here would take more room than the document itself, where that is large
+        let mut keep = |row: ValueRow| {
+            let is_listed = which == Rows::All || !row.is_layout;
+            is_listed.then(|| ValueRow {
+                class: String::new(),
+                exact: String::new(),
+                doc: String::new(),
+                options: Vec::new(),
+                ..row
+            })
+        };
+        let rows = opened.session.values_where(opened.id, &mut keep);
+        let listed: Vec<&ValueRow> = rows.iter().collect();
+        words.push_str(&rows::written(&listed, &|row| mark(row, &arbitrary)));
+        if listed.iter().any(|row| mark(row, &arbitrary) == '~') {
+            words.push_str("~ arbitrary: nothing decides it\n");
+        }
     }
     let status = opened.session.status(opened.id);
     let _ = writeln!(words, "{}", status.message);
     let good = status.satisfied && diagnostics.iter().all(|d| d.severity != "error");
-    // of large documents it would take more room than these themselves
-    let json = || {
+    let json = |opened: &Opened| {
         json!({
             "path": path,
-            "values": rows,
+            "values": opened.session.values(opened.id),
             "arbitrary": arbitrary,
             "status": status,
             "diagnostics": in_files(path, diagnostics.clone()),
@@ -286,7 +297,7 @@ pub(crate) fn run(path: &Path, which: Rows, form: Form) -> Result<Report, OpenEr
     };
     Ok(match form {
         Form::Words => Report { text: words, aside: String::new(), good },
-        Form::Json => report(form, good, words, &json()),
+        Form::Json => report(form, good, words, &json(&opened)),
     })
 }
 

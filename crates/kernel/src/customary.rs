@@ -190,7 +190,8 @@ fn joined(factors: &[(&str, i8)]) -> String {
     let above = factors.iter().filter(|(_, power)| *power > 0).map(|f| spelled(*f));
     let above: Vec<String> = above.collect();
     let below = factors.iter().filter(|(_, power)| *power < 0);
-    let below: String = below.map(|&(unit, power)| format!("/{}", spelled((unit, -power)))).collect();
+    let below: String =
+        below.map(|&(unit, power)| format!("/{}", spelled((unit, -power)))).collect();
     let above = if above.is_empty() { "1".into() } else { above.join("*") };
     match format!("{above}{below}").as_str() {
         "lbf/in^2" => "psi".into(),

@@ -140,7 +140,8 @@ pub fn spelling_for(x: f64, quantity: Quantity<'_>, document: &Document) -> Stri
         // a sum of several units, `52 deg + 30 arcmin`, reads in degrees
         let is_one = written_units <= 1;
         let is_read = |s: &&str| x == 0.0 || READABLE.contains(&size(s));
-        let is_of_degrees = |s: &&str| is_one && matches!(*s, "arcmin" | "arcsec" | "mas") && is_read(s);
+        let is_of_degrees =
+            |s: &&str| is_one && matches!(*s, "arcmin" | "arcsec" | "mas") && is_read(s);
         return written.filter(is_of_degrees).unwrap_or("deg").into();
     }
     if let Some(spelling) = written.filter(|s| x == 0.0 || READABLE.contains(&size(s))) {

@@ -74,8 +74,8 @@ pub struct GivenTerm {
 pub struct Copied {
     /// What it is a copy of: something computed, and no copy itself.
     pub of: SlotId,
-    /// Where that is written.
-    pub origin: OriginId,
+    /// What it would be given.
+    pub value: GivenId,
 }
 
 /// A constraint of a thing.

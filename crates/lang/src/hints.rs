@@ -13,6 +13,9 @@ use kernel::quantity::is_of_the_sheet;
 use kernel::{BinaryOperator, Class, ClassId, Document, Message, PartRef, Path};
 use syntax::ast::{self, AstNode, BinaryOp, Expr, UnaryOp};
 
+/// How a plain number becomes a length of the sheet.
+const PLAIN_AS_LENGTH: &str =
+    "what is computed of plain numbers alone is none: `1 * cos(a)` is a length where one is wanted";
 /// How many names a hint lists.
 const MOST_LISTED: usize = 12;
 /// How many messages of other classes a hint shows.
@@ -266,6 +269,9 @@ impl Lowerer<'_> {
             {
                 d.hint(counted(&self.document, *found, value, &written))
             }
+            (Kind::Tuple(items), Kind::Thing(_), _) if items.contains(&Kind::PLAIN) => {
+                d.hint(PLAIN_AS_LENGTH)
+            }
             (Kind::List(_), Kind::Thing(_), Expr::List(list)) => {
                 let items: Vec<String> =
                     list.elements().map(|e| e.syntax().text().to_string()).collect();
@@ -282,16 +288,17 @@ impl Lowerer<'_> {
         let (found_words, wanted_words) =
             (found.words(&self.document), wanted.words(&self.document));
         let message = format!("found {found_words}, wanted {wanted_words}");
-        let d = Diagnostic::error(code_for(found, wanted), Place { file: scope.file, span }, message);
+        let d =
+            Diagnostic::error(code_for(found, wanted), Place { file: scope.file, span }, message);
         let range = span.start as usize..span.end as usize;
-        let written = self.files[scope.file].text.get(range).unwrap_or_default();
+        let written = self.files[scope.file].text.get(range).unwrap_or_default().trim();
         let is_name = |text: &str| text.chars().all(|c| c.is_alphanumeric() || "_.".contains(c));
         self.report(match (found, wanted) {
             (Kind::List(_), Kind::Number(_)) if is_name(written) => d.hint(format!(
                 "one of its elements is `{written}[0]`, what is made of each `{written}.map(x => 2 * x)`"
             )),
             (Kind::Number(_), Kind::Bool) => {
-                d.hint("each side of `and` and `or` is a rule by itself: `x = 3 or x = 4`")
+                d.hint("what is true or false compares, on each side of `or`, too: `x = 3 or x = 4`")
             }
             _ => d,
         });
@@ -328,6 +335,12 @@ impl Lowerer<'_> {
         if let (Kind::List(_), Kind::List(_), Some(BinaryOperator::Add)) = (left, right, operator) {
             d = d.hint("what either list has, each once, is `xs.union(other: ys)`; numbers of two lists are added by `xs.zip(other: ys).map(pair => pair[0] + pair[1])`");
         }
+        if let (Kind::Thing(_), Kind::Tuple(items)) | (Kind::Tuple(items), Kind::Thing(_)) =
+            (left, right)
+            && items.contains(&Kind::PLAIN)
+        {
+            d = d.hint(PLAIN_AS_LENGTH);
+        }
         if (left, right) == (&Kind::Picture, &Kind::Picture) {
             d = d.hint("`picture(a, b)` draws both");
         }
@@ -335,11 +348,14 @@ impl Lowerer<'_> {
         if matches!((left, right), (Kind::Number(_), Kind::Number(_)))
             && is_plain(left) != is_plain(right)
         {
-            let measures = if is_plain(left) { b } else { a };
+            let (measures, kind) = if is_plain(left) { (b, right) } else { (a, left) };
             let quantity = measures.split(" (").next().unwrap_or_default();
-            d = d.hint(format!(
-                "a product measures what its factors do: declare one as {quantity}, or give it a unit"
-            ));
+            d = d.hint(match *kind == Kind::LENGTH && !self.document.writes_lengths {
+                true => PLAIN_AS_LENGTH.to_string(),
+                false => format!(
+                    "a product measures what its factors do: declare one as {quantity}, or give it a unit"
+                ),
+            });
         }
         self.report(d);
     }
@@ -454,7 +470,9 @@ pub(crate) fn called_otherwise(word: &str) -> Option<&'static str> {
         "integrate" | "integral" => "sum steps: `(0..<n).map(i => …).sum * h`",
         "PI" | "Pi" | "π" => "write `pi`",
         "this" | "self" | "me" => "a part is named by itself: `width`",
-        "null" | "nil" | "none" | "None" | "undefined" | "NaN" => "what nothing is said of is zero, false or empty",
+        "null" | "nil" | "none" | "None" | "undefined" | "NaN" => {
+            "what nothing is said of is zero, false or empty"
+        }
         "True" | "TRUE" | "yes" => "write `true`",
         "False" | "FALSE" | "no" => "write `false`",
         "len" | "length" | "COUNT" | "size" => {

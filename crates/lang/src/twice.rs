@@ -13,13 +13,13 @@ const CODE: &str = "given-twice";
 impl Lowered {
     /// Returns a warning for every value of the text that another in the same body takes the place of.
     ///
-    /// Cost: a look at every given value of the text's own classes.
+    /// Cost: a look at every given value.
     pub fn given_twice(&self) -> Vec<Diagnostic> {
         let mut said = BTreeSet::new();
         let mut warnings = Vec::new();
-        for class in self.own_classes() {
+        for (_, class) in self.document.classes.iter() {
             let mut latest: BTreeMap<&Path, Place> = BTreeMap::new();
-            for given in self.document.classes[class].givens.iter().map(|given| &**given) {
+            for given in class.givens.iter().map(|given| &**given) {
                 let Given { path, origin, .. } = given;
                 let place = self.place(*origin);
                 if place.file != OWN {
@@ -27,7 +27,8 @@ impl Lowered {
                 }
                 let before = latest.insert(path, place).filter(|before| *before != place);
                 if let Some(before) = before.filter(|before| said.insert(*before)) {
-                    let message = format!("{path} is given here, and again further on: that counts");
+                    let message =
+                        format!("{path} is given here, and again further on: that counts");
                     let d = Diagnostic::warning(CODE, before, message).label(place, "here");
                     warnings.push(d.hint("give it once; what holds at all times is a constraint"));
                 }

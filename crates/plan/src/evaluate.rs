@@ -286,7 +286,10 @@ impl<'a> Opening<'a> {
     pub(crate) fn count_term(&mut self) -> Result<(), Trouble> {
         self.terms += 1;
         if self.terms > MOST_TERMS {
-            return Err(Trouble::new(FaultKind::Endless, "it opens into more than a million terms"));
+            return Err(Trouble::new(
+                FaultKind::Endless,
+                "it opens into more than a million terms",
+            ));
         }
         Ok(())
     }

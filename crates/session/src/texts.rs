@@ -43,7 +43,8 @@ impl<'a> Texts<'a> {
     pub(crate) fn unlike_copy(&self, values: &Values) -> Option<OriginId> {
         let mut copied = self.structure.copied.iter();
         let is_unlike = |slot, of| self.copied.get(slot).is_some_and(|was| *was != values.get(of));
-        copied.find(|(slot, copied)| is_unlike(slot, copied.of)).map(|(_, copied)| copied.origin)
+        let (_, found) = copied.find(|(slot, copied)| is_unlike(slot, copied.of))?;
+        Some(self.structure.givens[found.value].origin)
     }
 }
 

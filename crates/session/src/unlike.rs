@@ -104,7 +104,8 @@ fn warning(state: &State, place: Place, line: &Line) -> Diagnostic {
     let (was, is) = (shown(0), shown(1));
     let merged = merged_at(state, line.parts[0], line.parts[1]);
     if line.holds {
-        let message = format!("{part} is anchored at {was}, and {other} at {is}: they cannot be one");
+        let message =
+            format!("{part} is anchored at {was}, and {other} at {is}: they cannot be one");
         let d = Diagnostic::error(CODE, merged.unwrap_or(place), message);
         return d.label(line.counts, "here").label(place, "here").hint("anchor one of them alone");
     }

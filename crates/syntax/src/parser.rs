@@ -686,7 +686,7 @@ fn meant_by(text: &str, span: Span) -> Option<&'static str> {
         Some('½') => "write `0.5`",
         Some('¼') => "write `0.25`",
         Some('¾') => "write `0.75`",
-        Some('?') if follows(text, span, "?\n") => {
+        Some('?') if text[span.range().start + 1..].lines().next().is_none_or(str::is_empty) => {
             "every part has a value, at first zero, false or empty: leave `?` out"
         }
         Some('?') => "a value is chosen by `if c then a else b`",

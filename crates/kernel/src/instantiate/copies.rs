@@ -27,7 +27,7 @@ pub(super) fn forget_computed(form: &mut Form, givens: &Givens) {
                 let given = form.slots[slot].given.take();
                 // of a copy of a copy, what that one is a copy of
                 let of = form.copied.get(&source).map_or(source, |copied| copied.of);
-                let copied = given.map(|given| Copied { of, origin: givens[given.value].origin });
+                let copied = given.map(|given| Copied { of, value: given.value });
                 form.copied.extend(copied.map(|copied| (slot, copied)));
             }
             is_known

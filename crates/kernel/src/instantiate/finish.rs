@@ -22,6 +22,7 @@ pub(super) fn finish(maker: &mut Maker<'_>, body: Body, givens: &Givens) -> Form
     };
     structure.slots.reserve(body.things.len());
     give_slots(maker, &body, &order, givens, &mut structure);
+    structure.slots.shrink_to_fit();
     let references = given_references(maker, &body);
     let first = |t: ThingId| body.merged[t];
     // by their ranks, which tell the things

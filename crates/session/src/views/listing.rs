@@ -5,10 +5,23 @@
 
 use super::{structure, values};
 use crate::document::Open;
+use crate::session::Session;
 use crate::state::State;
-use crate::view::{StructureRow, ValueRow};
+use crate::view::{DocumentId, StructureRow, ValueRow};
 use kernel::Values;
 use std::rc::Rc;
+
+impl Session {
+    /// Returns those of the values that are to be kept, as they are to be kept.
+    pub fn values_where(
+        &self,
+        id: DocumentId,
+        keep: &mut dyn FnMut(ValueRow) -> Option<ValueRow>,
+    ) -> Vec<ValueRow> {
+        let open = self.document(id);
+        values::rows_where((&open.state, open.values(), &open.status), keep)
+    }
+}
 
 /// Rows that are being made.
 pub struct Listing {

@@ -17,6 +17,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 use std::rc::Rc;
 
+/// So many things are listed before what is to be kept of their rows is asked.
+const PORTION: usize = 1000;
 /// Of what a program drew at most this many values are shown; what is beyond is reached by its path.
 const MOST_DRAWN: usize = 1000;
 
@@ -25,6 +27,26 @@ pub(crate) fn rows(state: &State, values: &Values, status: &plan::Status) -> Vec
     let mut work = Work::default();
     work.go_on((state, values, status), &mut || true);
     work.rows
+}
+
+/// Returns the rows that are to be kept. Of large documents all would take more room than these themselves.
+pub(crate) fn rows_where(
+    (state, values, status): (&State, &Values, &plan::Status),
+    keep: &mut dyn FnMut(ValueRow) -> Option<ValueRow>,
+) -> Vec<ValueRow> {
+    let (mut work, mut kept) = (Work::default(), Vec::new());
+    loop {
+        let mut left = PORTION;
+        let mut has_time = || {
+            left -= 1;
+            left > 0
+        };
+        let is_over = work.go_on((state, values, status), &mut has_time);
+        kept.extend(work.rows.drain(..).filter_map(&mut *keep));
+        if is_over {
+            return kept;
+        }
+    }
 }
 
 /// What is done and left to do of the rows.

@@ -307,7 +307,8 @@ fn assigned(p: &mut Parser<'_>) {
     });
     let hint = hint.or_else(|| {
         let assigns = p.at(ColonEq);
-        assigns.then(|| "a value is given with `=`; `:=` stands in the methods of a constraint".into())
+        assigns
+            .then(|| "a value is given with `=`; `:=` stands in the methods of a constraint".into())
     });
     p.expected_hint("expected-value", "`=` and a value", hint);
 }

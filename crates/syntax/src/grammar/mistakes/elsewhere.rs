@@ -3,8 +3,8 @@
 use super::MEMBER;
 use crate::kind::SyntaxKind;
 use crate::kind::SyntaxKind::{
-    Caret, Colon, Comma, Eof, Eq, FatArrow, Greater, GreaterEq, Ident, LBrace, LParen, Less, LessEq, Minus,
-    NotEq, NotKw, Number, Plus, RBrace, RParen, Semicolon, Slash, Star, Text, Unit,
+    Caret, Colon, Comma, Eof, Eq, FatArrow, Greater, GreaterEq, Ident, LBrace, LParen, Less,
+    LessEq, Minus, NotEq, NotKw, Number, Plus, RBrace, RParen, Semicolon, Slash, Star, Text, Unit,
 };
 use crate::parser::Parser;
 use crate::units::follows_operand;
@@ -140,7 +140,8 @@ fn sign(p: &Parser<'_>) -> Option<String> {
         }
         // `5 ft 3 in`
         Number if p.behind(1) == Unit && p.behind(2) == Number && p.nth(1) == Unit => {
-            let (large, small) = (p.quoted(p.pos() - 2, p.pos() - 1), p.quoted(p.pos(), p.pos() + 1));
+            let (large, small) =
+                (p.quoted(p.pos() - 2, p.pos() - 1), p.quoted(p.pos(), p.pos() + 1));
             format!("what is measured in two units is a sum: `{large} + {small}`")
         }
         Ident if p.behind(1) == Unit && expr::units::unit(p.word(0)).is_some() => {
@@ -207,9 +208,8 @@ pub(in crate::grammar) fn turned(
 pub(in crate::grammar) fn colon_without_name(p: &mut Parser<'_>) -> bool {
     let (first, last) = (p.pos(), p.line_end());
     let is_class = p.nth(2) == Ident && p.word(2).starts_with(char::is_uppercase);
-    let is_one = p.word(0) == "constraint"
-        && !is_class
-        && (2..=last - first).any(|n| compares(p.nth(n)));
+    let is_one =
+        p.word(0) == "constraint" && !is_class && (2..=last - first).any(|n| compares(p.nth(n)));
     if is_one {
         let rule = p.quoted_line(first + 2);
         let said = (
