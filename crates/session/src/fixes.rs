@@ -33,10 +33,10 @@ pub(crate) fn add_uses(text: &str, diagnostics: &mut [Diagnostic], host: &dyn Ho
         }
         let libraries = libraries.get_or_insert_with(|| {
             let names = host.libraries().into_iter();
-            names.filter_map(|name| host.read(&name).map(|text| Library::of(name, &text))).collect()
+            names.filter_map(|name| Some(Library::of(host.read(&name)?, name))).collect()
         });
         // what was used already would have been found
-        for library in libraries.iter().filter(|library| library.classes.contains(word)) {
+        for library in libraries.iter().filter(|library| library.declares(word)) {
             let name = &library.name;
             let title = format!("use {name}");
             let (at, insert) = library.line.get_or_init(|| line_at_head(text, &title)).clone();
@@ -50,20 +50,29 @@ pub(crate) fn add_uses(text: &str, diagnostics: &mut [Diagnostic], host: &dyn Ho
 /// A library that may have what is missing.
 struct Library {
     name: String,
-    /// The names of the classes that it declares.
-    classes: BTreeSet<String>,
+    text: String,
+    /// The names of the classes that it declares; read when its text has the word that is looked for.
+    classes: OnceCell<BTreeSet<String>>,
     /// The line that brings it, and where that goes; found when first asked for.
     line: OnceCell<(Span, String)>,
 }
 
 impl Library {
-    fn of(name: String, text: &str) -> Self {
+    fn of(text: String, name: String) -> Self {
+        Self { name, text, classes: OnceCell::new(), line: OnceCell::new() }
+    }
+
+    /// Whether it declares a class of a name.
+    fn declares(&self, word: &str) -> bool {
         let class = |member| match member {
             Member::Class(class) => class.name().map(|word| word.text().to_string()),
             _ => None,
         };
-        let classes = syntax::parse(FileId(0), text).file().members().filter_map(class).collect();
-        Self { name, classes, line: OnceCell::new() }
+        let read = || {
+            let file = syntax::parse(FileId(0), &self.text).file();
+            file.members().filter_map(class).collect()
+        };
+        self.text.contains(word) && self.classes.get_or_init(read).contains(word)
     }
 }
 
