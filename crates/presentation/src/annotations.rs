@@ -4,6 +4,10 @@
 //! pixels, each with its words, its lines and its box, which are painted and picked. A hand may have moved some from
 //! where they stand by themselves.
 
+mod drawn;
+
+pub use drawn::{elements, scaled};
+
 use crate::paint::{DisplayList, Mark, note};
 use crate::sheet::View;
 use base::number::{atan2, cos, hypot, sin};
@@ -126,13 +130,27 @@ pub fn notes(all: &[Annotation], picture: &PictureView, view: &View, moved: &Mov
     let (seen, edges) = (seen(all, picture, view), edges(all, picture, view));
     let sides = edges.values().flatten().map(|(a, b)| between(*a, *b));
     let places: Vec<Pixels> = seen.values().map(|seen| seen.middle()).chain(sides).collect();
-    let n = places.len().max(1) as f64;
-    let middle = places.iter().fold((0.0, 0.0), |sum, at| (sum.0 + at.0 / n, sum.1 + at.1 / n));
+    let middle = middle_of(&places);
     let grips = picture.grips.iter().take(MOST_GRIPS);
     let grips = grips.map(|grip| view.screen_from_sheet(Point { x: grip.x, y: grip.y }));
     let grips: Vec<Pixels> = grips.collect();
     let mut desk = Desk { middle, scale: view.scale, taken: BTreeMap::new(), grips, moved };
-    all.iter().flat_map(|one| desk.place(one, &seen, &edges)).collect()
+    let place = |one: &Annotation| {
+        // the dimension of a side stands outside of what it is a side of
+        let own = one.of.first().and_then(|path| edges.get(path.as_str()));
+        let sides = |own: &Vec<(Pixels, Pixels)>| -> Vec<Pixels> {
+            own.iter().map(|(a, b)| between(*a, *b)).collect()
+        };
+        desk.middle = own.map_or(middle, |own| middle_of(&sides(own)));
+        desk.place(one, &seen, &edges)
+    };
+    all.iter().flat_map(place).collect()
+}
+
+/// The middle of some places.
+fn middle_of(places: &[Pixels]) -> Pixels {
+    let n = places.len().max(1) as f64;
+    places.iter().fold((0.0, 0.0), |sum, at| (sum.0 + at.0 / n, sum.1 + at.1 / n))
 }
 
 /// What the picture shows of everything that annotations are of.
@@ -206,7 +224,7 @@ fn edges<'a>(all: &'a [Annotation], picture: &PictureView, view: &View) -> Edges
 
 /// Where notes are put one after the other.
 struct Desk<'m> {
-    /// The middle of all that they are of: dimensions stand away from it.
+    /// The middle of all that they are of, or of what a side belongs to: dimensions stand away from it.
     middle: Pixels,
     /// How many pixels a unit of the sheet has.
     scale: f64,
@@ -676,6 +694,21 @@ mod tests {
         let all = notes(&all, &picture, &view, &Moved::new());
         // the grip is at (300, 274), where the words would stand
         assert_eq!(all[0].at, (300.0, 260.0));
+    }
+
+    #[test]
+    fn the_width_of_a_box_stands_outside_of_it_whatever_stands_below() {
+        let point = |x, y| Point { x, y };
+        let mut picture = corner();
+        let points =
+            vec![point(0.0, 200.0), point(80.0, 200.0), point(80.0, 260.0), point(0.0, 260.0)];
+        picture.drawing.elements[1].shape = Shape::Polyline { points, closed: true };
+        let view = View { scale: 2.0, x: 200.0, y: 600.0, ..View::default() };
+        let width = annotation("c1", Shows::Length, "80 mm", &["b"]);
+        let below = annotation("c2", Shows::Length, "100 mm", &["a"]);
+        let all = notes(&[width, below], &picture, &view, &Moved::new());
+        // the box lies between 80 and 200 on the screen
+        assert!(!(80.0..=200.0).contains(&all[0].at.1), "{:?}", all[0].at);
     }
 
     #[test]

@@ -4,6 +4,8 @@
 //! nothing, a dimension (`30 mm`, `R 5 mm`, `45 deg`) or a sign (`∥`, `⟂`, `H`), with the paths of what it is of. Where
 //! these lie only the picture knows; so nothing here is made anew while something is dragged.
 
+mod relations;
+
 use crate::by_hand::class_at;
 use crate::classing::{self, EqualsNumber};
 use crate::document::Open;
@@ -34,12 +36,22 @@ pub(crate) fn annotations(open: &Open) -> Vec<Annotation> {
     let owner = prototype.unwrap_or(DOCUMENT);
     let is_part = |of: ThingId| state.structure.things[of].owner == Some(owner);
     let on = on(state, &evaluator, |of| of == owner || is_part(of));
-    if on.is_empty() || on.len() > MOST {
+    if on.len() > MOST {
         return Vec::new();
     }
     // what is typed in a pane is of the class: the text stands elsewhere
     let numbers = if prototype.is_none() { numbers(state) } else { BTreeMap::new() };
-    on.into_iter().filter_map(|one| annotation(state, &evaluator, (owner, &numbers), one)).collect()
+    let (own, of_parts): (Vec<_>, Vec<_>) = on.into_iter().partition(|(_, of)| of.owner == owner);
+    let said = |one| annotation(state, &evaluator, (owner, &numbers), one);
+    let told = relations::signs(state, &evaluator, is_part);
+    let is_told = |of: ThingId| told.iter().any(|(thing, _)| *thing == of);
+    let others: Vec<_> = of_parts.into_iter().filter(|(_, of)| !is_told(of.owner)).collect();
+    let in_document = |typed: &Offer| (prototype.is_none()).then(|| typed.clone());
+    let relations = told.iter().map(|(_, sign)| Annotation {
+        typed: sign.typed.as_ref().and_then(in_document),
+        ..sign.clone()
+    });
+    relations.chain(others.into_iter().chain(own).filter_map(said)).collect()
 }
 
 /// The constraints of some things that are switched on, each with its index.
@@ -233,14 +245,8 @@ impl<'a> Reader<'a, '_> {
         let Ok(Answer::Number(x, dimension)) = self.evaluator.evaluate(value, self.owner) else {
             return None;
         };
-        let quantity = kernel::Quantity { dimension, ..kernel::Quantity::default() };
         let is_angle = matches!(shows, Shows::Angle(_)) || &**name == "direction";
-        let shown = if is_angle {
-            format!("{}°", base::number::significant(x * 180.0 / PI, DIGITS))
-        } else {
-            let shown = kernel::show_quantity(x, quantity, &self.state.lowered.document);
-            words::with_unit(shown.text, &shown.unit)
-        };
+        let shown = if is_angle { in_degrees(x) } else { in_words(self.state, x, dimension) };
         let measure = Some((name.to_string(), x));
         Some(Reading { shows, words: format!("{before}{shown}"), of, measure })
     }
@@ -250,6 +256,18 @@ impl Reading {
     fn relation(words: &str, of: Vec<Path>) -> Self {
         Self { shows: Shows::Relation, words: words.into(), of, measure: None }
     }
+}
+
+/// An angle as it stands on a drawing.
+fn in_degrees(radians: f64) -> String {
+    format!("{}°", base::number::significant(radians * 180.0 / PI, DIGITS))
+}
+
+/// Another number as it stands on a drawing, with its unit.
+fn in_words(state: &State, x: f64, dimension: expr::Dimension) -> String {
+    let quantity = kernel::Quantity { dimension, ..kernel::Quantity::default() };
+    let shown = kernel::show_quantity(x, quantity, &state.lowered.document);
+    words::with_unit(shown.text, &shown.unit)
 }
 
 /// What a term is of, and whether it is turned round: `-line` runs the other way.
@@ -272,16 +290,25 @@ fn parted(path: &Path) -> Option<(Path, &str)> {
     }
 }
 
-/// The sign of a relation by the name of the message that says it; where there is none, its words.
+/// The sign of a relation by the name of the message or the class that says it; where there is none, its words.
 fn sign(name: &str) -> String {
-    match name {
-        "parallel" => "∥".into(),
-        "perpendicular" => "⟂".into(),
-        "passes" => "on".into(),
-        "concentric" => "◎".into(),
-        "isHorizontal" => "H".into(),
-        "isVertical" => "V".into(),
-        "tangent" => "T".into(),
-        _ => words_of(name),
-    }
+    let words = words_of(name);
+    let begins = |(with, _): &&(&str, &str)| {
+        words.strip_prefix(with).is_some_and(|rest| rest.is_empty() || rest.starts_with(' '))
+    };
+    SIGNS.iter().find(begins).map_or(words.clone(), |(_, sign)| (*sign).into())
 }
+
+/// The signs of relations by the words that their names begin with.
+const SIGNS: [(&str, &str); 10] = [
+    ("parallel", "∥"),
+    ("perpendicular", "⟂"),
+    ("passes", "on"),
+    ("point on", "on"),
+    ("concentric", "◎"),
+    ("horizontal", "H"),
+    ("vertical", "V"),
+    ("tangent", "T"),
+    ("equal", "="),
+    ("symmetric", "sym"),
+];

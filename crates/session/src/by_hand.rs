@@ -17,6 +17,7 @@ use crate::view::{
 };
 use crate::ways_out;
 use crate::{Session, tools, views, words};
+use eval::{Evaluator, FaultKind};
 use kernel::{ClassId, Command, Literal, Path, SlotId, Step, ThingId};
 use lang::Wanted;
 
@@ -124,7 +125,8 @@ impl Session {
         }
     }
 
-    /// Returns true if a path leads to something: a thing, a figure that is computed, a constraint.
+    /// Returns true if a path leads to something: a thing, a figure that is computed, or would be with other values, a
+    /// constraint.
     pub fn is_there(&self, id: DocumentId, path: &Path) -> bool {
         let state = &self.document(id).state;
         let is_constraint = || {
@@ -140,7 +142,7 @@ impl Session {
         };
         thing_at(state, path).is_some()
             || is_constraint()
-            || state.evaluator(&state.values).at(path).is_ok()
+            || is_computed(&state.evaluator(&state.values), path)
     }
 
     /// Returns what can be said of some things, and is not said yet: the constraints that fit them, and merging them;
@@ -201,6 +203,10 @@ impl Session {
                 let is_dimension = offer.value.is_some();
                 let anew = is_dimension.then(|| ways_out::said_anew(open, &beside, &command));
                 Ok(anew.flatten().unwrap_or(command))
+            }
+            Deed::Rule(reference) => {
+                let command = offer.command(value);
+                Ok(ways_out::instead_of(open, &beside, reference, &command).unwrap_or(command))
             }
             Deed::Give(path) => {
                 let value = value.or(offer.value.as_deref()).unwrap_or_default();
@@ -557,4 +563,17 @@ fn counts_down(text: &str) -> Option<bool> {
 fn begun_with(library: &str, beside: &Beside<'_>) -> String {
     let is_down = beside.read(library).and_then(|text| counts_down(&text)) == Some(true);
     format!("use {library}{}", if is_down { "\ny down" } else { "" })
+}
+
+/// Whether a path leads to what is computed, or would be: with these values it may have no answer.
+fn is_computed(evaluator: &Evaluator<'_>, path: &Path) -> bool {
+    let fault = |n: &usize| Some((*n, evaluator.at(&Path(path.0[..*n].to_vec())).err()?));
+    match (1..=path.0.len()).filter_map(|n| fault(&n)).next() {
+        // there may be fewer elements
+        Some((n, fault)) => {
+            let is_named = matches!(path.0[n - 1], Step::Part(_));
+            is_named && matches!(fault.kind, FaultKind::NoAnswer | FaultKind::Run(_))
+        }
+        None => true,
+    }
 }

@@ -75,3 +75,4 @@ pub use session::{Session, format, misspelled, parse_path};
 pub use tools::copies::{Clip, Relations};
 pub use view::DocumentId;
 pub use views::listing::Listing;
+pub use views::picture::{readable, roomy, svg_at};

@@ -68,6 +68,7 @@ pub(crate) fn offers(state: &State, paths: &[Path]) -> Vec<Offer> {
     offers.extend(offerer.equals());
     offers.extend(offerer.middles());
     offers.extend(offerer.dimensions());
+    offers.extend(offerer.ruling());
     offers.extend(offerer.classes(&offers));
     // three wholes that are to be one are a slip of the hand
     let are_many = paths.len() > 2 && paths.iter().all(|path| path.0.len() == 1);
@@ -228,27 +229,14 @@ impl Offerer<'_> {
 
     /// Numbers that are to hold: a length, a distance, a radius, an angle.
     fn dimensions(&self) -> Vec<Offer> {
-        let asked = |one: &Selected, name: &str, label: &str, other: &Selected| {
-            let argument = Argument {
-                label: Some(Name::new(label)),
-                value: Term::at(Term::Document, &other.path),
-            };
-            Term::Send {
-                to: Box::new(Term::at(Term::Document, &one.path)),
-                name: Name::new(name),
-                arguments: vec![argument],
-                search: None,
-            }
-        };
         let document = &self.state.lowered.document;
         let distance = || {
             let [a, b] = self.things else { return None };
-            let both = self.is_place(a.class) && self.is_place(b.class);
-            let now = self.number(&asked(a, "distance", "to", b)).filter(|_| both)?;
-            let lefts = distances(&a.path, &b.path);
+            let (one, other, lefts) = self.apart(a, b)?;
+            let now = self.number(&distance_between(&one, &other))?;
             let offer = self.dimension("distance", &lefts, self.written(now));
-            let stands = a.thing.zip(b.thing).and_then(|(a, b)| self.standing(a, b));
-            Some(self.given(stands, offer))
+            let places = thing_at(self.state, &one).zip(thing_at(self.state, &other));
+            Some(self.given(places.and_then(|(a, b)| self.standing(a, b)), offer))
         };
         let single = |name: &str| {
             let [one] = self.things else { return None };
@@ -603,6 +591,17 @@ fn is_unmoved(was: &State, is: &State) -> bool {
             (a, b) => a.same_bits(&b),
         })
     })
+}
+
+/// The term of how far a thing is from a place.
+fn distance_between(one: &Path, place: &Path) -> Term {
+    let value = Term::at(Term::Document, place);
+    Term::Send {
+        to: Box::new(Term::at(Term::Document, one)),
+        name: Name::new("distance"),
+        arguments: vec![Argument { label: Some(Name::new("to")), value }],
+        search: None,
+    }
 }
 
 /// How far two places are apart, from either.

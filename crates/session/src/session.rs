@@ -522,19 +522,13 @@ impl Session {
     pub fn svg(&self, id: DocumentId) -> String {
         views::picture::svg(&self.picture(id))
     }
-    /// Returns the picture as an SVG text, with so many pixels for a unit of the drawing.
-    pub fn svg_at(&self, id: DocumentId, pixels_per_unit: f64) -> String {
-        views::picture::svg_at(&self.picture(id), pixels_per_unit)
-    }
     /// Returns the picture as a DXF text, in millimetres.
     pub fn dxf(&self, id: DocumentId) -> String {
-        let options = drawing::dxf::DxfOptions {
-            millimetres_per_unit: self.document(id).state.lowered.millimetres_per_unit(),
-            ..drawing::dxf::DxfOptions::default()
-        };
-        let picture = self.picture(id);
-        let part = views::picture::blocks(&self.document(id).state, &picture);
-        drawing::dxf::write_in_blocks(&picture.drawing, &options, &part)
+        self.dxf_of(id, &self.picture(id))
+    }
+    /// The same of a picture of it, to which something may have been added.
+    pub fn dxf_of(&self, id: DocumentId, picture: &PictureView) -> String {
+        views::picture::dxf(&self.document(id).state, picture)
     }
     /// Says why some things have no picture, which is drawn without them; nothing is praise.
     pub fn undrawn(&self, id: DocumentId) -> Vec<String> {

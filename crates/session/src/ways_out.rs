@@ -183,6 +183,19 @@ pub(crate) fn said_anew(open: &Open, host: &dyn Host, command: &Command) -> Opti
     })
 }
 
+/// Returns the command that says something in the place of a thing; nothing where it would not hold.
+pub(crate) fn instead_of(
+    open: &Open,
+    host: &dyn Host,
+    thing: &Path,
+    command: &Command,
+) -> Option<Command> {
+    let mut trial = copy(open, host);
+    apply::apply(&mut trial, host, command).ok()?;
+    apply::apply(&mut trial, host, &Command::Delete(thing.clone())).ok()?;
+    trial.status.satisfied.then(|| Command::Text(trial.state.text.clone()))
+}
+
 /// What a constraint is called; its rule, where it has no name of its own.
 fn in_words(state: &State, name: &str) -> String {
     let is_it = |source: &plan::Source| {

@@ -1,12 +1,15 @@
 //! What constraints say, on the drawing: shown, picked, typed anew; and the tool that gives things their sizes.
 
+use crate::dialog::Wish;
 use crate::lab::{Lab, Notice};
 use crate::{theme, words};
 use leptos::prelude::*;
 use presentation::annotations::{self, Moved, Note};
 use presentation::marks::Marked;
+use presentation::numbers::exactly;
 use presentation::paint::{DisplayList, Mark};
 use presentation::paths::covers;
+use presentation::sheet::View;
 use session::Session;
 use session::view::{Annotation, Offer, PictureView};
 
@@ -15,6 +18,17 @@ const MOST: usize = 60;
 /// In a picture of more things than this none are shown while something is dragged.
 const MOST_MOVING: usize = 2000;
 const KEY: &str = "thinglab/annotations";
+
+/// Whether a click gives a thing a size.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Sizing {
+    /// It selects.
+    Off,
+    /// While the size of what was selected is asked for: a click on another thing is the first of the tool.
+    Asked,
+    /// The tool is held.
+    Held,
+}
 
 /// What stands on the drawing.
 #[derive(Clone, Copy, Debug)]
@@ -30,7 +44,11 @@ pub struct Annotated {
     /// How far they had been moved when a hand took one.
     held: StoredValue<Option<Moved>>,
     /// Whether the next thing that is clicked is given a size.
-    pub sizing: RwSignal<bool>,
+    pub sizing: RwSignal<Sizing>,
+    /// What has been typed of the size that is asked for.
+    pub typed: StoredValue<Option<String>>,
+    /// Why that was refused.
+    pub refused: RwSignal<Option<String>>,
     /// Where what is given a size was clicked, in the window: it is asked for there.
     pub clicked: StoredValue<Option<(f64, f64)>>,
 }
@@ -44,7 +62,9 @@ impl Annotated {
             notes: StoredValue::new(Vec::new()),
             moved: RwSignal::new(Moved::new()),
             held: StoredValue::new(None),
-            sizing: RwSignal::new(false),
+            sizing: RwSignal::new(Sizing::Off),
+            typed: StoredValue::new(None),
+            refused: RwSignal::new(None),
             clicked: StoredValue::new(None),
         }
     }
@@ -89,18 +109,31 @@ impl Lab {
             }
             let view = self.view.get();
             self.marked.with(|marked| {
-                let shown: Vec<Annotation> = all
-                    .iter()
-                    .filter(|one| all.len() <= MOST || is_of(one, marked))
-                    .cloned()
-                    .collect();
                 let moved = self.annotated.moved;
-                let made = moved.with(|m| annotations::notes(&shown, picture, &view, m));
+                let made =
+                    moved.with(|m| annotations::notes(&seen(all, marked), picture, &view, m));
                 annotations::paint(list, &made, &view, |path| mark_of(marked, path));
                 made
             })
         });
         notes.set_value(made);
+    }
+
+    /// Adds to a picture that is exported what the constraints say, as far as it is shown, where a unit has so many
+    /// pixels.
+    pub fn draw_notes(self, picture: &mut PictureView, pixels: f64) {
+        let Annotated { all, moved, .. } = self.annotated;
+        let shown = untrack(|| all.with(|all| self.marked.with(|marked| seen(all, marked))));
+        let view = View { scale: pixels, vertical: picture.drawing.vertical, ..View::default() };
+        let times = pixels / self.view.with_untracked(|view| view.scale);
+        let moved = moved.with_untracked(|moved| annotations::scaled(moved, times));
+        let notes = annotations::notes(&shown, picture, &view, &moved);
+        picture.drawing.elements.extend(annotations::elements(&notes, &view));
+    }
+
+    /// Whether anything is said on the drawing.
+    pub fn shows_notes(self) -> bool {
+        self.annotated.notes.with_value(|notes| !notes.is_empty())
     }
 
     /// The note whose words are at a place on the canvas.
@@ -167,46 +200,109 @@ impl Lab {
         theme::put(KEY, Some(kept));
     }
 
-    /// Gives the selection a size: asks for its value. Where nothing is selected that can have one, the next thing that
-    /// is clicked is asked for; the same again ends that.
+    /// Gives the selection a size: asks for its value, and while it is asked for a click goes on to another thing. Where
+    /// nothing is selected that can have one, the next thing that is clicked is asked for; the same again ends that.
     pub fn dimension(self) {
         let constraint = self.selected.get_untracked();
         let typed = untrack(|| constraint.and_then(|path| self.typed_by(&path)));
-        let offered = || untrack(|| self.offers()).into_iter().find(|offer| offer.value.is_some());
-        if let Some(offer) = typed.or_else(offered) {
+        if let Some(offer) = typed.or_else(|| self.size_offered()) {
+            if self.annotated.sizing.get_untracked() == Sizing::Off {
+                self.annotated.sizing.set(Sizing::Asked);
+            }
             self.take_offer(&offer);
-        } else if self.annotated.sizing.get_untracked() {
+        } else if self.is_sizing() {
             self.stop_sizing();
         } else {
             self.draft_end();
             self.drop_tool();
             self.select(None);
             self.notice.set(None);
-            self.annotated.sizing.set(true);
+            self.annotated.sizing.set(Sizing::Held);
         }
+    }
+
+    /// The size that what is selected can be given.
+    fn size_offered(self) -> Option<Offer> {
+        untrack(|| self.offers()).into_iter().find(|offer| offer.value.is_some())
+    }
+
+    /// Whether a click gives a thing a size.
+    pub fn is_sizing(self) -> bool {
+        self.annotated.sizing.get_untracked() != Sizing::Off
     }
 
     /// No further things are given sizes; returns whether any were to be.
     pub fn stop_sizing(self) -> bool {
-        let was = self.annotated.sizing.get_untracked();
+        let was = self.is_sizing();
         if was {
-            self.annotated.sizing.set(false);
+            self.annotated.sizing.set(Sizing::Off);
+            if self.asks_size() {
+                self.wish.set(None);
+            }
         }
         was
     }
 
-    /// What was clicked at a place of the window is given a size, alone or with what was clicked before; with Shift
-    /// another thing may follow. Of a dimension that stands there another value is typed; a sign is no thing.
+    /// Whether a size is asked for.
+    pub fn asks_size(self) -> bool {
+        self.wish.with_untracked(|wish| matches!(wish, Some(Wish::Dimension(_))))
+    }
+
+    /// Asks for a size no longer. With the tool the next thing is another.
+    pub fn end_size(self) {
+        self.wish.set(None);
+        match self.annotated.sizing.get_untracked() {
+            Sizing::Off => {}
+            Sizing::Asked => self.annotated.sizing.set(Sizing::Off),
+            Sizing::Held => self.select(None),
+        }
+    }
+
+    /// A hand is at something else: what has been typed of the size that is asked for is taken, and it is asked for no
+    /// longer. Returns whether it is so; what is refused stays.
+    pub fn settle_size(self) -> bool {
+        let offer = match self.wish.get_untracked() {
+            Some(Wish::Dimension(offer)) => offer,
+            _ => return true,
+        };
+        if let Some(typed) = self.annotated.typed.get_value() {
+            let value = exactly(&typed, offer.value.as_deref().unwrap_or_default());
+            if let Err(sentence) = self.set_dimension(&offer, &value) {
+                self.annotated.refused.set(Some(sentence));
+                return false;
+            }
+        }
+        self.end_size();
+        true
+    }
+
+    /// What was clicked at a place of the window is given a size, alone or with what was clicked before and not answered;
+    /// with Shift another thing may follow. Of a dimension that stands there another value is typed; a sign is no thing.
     pub fn size_picked(self, (path, at): (Option<String>, (f64, f64)), goes_on: bool) {
+        let is_open = self.asks_size() && self.annotated.typed.with_value(Option::is_none);
+        let again = path.as_ref().is_some_and(|path| self.selection_untracked().contains(path));
+        if is_open && again {
+            return;
+        }
+        let before = self.selection_untracked();
+        self.notice.set(None);
+        // from here on it is the tool that is held
+        self.annotated.sizing.set(Sizing::Held);
+        if !self.settle_size() {
+            return;
+        }
         let Some(path) = path else { return self.select(None) };
+        if is_open {
+            self.select_all(&before);
+        }
         let ask = |offer: Offer| {
             self.annotated.clicked.set_value(Some(at));
             self.take_offer(&offer);
         };
         let is_said = |all: &Vec<Annotation>| all.iter().any(|one| one.path == path);
         if self.annotated.all.with_untracked(is_said) {
+            self.select(Some(path.clone()));
             if let Some(offer) = untrack(|| self.typed_by(&path)) {
-                self.select(Some(path));
                 ask(offer);
             }
             return;
@@ -214,19 +310,29 @@ impl Lab {
         if self.selected.with_untracked(Option::is_some) {
             self.select_also(&path);
         } else {
-            self.select(Some(path));
+            self.select(Some(path.clone()));
         }
-        let offered = untrack(|| self.offers()).into_iter().find(|offer| offer.value.is_some());
-        match offered {
-            Some(offer) if !goes_on => ask(offer),
-            Some(_) => {}
-            None if self.also.with_untracked(|also| also.len() > 1) => {
-                self.select(None);
-                self.notice.set(Some(Notice::Said(String::from(words::NO_DIMENSION))));
+        if goes_on {
+            return;
+        }
+        if let Some(offer) = self.size_offered() {
+            ask(offer);
+        } else if self.also.with_untracked(|also| !also.is_empty())
+            && (is_open || !before.is_empty())
+        {
+            // what has no size with the one before begins anew
+            self.select(Some(path));
+            match self.size_offered() {
+                Some(offer) => ask(offer),
+                None => self.notice.set(Some(Notice::Said(String::from(words::NO_DIMENSION)))),
             }
-            None => {}
         }
     }
+}
+
+/// Those annotations that are seen: of many only those of the selection.
+fn seen(all: &[Annotation], marked: &Marked) -> Vec<Annotation> {
+    all.iter().filter(|one| all.len() <= MOST || is_of(one, marked)).cloned().collect()
 }
 
 /// Whether an annotation is of what is selected, or is itself.

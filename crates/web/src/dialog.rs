@@ -2,13 +2,15 @@
 
 use crate::lab::{Lab, Notice};
 use crate::{keyboard, words};
-use leptos::ev::{KeyboardEvent, SubmitEvent};
+use leptos::ev::{self, FocusEvent, KeyboardEvent, SubmitEvent};
 use leptos::html::Input;
 use leptos::prelude::*;
 use presentation::numbers::{exactly, to_read};
-use session::view::Offer;
+use session::view::{Deed, Offer};
 use session::{Command, Session};
 use std::time::Duration;
+use wasm_bindgen::JsCast;
+use web_sys::{Element, EventTarget};
 
 /// What a person is asked to type.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -39,7 +41,14 @@ pub fn Dialog(
 #[component]
 fn Open(lab: Lab, wish: Wish) -> impl IntoView {
     let input = NodeRef::<Input>::new();
-    let error = RwSignal::new(None::<String>);
+    let is_size = matches!(wish, Wish::Dimension(_));
+    let error = if is_size { lab.annotated.refused } else { RwSignal::new(None::<String>) };
+    if is_size {
+        error.set(None);
+        lab.annotated.typed.set_value(None);
+        end_where_document_changes(lab, wish.clone());
+    }
+    let end = move || if is_size { lab.end_size() } else { lab.wish.set(None) };
     let (label, value) = match &wish {
         Wish::SaveAs => {
             let path = lab.current.get_untracked().unwrap_or_default();
@@ -74,17 +83,13 @@ fn Open(lab: Lab, wish: Wish) -> impl IntoView {
     on_cleanup(move || {
         keyboard::give_back(before.try_get_value().flatten());
     });
-    // a size is asked for where the thing is; the next thing is another
-    let is_size = matches!(wish, Wish::Dimension(_));
+    // a size is asked for where the thing is
     let clicked = lab.annotated.clicked.try_update_value(Option::take).flatten();
     let near = clicked.or_else(|| lab.seen_at()).filter(|_| is_size);
-    on_cleanup(move || {
-        if is_size && lab.annotated.sizing.try_get_untracked() == Some(true) {
-            lab.select(None);
-        }
-    });
+    // what only follows is told to do so
+    let follows = matches!(&wish, Wish::Dimension(Offer { deed: Deed::Rule(_), .. }));
     let wish = StoredValue::new(wish);
-    let foreseen = RwSignal::new(None::<String>);
+    let foreseen = RwSignal::new(follows.then(|| String::from(words::ONLY_FOLLOWS)));
     let typing = StoredValue::new(0_u32);
     let look = move || {
         let Some(typed) = input.get_untracked().map(|input| input.value()) else { return };
@@ -107,6 +112,8 @@ fn Open(lab: Lab, wish: Wish) -> impl IntoView {
     };
     let change = move |_| {
         error.set(None);
+        let typed = input.get_untracked().map(|input| input.value());
+        lab.annotated.typed.set_value(typed.filter(|_| is_size));
         typing.update_value(|n| *n += 1);
         let mine = typing.get_value();
         let later = move || {
@@ -133,7 +140,7 @@ fn Open(lab: Lab, wish: Wish) -> impl IntoView {
             Wish::Dimension(offer) => {
                 let value = exactly(&typed, offer.value.as_deref().unwrap_or_default());
                 match lab.set_dimension(&offer, &value) {
-                    Ok(()) => lab.wish.set(None),
+                    Ok(()) => lab.end_size(),
                     Err(sentence) => error.set(Some(sentence)),
                 }
             }
@@ -158,9 +165,22 @@ fn Open(lab: Lab, wish: Wish) -> impl IntoView {
     let key = move |e: KeyboardEvent| {
         e.stop_propagation();
         if e.key() == "Escape" {
-            lab.wish.set(None);
+            end();
         }
     };
+    // a size is in nobody's way: whoever goes elsewhere has given it
+    let leave = move |e: FocusEvent| {
+        if is_size && is_outside(e.related_target(), "[role=dialog]") {
+            lab.settle_size();
+        }
+    };
+    let pressed = window_event_listener(ev::pointerdown, move |e| {
+        // the picture knows what is meant by a press there
+        if is_size && is_outside(e.target(), "[role=dialog], #picture") {
+            lab.settle_size();
+        }
+    });
+    on_cleanup(move || pressed.remove());
     let name = label.clone();
     let only_read = wish.with_value(|wish| match wish {
         Wish::Dimension(offer) => {
@@ -170,8 +190,9 @@ fn Open(lab: Lab, wish: Wish) -> impl IntoView {
     });
     let only_read = StoredValue::new(only_read);
     view! {
-        <div class="shade" class:near=near.is_some() on:pointerdown=move |_| lab.wish.set(None)>
-            <div role="dialog" aria-modal="true" aria-label=name on:pointerdown=|e| e.stop_propagation()
+        <div class="shade" class:near=near.is_some() class:through=is_size on:pointerdown=move |_| end()>
+            <div role="dialog" aria-modal=(!is_size).then_some("true") aria-label=name
+                on:pointerdown=|e| e.stop_propagation() on:focusout=leave
                 style:--x=near.map(|(x, _)| format!("{x}px")) style:--y=near.map(|(_, y)| format!("{y}px"))>
             <form class="asking" on:submit=accept on:keydown=key>
                 <label for="asked">{label}</label>
@@ -183,16 +204,34 @@ fn Open(lab: Lab, wish: Wish) -> impl IntoView {
                     <button class="primary" type="submit">{words::DONE}</button>
                     {only_read.get_value().map(|command| view! {
                         <button type="button" title=words::ONLY_READ_HELP on:click=move |_| {
-                            lab.wish.set(None);
+                            end();
                             lab.apply(&command);
                         }>{words::ONLY_READ}</button>
                     })}
-                    <button type="button" on:click=move |_| lab.wish.set(None)>{words::CANCEL}</button>
+                    <button type="button" on:click=move |_| end()>{words::CANCEL}</button>
                 </p>
             </form>
             </div>
         </div>
     }
+}
+
+/// Whether something of the page is in nothing that a selector finds.
+fn is_outside(target: Option<EventTarget>, selector: &str) -> bool {
+    let element = target.and_then(|target| target.dyn_into::<Element>().ok());
+    element.is_some_and(|element| element.closest(selector).ok().flatten().is_none())
+}
+
+/// Asks for a size no longer once the document is another: what was asked may not be there.
+fn end_where_document_changes(lab: Lab, asked: Wish) {
+    let before = lab.text.with_untracked(|text| text.source.clone());
+    Effect::new(move |_| {
+        let is_other = lab.text.with(|text| text.source != before);
+        // what was clicked next may be asked for already
+        if is_other && lab.wish.with_untracked(|wish| wish.as_ref() == Some(&asked)) {
+            lab.wish.set(None);
+        }
+    });
 }
 
 impl Lab {

@@ -4,6 +4,9 @@ use leptos::prelude::{document, request_animation_frame};
 use wasm_bindgen::JsCast;
 use web_sys::{Element, HtmlElement};
 
+/// The row of the structure that Tab leads to.
+const STOP_OF_TREE: &str = "[role=treeitem][tabindex='0']";
+
 /// Gives the keyboard to the first element of a selector, if there is one.
 pub fn focus(selector: &str) {
     if let Some(element) = document().query_selector(selector).ok().flatten() {
@@ -17,13 +20,16 @@ pub fn holder() -> Option<Element> {
 }
 
 /// With the next frame, gives the keyboard to who had it before, if by then nobody has it; to the picture where that
-/// one is gone from the page, too.
+/// one is gone from the page, too. A row of the structure that has been made anew is not gone.
 pub fn give_back(before: Option<Element>) {
+    let is_row = |before: &Element| before.get_attribute("role").is_some_and(|r| r == "treeitem");
+    let row = before.as_ref().filter(|before| is_row(before)).map(|_| STOP_OF_TREE);
     request_animation_frame(move || {
         let has_none = holder().is_none_or(|holder| holder.tag_name() == "BODY");
+        let is_shown = |stop: &&str| document().query_selector(stop).ok().flatten().is_some();
         match before.filter(|before| before.is_connected() && before.tag_name() != "BODY") {
             Some(before) if has_none => focus_element(&before),
-            None if has_none => focus("#picture"),
+            None if has_none => focus(row.filter(is_shown).unwrap_or("#picture")),
             _ => {}
         }
     });

@@ -1,6 +1,7 @@
 //! The rail of tools, and what the hand does with one: it asks the session and shows what that answers.
 
 use crate::actions::{self, ACTIONS, Action, Group};
+use crate::annotated::Sizing;
 use crate::lab::{Lab, Notice, Zoom};
 use crate::{icons, keyboard, words};
 use leptos::prelude::*;
@@ -32,7 +33,7 @@ fn Button(lab: Lab, action: &'static Action) -> impl IntoView {
     let why = Memo::new(move |_| (action.enabled)(lab).err());
     let held = Memo::new(move |_| match lab.tool.get() {
         Some(class) => action.id == format!("tool-{}", class.to_lowercase()),
-        None if lab.annotated.sizing.get() => action.id == "dimension",
+        None if lab.annotated.sizing.get() != Sizing::Off => action.id == "dimension",
         None => action.id == "select",
     });
     let title = move || {
@@ -134,6 +135,8 @@ impl Lab {
             self.band.set(None);
         } else if self.dragging.with_untracked(Option::is_some) {
             self.cancel();
+        } else if self.asks_size() {
+            self.end_size();
         } else if self.put_note_back() {
             // the hand holds nothing any longer
         } else if self.stop_job() || self.stop_sweeping() {

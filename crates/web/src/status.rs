@@ -1,5 +1,6 @@
 //! The status line, and what the lab has to say.
 
+use crate::annotated::Sizing;
 use crate::lab::{Kind, Lab, Notice};
 use crate::marked::marked;
 use crate::player::NowPlaying;
@@ -59,7 +60,8 @@ pub fn StatusLine(
             true => format!("{hint}; {}", words::TOOL_KEYS),
             false => hint,
         };
-        let sizes = lab.annotated.sizing.get().then(|| String::from(words::SIZING));
+        let sizes =
+            (lab.annotated.sizing.get() != Sizing::Off).then(|| String::from(words::SIZING));
         lab.tool.with(Option::is_some).then(|| typed.unwrap_or(hint)).or(sizes)
     });
     let swept = move || {

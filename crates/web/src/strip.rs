@@ -177,8 +177,10 @@ impl Lab {
         };
         let command = said?;
         Ok(match &offer.deed {
-            Deed::Add if !matches!(command, Command::Text(_)) => self.apply(&command),
-            Deed::Add => self.apply_called(&command, &offer.label),
+            Deed::Add | Deed::Rule(_) if !matches!(command, Command::Text(_)) => {
+                self.apply(&command)
+            }
+            Deed::Add | Deed::Rule(_) => self.apply_called(&command, &offer.label),
             // as where the number itself is typed over, with its unit
             Deed::Give(path) => {
                 let typed = value.or(offer.value.as_deref()).unwrap_or_default();

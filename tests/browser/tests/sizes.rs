@@ -149,14 +149,28 @@ async fn dimensions_stand_on_the_drawing_and_are_typed_anew_there() {
     }
     lay_down(&visit).await;
     assert_eq!(state(&visit).await["status"]["freedom"], 4);
-    // the tool asks for the size of what is clicked, thing after thing
+    // the tool asks for the size of what is clicked, thing after thing; before an answer, between both
     chord(&visit, &[], 'd').await;
     visit.until("document.querySelector('[data-action=dimension][aria-pressed=true]')").await;
-    click(&visit, at(&visit, 0.5, 0.7).await).await;
-    answer(&visit, "80 mm").await;
     let drawn = state(&visit).await;
     let (side, end) = (grip(&drawn, "line.p2"), grip(&drawn, "line2.p2"));
-    click(&visit, (side.0, f64::midpoint(side.1, end.1))).await;
+    let (bottom, side) = (at(&visit, 0.5, 0.7).await, (side.0, f64::midpoint(side.1, end.1)));
+    let asks = |what: &str| {
+        let label = format!("document.querySelector('.asking label')?.textContent === '{what}'");
+        format!("document.activeElement.id === 'asked' && {label}")
+    };
+    click(&visit, bottom).await;
+    visit.until(&asks("Value of the length")).await;
+    click(&visit, side).await;
+    visit.until(&asks("Value of the angle")).await;
+    chord(&visit, &[], key::ESCAPE).await;
+    visit.until("!document.getElementById('asked')").await;
+    // what is typed is taken by the click that goes on to the next
+    click(&visit, bottom).await;
+    visit.until(&asks("Value of the length")).await;
+    keys(&visit, "80 mm").await;
+    click(&visit, side).await;
+    visit.until("window.__thinglab.state().text.includes('constraint line.length = 80 mm')").await;
     answer(&visit, "30").await;
     chord(&visit, &[], key::ESCAPE).await;
     visit.until("document.querySelector('[data-action=select][aria-pressed=true]')").await;
@@ -183,4 +197,10 @@ async fn dimensions_stand_on_the_drawing_and_are_typed_anew_there() {
         row.and_then(|row| row["number"].as_f64()).expect("a number")
     };
     assert!((number("line.p2.x") - number("line.p1.x") - 60.0).abs() < 1e-9);
+    // and is on what is printed
+    let print = "window.dispatchEvent(new Event('beforeprint'));
+        return [...document.querySelectorAll('.printed text')].map(t => t.textContent)";
+    let printed = visit.script(print).await;
+    let has = |words: &str| printed.as_array().is_some_and(|all| all.iter().any(|t| t == words));
+    assert!(has("60 mm") && has("30 mm") && has("H"), "{printed}");
 }

@@ -1,4 +1,5 @@
-//! The angle between two straight things: the one that a person sees between their sides, and its supplement.
+//! What is between two things: how far apart they are, and the angle between straight ones, as a person sees it between
+//! their sides, with its supplement; and what a dimension measures that only reads it.
 //!
 //! In: the offerer with two things that have ends. Out: offers of a number that is not negative. A side runs from the
 //! corner: away from the end that both share, else to the end that is further from where they cross. A thing that runs
@@ -6,7 +7,7 @@
 
 use super::{Offerer, REVERSED, Selected, in_degrees};
 use crate::document::Open;
-use crate::view::{Offer, Refusal};
+use crate::view::{Deed, Offer, Refusal};
 use crate::words;
 use base::Name;
 use base::number::{close, hypot};
@@ -41,10 +42,75 @@ impl Offerer<'_> {
         seen.into_iter().chain(supplement).collect()
     }
 
+    /// What is asked how far it is from what, of two things, and how that is said: two places, of round things their
+    /// centres; a line and a place; a line and the start of one that runs alongside.
+    pub(super) fn apart(&self, a: &Selected, b: &Selected) -> Option<(Path, Path, Vec<String>)> {
+        let place = |one: &Selected| {
+            let center = || one.path.then(Step::Part(Name::new("center")));
+            let is_round = || self.is_a(one.class, "Round");
+            self.is_place(one.class).then(|| one.path.clone()).or_else(|| is_round().then(center))
+        };
+        let aside = |line: &Selected, place: Path| {
+            let said = format!("{}.distance(to: {place})", line.path);
+            self.is_a(line.class, "Straight").then(|| (line.path.clone(), place, vec![said]))
+        };
+        match (place(a), place(b)) {
+            (Some(one), Some(other)) => {
+                let lefts = super::distances(&one, &other).to_vec();
+                Some((one, other, lefts))
+            }
+            (Some(one), None) => aside(b, one),
+            (None, Some(other)) => aside(a, other),
+            (None, None) => {
+                let (first, second) = (self.straight(a)?, self.straight(b)?);
+                let start = b.path.then(Step::Part(Name::new("p1")));
+                runs_alongside(first, second).then(|| aside(a, start)).flatten()
+            }
+        }
+    }
+
+    /// The dimension that one which only reads becomes when it is to rule, where it measures what is stored.
+    pub(super) fn ruling(&self) -> Option<Offer> {
+        let [one] = self.things else { return None };
+        let (document, structure) = (&self.state.lowered.document, &self.state.structure);
+        let own = one.thing?;
+        let measured = |name: &str| {
+            let part = structure.part_named(own, &Name::new(name))?;
+            let under = |thing: &kernel::ThingId| *thing != part;
+            let other = structure.merged_with(part).into_iter().find(under)?;
+            Some(structure.path(document, other))
+        };
+        let read = |name: &str| {
+            self.number(&Term::at(Term::Document, &one.path.then(Step::Part(Name::new(name)))))
+        };
+        let (label, left) = if self.is_a(one.class, "ReferenceDistance") {
+            let [left, _] = super::distances(&measured("from")?, &measured("to")?);
+            ("ruling distance", left)
+        } else if self.is_a(one.class, "ReferenceRadius") {
+            ("ruling radius", format!("{}.radius", measured("circle")?))
+        } else if self.is_a(one.class, "ReferenceAngle") {
+            let (from, to) = (measured("from")?, measured("to")?);
+            ("ruling angle", format!("{from}.angle(to: {to})"))
+        } else {
+            return None;
+        };
+        let now = read("reading")?;
+        let value = match now.1 == expr::Dimension::NONE {
+            true => in_degrees(now.0),
+            false => self.written(now),
+        };
+        let deed = Deed::Rule(one.path.clone());
+        Some(Offer { deed, ..self.dimension(label, &[left], value) })
+    }
+
+    /// Whether a class is one of a name, or below it.
+    fn is_a(&self, class: kernel::ClassId, name: &str) -> bool {
+        let document = &self.state.lowered.document;
+        document.class_named(name).is_some_and(|of| document.is_a(class, of))
+    }
+
     /// The ends of a thing that runs straight.
     fn straight(&self, one: &Selected) -> Option<(Place, Place)> {
-        let document = &self.state.lowered.document;
-        let class = document.class_named("Straight")?;
         let end = |name: &str| {
             let part = |axis: &str| {
                 let path = one.path.then(Step::Part(Name::new(name)));
@@ -54,7 +120,7 @@ impl Offerer<'_> {
             Some((part("x")?, part("y")?))
         };
         let ends = || Some((end("p1")?, end("p2")?));
-        document.is_a(one.class, class).then(ends)?
+        self.is_a(one.class, "Straight").then(ends)?
     }
 
     /// The offer of the angle from one side to another, or the other way round where that is negative.
@@ -98,16 +164,25 @@ impl Offerer<'_> {
 /// Refuses an angle that is told as no angle is: none would ever hold.
 pub(crate) fn beyond(open: &Open, offer: &Offer, value: &str) -> Option<Refusal> {
     let label = offer.label.as_str();
-    if !["angle", "supplement", "direction"].contains(&label) {
+    if !["angle", "supplement", "direction", "ruling angle"].contains(&label) {
         return None;
     }
-    let read = lang::read_literal(value, lang::Wanted::Anything, &open.state.lowered.document);
-    let Ok(Literal::Number(radians)) = read else { return None };
+    let document = &open.state.lowered.document;
+    // what is no angle is told to be none
+    let wanted = lang::Wanted::Class(document.class_named("Angle")?);
+    let Ok(Literal::Number(radians)) = lang::read_literal(value, wanted, document) else {
+        return None;
+    };
     let is_beyond = radians <= -PI || radians > PI;
     is_beyond.then(|| {
         let left = in_degrees(radians - TAU * ((radians - PI) / TAU).ceil());
         words::refuse(format!("the {label} is at most 180 deg: {value} is {left}"))
     })
+}
+
+/// Whether two straight things run the same way, or the opposite one.
+fn runs_alongside((a, b): (Place, Place), (c, d): (Place, Place)) -> bool {
+    close((b.0 - a.0) * (d.1 - c.1), (b.1 - a.1) * (d.0 - c.0))
 }
 
 /// Whether each of two straight things is turned round, so that both run from the corner that one sees.
@@ -125,7 +200,7 @@ fn turned(first: (Place, Place), second: (Place, Place)) -> (bool, bool) {
     }
     let (u, v) = ((b.0 - a.0, b.1 - a.1), (d.0 - c.0, d.1 - c.1));
     let cross = u.0 * v.1 - u.1 * v.0;
-    if close(u.0 * v.1, u.1 * v.0) {
+    if runs_alongside(first, second) {
         // what runs alongside has no corner
         return (false, u.0 * v.0 + u.1 * v.1 < 0.0);
     }

@@ -130,6 +130,8 @@ pub enum Deed {
     Round(Vec<kernel::Path>),
     /// A rectangle becomes its four lines.
     InLines(kernel::Path),
+    /// The dimension at a path, which only follows what it measures, becomes one that says its value.
+    Rule(kernel::Path),
 }
 
 /// Of what something is that becomes part of a class by example.

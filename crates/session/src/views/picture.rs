@@ -279,7 +279,7 @@ impl Shown {
 }
 
 /// Returns the block of each tag for an exchange format: the thing whose program drew it. Sides of a rectangle are none.
-pub(crate) fn blocks<'p>(
+fn blocks<'p>(
     state: &'p State,
     picture: &'p PictureView,
 ) -> impl Fn(drawing::Tag) -> Option<String> + 'p {
@@ -323,19 +323,42 @@ const FITTED: f64 = 800.0;
 
 /// Returns a picture as SVG of a readable size, each element with the path of its thing.
 pub(crate) fn svg(picture: &PictureView) -> String {
-    let around = drawing::bounds(&picture.drawing);
-    let longest = around.map_or(0.0, |b| b.width().max(b.height()));
-    let is_readable = READABLE.contains(&longest) || longest <= 0.0 || !longest.is_finite();
-    let pixels_per_unit = if is_readable { 1.0 } else { FITTED / longest };
-    svg_at(picture, pixels_per_unit)
+    svg_at(picture, readable(picture))
 }
 
-/// The same, with so many pixels for a unit of the drawing.
-pub(crate) fn svg_at(picture: &PictureView, pixels_per_unit: f64) -> String {
+/// Returns how many pixels a unit of a picture has where it is of a readable size.
+pub fn readable(picture: &PictureView) -> f64 {
+    let longest = longest(picture);
+    let is_readable = READABLE.contains(&longest) || longest <= 0.0 || !longest.is_finite();
+    if is_readable { 1.0 } else { FITTED / longest }
+}
+
+/// Returns the same where words that are as large in any picture need room: then none is small.
+pub fn roomy(picture: &PictureView) -> f64 {
+    let fitted = FITTED / longest(picture);
+    if fitted.is_finite() { readable(picture).max(fitted) } else { readable(picture) }
+}
+
+/// How long the longer side of a picture is, in units of the sheet.
+fn longest(picture: &PictureView) -> f64 {
+    drawing::bounds(&picture.drawing).map_or(0.0, |b| b.width().max(b.height()))
+}
+
+/// Returns a picture as SVG, with so many pixels for a unit of the drawing.
+pub fn svg_at(picture: &PictureView, pixels_per_unit: f64) -> String {
     let path = |tag: drawing::Tag| picture.paths.get(tag.0 as usize).cloned();
     let options =
         drawing::svg::SvgOptions { pixels_per_unit, margin: 16.0, title: None, path: &path };
     drawing::svg::write(&picture.drawing, &options)
+}
+
+/// Returns a picture of a document as DXF, in millimetres.
+pub(crate) fn dxf(state: &State, picture: &PictureView) -> String {
+    let options = drawing::dxf::DxfOptions {
+        millimetres_per_unit: state.lowered.millimetres_per_unit(),
+        ..drawing::dxf::DxfOptions::default()
+    };
+    drawing::dxf::write_in_blocks(&picture.drawing, &options, &blocks(state, picture))
 }
 
 /// Returns the paths of the document's parts that nothing in its picture stands for: those of classes without a

@@ -403,6 +403,139 @@ fn a_relation_that_is_a_thing_has_its_sign_on_the_drawing() {
     assert_eq!(all, ["parallel ∥ a b", "constraint1 H a.p1 a.p2"]);
 }
 
+/// The annotations of a desk: the path, the words and what each is of.
+fn told(desk: &Desk) -> Vec<String> {
+    let all = desk.session.annotations(desk.id);
+    all.iter().map(|one| format!("{} {} {}", one.path, one.words, one.of.join(" "))).collect()
+}
+
+#[test]
+fn every_relation_of_the_geometry_has_the_usual_sign() {
+    let figures = "use geometry\nunit mm\np: Point = (0, 9)\nq: Point = (5, 9)\nr: Point = (2, 9)\n\
+        k: Line { p1 = (0, 0)  p2 = (30, 0) }\nl: Line { p1 = (0, 50)  p2 = (30, 50) }\n\
+        c: Circle { center = (100, 0)  radius = 9 }\nd: Circle { center = (200, 0)  radius = 9 }\n\
+        a: Arc { center = (300, 0)  start = (310, 0)  end = (300, 10) }\n";
+    let sign = |class: &str, parts: &[(&str, &str)]| {
+        let merges = parts.iter().map(|(part, of)| format!("merge {of} = it.{part}\n"));
+        let text = format!("{figures}it: {class}\n{}", merges.collect::<String>());
+        let all = told(&Desk::of(&text));
+        assert_eq!(all.len(), 1, "{class}: {all:?}");
+        let of: Vec<&str> = parts.iter().map(|(_, of)| *of).collect();
+        let of = format!(" {}", of.join(" "));
+        let sign = all[0].strip_prefix("it ").and_then(|said| said.strip_suffix(&of));
+        sign.unwrap_or_else(|| panic!("{class}: {all:?}")).to_string()
+    };
+    let lines = [("a", "k"), ("b", "l")];
+    let circles = [("a", "c"), ("b", "d")];
+    let at_arc = [("arc", "a"), ("line", "k")];
+    let at_circle = [("line", "k"), ("circle", "c")];
+    let ends = [("a", "p"), ("b", "q")];
+    assert_eq!(sign("EqualLengths", &lines), "=");
+    assert_eq!(sign("Parallel", &lines), "∥");
+    assert_eq!(sign("Perpendicular", &lines), "⟂");
+    assert_eq!(sign("PointOnLine", &[("line", "k"), ("point", "p")]), "on");
+    assert_eq!(sign("PointOnCircle", &[("circle", "c"), ("point", "p")]), "on");
+    assert_eq!(sign("PointOnArc", &[("arc", "a"), ("point", "p")]), "on");
+    assert_eq!(sign("SymmetricPoints", &[&[("axis", "k")], &ends[..]].concat()), "sym");
+    assert_eq!(sign("SymmetricAboutPoint", &[&[("center", "r")], &ends[..]].concat()), "sym");
+    assert_eq!(sign("EqualRadii", &circles), "=");
+    assert_eq!(sign("Concentric", &circles), "◎");
+    assert_eq!(sign("TangentAtStart", &at_arc), "T");
+    assert_eq!(sign("TangentAtEnd", &at_arc), "T");
+    assert_eq!(sign("TangentOnLeft", &at_circle), "T");
+    assert_eq!(sign("TangentOnRight", &at_circle), "T");
+    assert_eq!(sign("TangentOutside", &circles), "T");
+    assert_eq!(sign("TangentInside", &circles), "T");
+    assert_eq!(sign("OffsetFromLine", &[("line", "k"), ("point", "p")]), "50 mm");
+    assert_eq!(sign("AngleBetween", &[("from", "k"), ("to", "l")]), "90°");
+}
+
+#[test]
+fn the_value_of_a_relation_that_is_a_thing_is_typed_on_the_drawing() {
+    let mut desk = Desk::of(
+        "use geometry\nunit mm\nk: Line { p1 = (0, 0)  p2 = (30, 0) }\np: Point = (9, 20)\n\
+         it: OffsetFromLine { value = 20 }\nmerge k = it.line\nmerge p = it.point\n",
+    );
+    let said = desk.session.annotations(desk.id).pop().expect("it stands there");
+    assert_eq!((said.shows, said.words.as_str()), (Shows::Length, "20 mm"));
+    let typed = said.typed.expect("it can be typed");
+    assert_eq!(typed.value.as_deref(), Some("20 mm"));
+    let command = desk.session.said(desk.id, &typed, Some("35 mm")).expect("it fits");
+    desk.apply(&command).expect("it can be said");
+    let [(x, y), (x1, y1), (x2, y2)] = ["p", "k.p1", "k.p2"].map(|path| desk.place(path));
+    let across = (x2 - x1) * (y - y1) - (y2 - y1) * (x - x1);
+    let offset = across / base::number::hypot(x2 - x1, y2 - y1);
+    assert!((offset - 35.0).abs() < 1e-9, "{offset}");
+    assert_eq!(desk.session.annotations(desk.id)[0].words, "35 mm");
+}
+
+#[test]
+fn a_dimension_that_only_follows_is_made_to_rule() {
+    let text = "use geometry\nunit mm\na: Line { p1 = (0, 0)  p2 = (30, 40) }\n\
+        c: Circle { center = (200, 0)  radius = 9 }\n\
+        far: ReferenceDistance { from = a.p1  to = a.p2 }\nround: ReferenceRadius { circle = c }\n";
+    let mut desk = Desk::of(text);
+    let offer = |desk: &Desk, path: &str| {
+        let all = offers(desk, &[path]).into_iter();
+        all.into_iter().find(|offer| offer.label.starts_with("ruling")).expect("it is offered")
+    };
+    let far = offer(&desk, "far");
+    assert_eq!((far.label.as_str(), far.value.as_deref()), ("ruling distance", Some("50 mm")));
+    let command = desk.session.said(desk.id, &far, Some("100 mm")).expect("it fits");
+    desk.apply(&command).expect("it can be said");
+    let (p, q) = (desk.place("a.p1"), desk.place("a.p2"));
+    assert!((base::number::hypot(q.0 - p.0, q.1 - p.1) - 100.0).abs() < 1e-9, "{p:?} {q:?}");
+    // it has taken the place of the one that followed
+    assert!(!desk.text().contains("far:"), "{}", desk.text());
+    assert_eq!(told(&desk), ["constraint1 100 mm a.p1 a.p2"]);
+    take(&mut desk, &["round"], "ruling radius", Some("12 mm"));
+    assert_eq!(desk.number("c.radius"), 12.0);
+    // where it would contradict something that is left to be asked, as of any dimension
+    let held = format!("{text}constraint a.length = 50 mm\n");
+    let desk = Desk::of(&held);
+    let command = desk.session.said(desk.id, &offer(&desk, "far"), Some("70 mm")).expect("it fits");
+    let asked = desk.session.over_constrained(desk.id, &command).expect("it contradicts");
+    assert!(asked.message.contains("length of a = 50 mm"), "{}", asked.message);
+}
+
+#[test]
+fn what_is_computed_is_there_while_it_has_no_answer() {
+    let mut desk = Desk::of(
+        "use geometry\na: Line { p1 = (0, 0)  p2 = (30, 0) }\nb: Line { p1 = (10, 9)  p2 = (10, -9) }\n\
+         p: Point => Point.intersection(a, b)\nbox: RegularPolygon { sides = 6 }\n",
+    );
+    let is_there = |desk: &Desk, path: &str| desk.session.is_there(desk.id, &at(path));
+    assert!(is_there(&desk, "p") && is_there(&desk, "box.edges[5]"));
+    assert!(!is_there(&desk, "q") && !is_there(&desk, "p.nowhere"));
+    // side by side they have no intersection, which is there all the same
+    desk.move_to("b.p1", 40.0, -9.0).expect("it is free");
+    assert!(is_there(&desk, "p"));
+    desk.type_in("box.sides", "4").expect("it is a count");
+    assert!(!is_there(&desk, "box.edges[5]"));
+}
+
+#[test]
+fn how_far_lines_circles_and_points_are_apart_is_offered_first() {
+    let figure = format!("{FIGURE}e: Line {{ p1 = (0, 80)  p2 = (100, 90) }}\n");
+    let desk = Desk::of(&figure);
+    let first = |paths: &[&str]| {
+        let sized = offers(&desk, paths).into_iter().find(|offer| offer.value.is_some());
+        let sized = sized.map(|offer| (offer.label, offer.members));
+        let (label, members) = sized.expect("a size is offered");
+        format!("{label}: {members}")
+    };
+    // what runs alongside is so far apart, what does not has an angle
+    assert_eq!(first(&["a", "e"]), "distance: constraint a.distance(to: e.p1) = {}");
+    assert!(first(&["a", "b"]).starts_with("angle: "), "{}", first(&["a", "b"]));
+    assert_eq!(first(&["p", "a"]), "distance: constraint a.distance(to: p) = {}");
+    assert_eq!(first(&["a", "c"]), "distance: constraint a.distance(to: c.center) = {}");
+    assert_eq!(first(&["c", "d"]), "distance: constraint c.center.distance(to: d.center) = {}");
+    let mut desk = Desk::of(&figure);
+    take(&mut desk, &["p", "a"], "distance", Some("30"));
+    let all = told(&desk);
+    assert_eq!(all, ["constraint1 30 a p"]);
+}
+
 #[test]
 fn a_number_that_a_dimension_says_is_typed_anew_where_the_value_stands() {
     let text = "use geometry\nunit mm\nc: Circle { center = (0, 0)  radius = 9 }\nconstraint c.radius = 9\n";
@@ -471,6 +604,10 @@ fn an_angle_between_two_lines_is_the_one_at_their_corner() {
     let refused =
         desk.session.said(desk.id, &more, Some("200 deg")).expect_err("no angle is so large");
     assert_eq!(refused.message, "the angle is at most 180 deg: 200 deg is -160 deg");
+    // what is no angle is told as such, not as too large
+    let command = desk.session.said(desk.id, &more, Some("200 mm"));
+    let refused = command.and_then(|command| desk.apply(&command)).expect_err("a length is none");
+    assert!(!refused.message.contains("180 deg"), "{}", refused.message);
     // what a text says from direction to direction stands as well
     let mut desk = Desk::of(&format!("{triangle}constraint a.angle(to: b) = 120 deg\n"));
     assert!(of_angle(&desk)[0].stands);

@@ -4,7 +4,9 @@ use super::{InPlace, Lab, Notice, Zoom};
 use crate::sheet::bounds;
 use crate::{js, words};
 use leptos::prelude::*;
-use session::view::{Caught, Change, Choice, DragState, FixView, Pointer, Question, Refusal};
+use session::view::{
+    Caught, Change, Choice, Deed, DragState, FixView, Offer, Pointer, Question, Refusal,
+};
 use session::{Clip, Command, DocumentId, Path, Relations, Session};
 use std::time::Duration;
 
@@ -336,6 +338,10 @@ impl Lab {
     /// Opens the editor of a thing's value in the picture: of the one that a word there shows, else of the
     /// outermost that the text gives.
     pub fn edit_in_place(self, path: &str, word: Option<&str>, at: (f64, f64)) {
+        if let Some(offer) = self.ruling(path) {
+            self.select(Some(String::from(path)));
+            return self.take_offer(&offer);
+        }
         let value = self
             .id()
             .zip(session::parse_path(path))
@@ -350,6 +356,13 @@ impl Lab {
             Some(found) => self.editing.set(Some(found)),
             None => self.notice.set(Some(Notice::Said(words::no_value_to_type(path)))),
         }
+    }
+
+    /// What has a dimension that only follows say its value, where a path leads to one.
+    fn ruling(self, path: &str) -> Option<Offer> {
+        let path = session::parse_path(path)?;
+        let offers = self.ask_of_shown(|session, id| session.offers(id, &[path]))?;
+        offers.into_iter().find(|offer| matches!(offer.deed, Deed::Rule(_)))
     }
 
     /// Ends a drag as if it had never begun.

@@ -3,40 +3,56 @@
 use super::{ABSENT, Lab, Notice};
 use crate::server::Stored;
 use crate::{js, route, words};
+use drawing::dxf::DxfOptions;
 use leptos::prelude::*;
+use presentation::annotations::HEIGHT;
 use presentation::sheet::printed_true;
 use presentation::table::csv;
+use session::Session;
+use session::view::PictureView;
 
 /// Longer links than this are not opened by every program, in letters.
 const LONGEST_LINK: usize = 30_000;
 
 impl Lab {
-    /// The file's name without its ending, and the picture as SVG.
-    fn drawn(self) -> Option<(String, String)> {
+    /// The file's name without its ending, and the picture, once what is typed beside it is in it.
+    fn drawn(self) -> Option<(String, PictureView)> {
         self.flush_text();
         let path = self.current.get_untracked()?;
         let name = path.rsplit('/').next().unwrap_or(&path);
         let name = String::from(name.trim_end_matches(".thing"));
-        Some((name, self.ask_of_shown(session::Session::svg)?))
+        Some((name, self.ask_of_shown(Session::picture)?))
+    }
+
+    /// The picture as SVG with what stands on it, where a unit has so many pixels, or of a readable size.
+    fn svg_of(self, mut picture: PictureView, pixels: Option<f64>) -> String {
+        let usual = if self.shows_notes() { session::roomy } else { session::readable };
+        let pixels = pixels.unwrap_or_else(|| usual(&picture));
+        self.draw_notes(&mut picture, pixels);
+        session::svg_at(&picture, pixels)
     }
 
     /// Hands the user the picture as SVG.
     pub fn export_svg(self) {
-        if let Some((name, svg)) = self.drawn() {
-            js::download(&format!("{name}.svg"), &svg);
+        if let Some((name, picture)) = self.drawn() {
+            js::download(&format!("{name}.svg"), &self.svg_of(picture, None));
         }
     }
 
     /// Hands the user the picture as PNG, at twice its size.
     pub fn export_png(self) {
-        if let Some((name, svg)) = self.drawn() {
-            js::download_png(&format!("{name}.png"), &svg);
+        if let Some((name, picture)) = self.drawn() {
+            js::download_png(&format!("{name}.png"), &self.svg_of(picture, None));
         }
     }
 
     /// Hands the user the picture as DXF, in millimetres.
     pub fn export_dxf(self) {
-        if let Some(((name, _), dxf)) = self.drawn().zip(self.ask_of_shown(session::Session::dxf)) {
+        let Some((name, mut picture)) = self.drawn() else { return };
+        // words are as high as they are written there
+        let height = DxfOptions::default().text_height / picture.millimetres.unwrap_or(1.0);
+        self.draw_notes(&mut picture, HEIGHT / height);
+        if let Some(dxf) = self.ask_of_shown(|session, id| session.dxf_of(id, &picture)) {
             js::download(&format!("{name}.dxf"), &dxf);
         }
     }
@@ -44,15 +60,13 @@ impl Lab {
     /// The title of what is printed, and the picture in lines: as large as it is where a page has room for it, else
     /// whether it is to be fitted to the page.
     pub fn printed(self) -> Option<(String, String, bool)> {
-        let (_, fitted) = self.drawn()?;
-        let scale = self.picture.with_untracked(|p| printed_true(&p.drawing, p.millimetres));
+        let (_, picture) = self.drawn()?;
+        let scale = printed_true(&picture.drawing, picture.millimetres);
         let title = self.document.with_untracked(|d| d.as_ref().map(|d| d.title.clone()))?;
+        let svg = self.svg_of(picture, scale);
         Some(match scale {
-            Some(scale) => {
-                let svg = self.ask_of_shown(|session, id| session.svg_at(id, scale))?;
-                (words::true_size(&title), svg, false)
-            }
-            None => (title, fitted, true),
+            Some(_) => (words::true_size(&title), svg, false),
+            None => (title, svg, true),
         })
     }
 

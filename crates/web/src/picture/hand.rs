@@ -222,7 +222,7 @@ impl Hand {
         } else if e.button() == 0 && self.lab.attachers.with_untracked(Option::is_some) {
             self.pick(at).inspect(|path| self.lab.toggle_attacher(path));
             self.set_mode(Mode::Idle);
-        } else if e.button() == 0 && self.lab.annotated.sizing.get_untracked() {
+        } else if e.button() == 0 && self.lab.is_sizing() {
             let picked = match self.lab.selected.with_untracked(Option::is_some) {
                 true => self.pick_beside(at),
                 false => self.pick_deeper(at),
@@ -230,6 +230,10 @@ impl Hand {
             let clicked = (f64::from(e.client_x()), f64::from(e.client_y()));
             self.lab.size_picked((picked, clicked), e.shift_key());
             // what is asked for has the keyboard
+            e.prevent_default();
+            self.set_mode(Mode::Idle);
+        } else if e.button() == 0 && !self.lab.settle_size() {
+            // it is said why; it is still asked
             e.prevent_default();
             self.set_mode(Mode::Idle);
         } else if e.button() == 0

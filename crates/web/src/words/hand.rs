@@ -3,7 +3,7 @@
 /// Nothing is on the sheet yet.
 pub const EMPTY_SHEET: &str = "The sheet is empty. Draw with a tool of the rail, take a part out of the bin, or choose a construction under Draw.";
 /// What the mouse does while things are given sizes.
-pub const SIZING: &str = "Dimension: click a line, a circle or two points; with Shift two lines, for their angle; Esc: done";
+pub const SIZING: &str = "Dimension: click a line or a circle, type; a second click before that: between both; Enter sets it; Esc: done";
 /// What constraints say, on the drawing.
 pub const ANNOTATIONS: &str = "Show or hide dimensions and signs";
 /// What is said once words have been moved on the drawing.
@@ -15,6 +15,8 @@ pub const ONLY_READ: &str = "Only read it";
 /// What that does.
 pub const ONLY_READ_HELP: &str =
     "A reference dimension: it shows the value in parentheses and sets nothing";
+/// What is said of a dimension that only reads, where another value is asked for.
+pub const ONLY_FOLLOWS: &str = "It only follows what it measures. With Done, or Enter, it rules: what is free there has to yield.";
 /// What is touched next is selected besides.
 pub const ALSO: &str = "+ also";
 /// What that does.
