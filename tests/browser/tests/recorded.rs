@@ -551,13 +551,24 @@ async fn a_column_of_a_file_beside_the_document_says_what_is_allowed() {
 }
 
 #[tokio::test]
-async fn a_box_is_drawn_by_one_drag_while_a_program_is_recorded() {
+async fn boxes_are_drawn_by_one_drag_each_and_caught_by_one_for_a_loop() {
     let visit = hands::begin().await;
     record(&visit, "Plate", &[]).await;
     press(&visit, "[data-action='tool-rectangle']").await;
     visit.until("document.querySelector('.prompt')").await;
     hands::drag(&visit, (500.0, 500.0), (700.0, 380.0)).await;
     visit.until("/rectangle = Rectangle.between\\(/.test(window.__thinglab.state().text)").await;
+    hands::drag(&visit, (740.0, 500.0), (800.0, 420.0)).await;
+    visit.until("/rectangle2 = Rectangle.between\\(/.test(window.__thinglab.state().text)").await;
+    press(&visit, "[data-draft='end']").await;
+    press(&visit, "[data-draft='for-each']").await;
+    hands::drag(&visit, (460.0, 540.0), (840.0, 340.0)).await;
+    has(&visit, "for element in [rectangle, rectangle2] {").await;
+    // one of them is left out before anything is drawn for it
+    press(&visit, "[data-set='rectangle2'][aria-pressed='true']").await;
+    has(&visit, "for element in [rectangle] {").await;
+    press(&visit, "[data-set='rectangle2'][aria-pressed='false']").await;
+    has(&visit, "for element in [rectangle, rectangle2] {").await;
 }
 
 #[tokio::test]
