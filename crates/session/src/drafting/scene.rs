@@ -52,17 +52,16 @@ impl Found {
     }
 }
 
-/// Returns the nearest of figures under a pointer, a point before what runs through it.
+/// Returns the nearest of figures under a pointer, a point before what runs through it where it is within half of the
+/// pointer's reach: a finger reaches far, and would never find a short line between its ends.
 pub(crate) fn nearest<'f>(
     all: impl Iterator<Item = &'f Found>,
     pointer: &Pointer,
 ) -> Option<&'f Found> {
     let near = all.map(|f| (f.curve.distance(pointer.at), f));
     let near = near.filter(|(far, _)| *far <= pointer.reach);
-    near.min_by(|a, b| {
-        (!a.1.curve.is_point()).cmp(&!b.1.curve.is_point()).then(a.0.total_cmp(&b.0))
-    })
-    .map(|(_, f)| f)
+    let is_aside = |(far, f): &(f64, &Found)| !f.curve.is_point() || *far > pointer.reach / 2.0;
+    near.min_by(|a, b| is_aside(a).cmp(&is_aside(b)).then(a.0.total_cmp(&b.0))).map(|(_, f)| f)
 }
 
 /// Returns the nearest of figures that may take the place of one. A centre or an end stands for a place alone, unless

@@ -390,6 +390,27 @@ fn a_distance_is_that_to_the_nearest_of_what_is_picked() {
 }
 
 #[test]
+fn a_short_line_is_picked_between_its_ends_by_a_finger() {
+    let mut desk = Desk::recording("Nut", &[]);
+    begin(&mut desk, "Line");
+    enter(&mut desk, "0,0");
+    made(enter(&mut desk, "30,0"));
+    // its ends are drawn, too, and within reach
+    for at in ["0,0", "30,0"] {
+        begin(&mut desk, "Point");
+        made(enter(&mut desk, at));
+    }
+    begin(&mut desk, ":pattern(about,count)");
+    let finger = |x| Pointer { at: (x, 0.0), reach: 18.0, ..Pointer::default() };
+    let picked = |desk: &mut Desk, x| {
+        let hover = desk.session.hover(desk.id, &finger(x), "");
+        hover.finds.expect("it lies there")
+    };
+    assert_eq!(picked(&mut desk, 15.0), "line");
+    assert_eq!(picked(&mut desk, 4.0), "point");
+}
+
+#[test]
 fn a_measure_is_given_up_alone() {
     let mut desk = Desk::recording("Row", &[]);
     begin(&mut desk, "Circle");
