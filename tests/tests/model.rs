@@ -194,7 +194,22 @@ impl Model {
             if wanted[&first] == x {
                 continue;
             }
-            let at = if self.written.contains_key(&counts) { counts } else { first };
+            // beside the other number of a spot, where that is written of another that is one with it
+            let beside = || {
+                let (name, owner) = first.split_last()?;
+                let other = if name == "x" { "y" } else { "x" };
+                let of = |owner: &[String], name: &str| -> Names {
+                    owner.iter().map(String::as_str).chain([name]).map(str::to_string).collect()
+                };
+                let (counts, _) = counting.get(groups.get(&of(owner, other))?)?;
+                let is_written =
+                    ["x", "y"].contains(&name.as_str()) && written.contains_key(counts);
+                is_written.then(|| of(&counts[..counts.len() - 1], name))
+            };
+            let at = match self.written.contains_key(&counts) {
+                true => counts,
+                false => beside().unwrap_or_else(|| first.clone()),
+            };
             let (name, owner) = at.split_last().expect("a leaf has a name");
             let is_place = ["x", "y"].contains(&name.as_str());
             let leaf = |name: &str| -> Names {

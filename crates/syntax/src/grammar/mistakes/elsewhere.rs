@@ -283,10 +283,9 @@ pub(in crate::grammar) fn strange_number(p: &mut Parser<'_>) -> Option<usize> {
             1 if p.word(0).starts_with('_') => {
                 format!("the digits of a number stand together: write `{number}`")
             }
-            1 if p.word(0).starts_with(['h', 'x', 'º']) => {
-                format!("write `{number}`")
+            1 | 2 if number.ends_with("ohm") => {
+                format!("a number has its point and its unit: `{number}`")
             }
-            1 | 2 => format!("a number has its point and its unit: `{number}`"),
             _ => format!("write `{number}`"),
         },
     );
