@@ -2,5 +2,6 @@
 
 mod builder;
 mod builtin;
+mod customary;
 mod naive;
 mod structure;
