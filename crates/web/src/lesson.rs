@@ -1,7 +1,7 @@
 //! A lesson beside the picture: what it says, its task, a tick when it is done, a hint, and how it is done.
 
 use crate::lab::{Lab, Zoom};
-use crate::{icons, route, theme, words};
+use crate::{icons, keyboard, route, theme, words};
 use drawing::Point;
 use leptos::html::Div;
 use leptos::prelude::*;
@@ -117,13 +117,19 @@ pub fn Coach(
             (None, Some(title)) => view! {
                 <div class="coach" role="note">
                     <p>{words::lesson_offered(&title)}</p>
-                    <button class="primary" on:click=move |_| lab.begin_lesson()>{words::LESSON_BEGIN}</button>
-                    <button class="bare" on:click=move |_| lab.lesson_offered.set(None)>{words::FIRST_SKIP}</button>
+                    <button class="primary" on:click=move |_| to_work(lab, Lab::begin_lesson)>{words::LESSON_BEGIN}</button>
+                    <button class="bare" on:click=move |_| to_work(lab, |lab| lab.lesson_offered.set(None))>{words::FIRST_SKIP}</button>
                 </div>
             }.into_any(),
             (None, None) => ().into_any(),
         }}
     }
+}
+
+/// Does what a button of the card says, which may be gone then: whoever pressed it by a key is at the picture.
+fn to_work(lab: Lab, act: fn(Lab)) {
+    act(lab);
+    keyboard::give_back(None);
 }
 
 /// One step: what it says, what is still missing, and help.
@@ -135,11 +141,11 @@ fn Step(lab: Lab, lesson: LessonView) -> impl IntoView {
     let reads_only = task.is_empty();
     // what is asked for is told in the lesson's own words, where it has some
     let said = if say.is_empty() { task } else { say };
-    let next = move |_| {
+    let next = |lab: Lab| {
         lab.tell(Session::next_step);
         lab.follow_lesson();
     };
-    let show = move |_| {
+    let show = |lab: Lab| {
         let done = lab.tell(Session::show_solution);
         lab.settle(done);
     };
@@ -170,15 +176,15 @@ fn Step(lab: Lab, lesson: LessonView) -> impl IntoView {
                 </ul>
             </Show>
             {if reads_only {
-                view! { <button class="primary" on:click=next>{words::LESSON_NEXT}</button> }.into_any()
+                view! { <button class="primary" on:click=move |_| to_work(lab, next)>{words::LESSON_NEXT}</button> }.into_any()
             } else {
                 view! {
                     <button aria-expanded=move || hinted.get().to_string()
                         on:click=move |_| hinted.update(|h| *h = !*h)>{words::LESSON_HINT}</button>
-                    {can_show.then(|| view! { <button on:click=show>{words::LESSON_SHOW}</button> })}
+                    {can_show.then(|| view! { <button on:click=move |_| to_work(lab, show)>{words::LESSON_SHOW}</button> })}
                 }.into_any()
             }}
-            <button class="bare" on:click=move |_| lab.leave_lesson()>{words::FIRST_SKIP}</button>
+            <button class="bare" on:click=move |_| to_work(lab, Lab::leave_lesson)>{words::FIRST_SKIP}</button>
         </div>
     }
 }

@@ -453,10 +453,13 @@ impl Room {
     /// What waits or is offered lies over the lower edge, a lesson over the upper one.
     fn of(lab: Lab, (width, height): (f64, f64)) -> Self {
         let width = width - covered(lab);
+        let card = lab.card.get_untracked();
         if height <= LOW {
-            return Self { width, above: 0.0, height };
+            // a lesson leaves half of a low picture at least
+            let above = card.min(height / 2.0);
+            return Self { width, above, height: height - above };
         }
-        let above = lab.card.get_untracked().min(height - LOW);
+        let above = card.min((height - LOW).max(height / 4.0));
         Self { width, above, height: height - BELOW - above }
     }
     fn middle(self) -> (f64, f64) {

@@ -3,9 +3,9 @@
 //! All rows are equally high; only those in sight, and the one that has the keyboard, are in the page.
 
 use crate::lab::{Lab, Notice};
-use crate::{field, icons, words};
+use crate::{field, icons, keyboard, words};
 use leptos::attr::custom::custom_attribute;
-use leptos::ev::KeyboardEvent;
+use leptos::ev::{FocusEvent, KeyboardEvent};
 use leptos::html::Div;
 use leptos::prelude::*;
 use presentation::rows::{Shown, called, is_unnamed, rule_alone, shown};
@@ -193,7 +193,9 @@ impl Tree {
                 }
             }
             "Enter" if is_editable(&row) => self.editing.set(Some(at)),
-            "Enter" | " " => self.toggle(&row),
+            "Enter" | " " if row.descendants > 0 => self.toggle(&row),
+            // what hides nothing has nothing to open
+            "Enter" | " " => {}
             "Delete" if !row.kind.has_own_path() => self.delete(&row),
             _ => return,
         }
@@ -268,13 +270,38 @@ pub fn Structure(
             rows
         })
     });
-    // what is chosen beside it moves nothing: the keyboard stays at its row
+    // what is chosen beside it moves nothing: the keyboard stays at its row, as at one that speaks of it
     let chosen = Memo::new(move |_| lab.selected.get());
     Effect::new(move |_| {
         if let Some(path) = chosen.get() {
-            reveal(tree, &path);
+            let current = tree.current.get_untracked();
+            let is_seen =
+                tree.visible.with_untracked(|all| all.iter().any(|row| row.at == current));
+            let spoken_of = tree.row(current).filter(|_| is_seen).and_then(thing_of);
+            if spoken_of.as_ref() != Some(&path) {
+                reveal(tree, &path);
+            }
         }
     });
+    // a row that is made anew, since rows above it have come or gone, has the keyboard again
+    let held = StoredValue::new(false);
+    Effect::new(move |_| {
+        rows.track();
+        if held.get_value() {
+            request_animation_frame(move || {
+                let is_nowhere =
+                    keyboard::holder().is_none_or(|holder| holder.tag_name() == "BODY");
+                if let Some(at) = tree.current.try_get_untracked().filter(|_| is_nowhere) {
+                    tree.focus(at);
+                }
+            });
+        }
+    });
+    let leave = move |e: FocusEvent| {
+        if e.related_target().is_some() {
+            held.set_value(false);
+        }
+    };
     view! {
         <section class="panel structure" aria-label=words::STRUCTURE>
             <h2>{words::STRUCTURE}</h2>
@@ -282,6 +309,7 @@ pub fn Structure(
                 <div class="rows" role="tree" aria-label=words::STRUCTURE aria-multiselectable="true"
                     node_ref=tree.sheet
                     style:--rows=move || tree.visible.with(Vec::len).to_string()
+                    on:focusin=move |_| held.set_value(true) on:focusout=leave
                     on:pointerleave=move |_| lab.hover(None)>
                     <For each=move || rows.get() key=|row| *row let(row)>
                         <Row tree=tree place=row.0 shown=row.1 />

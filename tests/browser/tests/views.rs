@@ -1,7 +1,7 @@
 //! Views beside picture, structure and text: plots, lessons.
 
 use browser::Visit;
-use browser::hands::{begin, drag, grip, keys, middle, point, show, state};
+use browser::hands::{begin, chord, drag, grip, key, keys, middle, point, show, state};
 
 /// Types into a field of the page and leaves it.
 async fn fill(visit: &Visit, selector: &str, text: &str) {
@@ -79,8 +79,11 @@ async fn a_lesson_goes_on_as_its_tasks_are_done() {
     visit.until("document.querySelector('.lesson .place').textContent.includes('2 of 3')").await;
     visit.script("document.querySelector('.why-button').click()").await;
     visit.until("document.querySelector('.lesson .place').textContent.includes('3 of 3')").await;
-    visit.script("document.querySelector('.lesson .primary').click()").await;
+    // by a key, of which the keyboard is in the picture then
+    visit.script("document.querySelector('.lesson .primary').focus()").await;
+    chord(&visit, &[], key::ENTER).await;
     visit.until("document.querySelector('.lesson').textContent.includes('done')").await;
+    visit.until("document.activeElement.id === 'picture'").await;
     visit.until("document.querySelector('.lesson .primary')").await;
     visit.script("document.querySelector('.lesson .primary').click()").await;
     visit.until("window.__thinglab.state().path === 'gallery/lesson-2-figure.thing'").await;
