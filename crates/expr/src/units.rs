@@ -6,7 +6,10 @@
 use crate::dimension::Dimension;
 use base::diagnostic::nearest;
 use base::number::shortest;
+use std::borrow::Cow;
+use std::collections::BTreeMap;
 use std::f64::consts::PI;
+use std::sync::LazyLock;
 
 /// A unit: what it measures, and how large it is in SI, `mantissa` · 10^`exponent`.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -166,14 +169,18 @@ pub const PREFIXES: [(&str, &str, i8); 24] = [
     ("q", "quecto", -30),
 ];
 
+/// The table by spelling: every number that is shown asks it several times.
+static BY_SPELLING: LazyLock<BTreeMap<&str, &NamedUnit>> =
+    LazyLock::new(|| NAMED_UNITS.iter().map(|named| (named.spelling, named)).collect());
+
 /// Returns the unit of a word without operators: one of the table, with a prefix where it takes one.
 fn simple(word: &str) -> Option<Unit> {
-    if let Some(named) = NAMED_UNITS.iter().find(|n| n.spelling == word) {
+    if let Some(named) = BY_SPELLING.get(word) {
         return Some(named.unit);
     }
     PREFIXES.iter().find_map(|(prefix, _, exponent)| {
         let base = word.strip_prefix(prefix)?;
-        let named = NAMED_UNITS.iter().find(|n| n.is_prefixed && n.spelling == base)?;
+        let named = BY_SPELLING.get(base).filter(|named| named.is_prefixed)?;
         let exponent = named.unit.exponent.checked_add(*exponent)?;
         Some(Unit { exponent, ..named.unit })
     })
@@ -194,11 +201,14 @@ fn simple(word: &str) -> Option<Unit> {
 /// ```
 pub fn unit(spelling: &str) -> Option<Unit> {
     // the two letters µ and the sign Ω are other spellings of u and ohm
-    let plain = spelling.replace(['µ', 'μ'], "u").replace('Ω', "ohm");
+    let plain = match spelling.is_ascii() {
+        true => Cow::Borrowed(spelling),
+        false => Cow::Owned(spelling.replace(['µ', 'μ'], "u").replace('Ω', "ohm")),
+    };
     let mut whole = decimal(Dimension::NONE, 0);
     let (mut rest, mut above) = match plain.strip_prefix("1/") {
         Some(rest) => (rest, false),
-        None => (plain.as_str(), true),
+        None => (&*plain, true),
     };
     loop {
         let end = rest.find(['*', '/']).unwrap_or(rest.len());
