@@ -163,7 +163,12 @@ impl Customary {
         }
         let none = [""];
         let heavy = if power == 0 { &none[..] } else { heavy };
-        let lengths = if length == 0 { &none[..] } else { &self.lengths };
+        let lengths = match dimension {
+            _ if length == 0 => &none[..],
+            // a stress is in psi or ksi wherever inches are written
+            Dimension::PRESSURE if self.lengths.contains(&"in") => &["in"],
+            _ => &self.lengths,
+        };
         let spell = |heavy: &str, long: &str| {
             let mut factors = vec![(heavy, power), (long, length), (self.time.as_str(), time)];
             // an energy is told from a torque by the order of its factors; so is a power

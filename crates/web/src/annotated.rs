@@ -261,10 +261,7 @@ impl Lab {
     /// A hand is at something else: what has been typed of the size that is asked for is taken, and it is asked for no
     /// longer. Returns whether it is so; what is refused stays.
     pub fn settle_size(self) -> bool {
-        let offer = match self.wish.get_untracked() {
-            Some(Wish::Dimension(offer)) => offer,
-            _ => return true,
-        };
+        let Some(Wish::Dimension(offer)) = self.wish.get_untracked() else { return true };
         if let Some(typed) = self.annotated.typed.get_value() {
             let value = exactly(&typed, offer.value.as_deref().unwrap_or_default());
             if let Err(sentence) = self.set_dimension(&offer, &value) {

@@ -17,6 +17,7 @@ fn products_are_in_the_units_of_their_factors() {
         (&["lbf", "ft"], 1500.0 * foot_pound, Dimension::ENERGY, false, "ft*lbf"),
         (&["kip/ft", "ft"], 144e3 * foot_pound, Dimension::ENERGY, true, "kip*ft"),
         (&["lbf", "in"], 1e6, Dimension::PRESSURE, false, "psi"),
+        (&["kip", "ft", "in"], 1e8, Dimension::PRESSURE, false, "ksi"),
         (&["ksi", "in"], 1e6, Dimension::FORCE, false, "kip"),
         (&["psi"], 2e-3, Dimension::AREA, false, "in^2"),
         (&["in", "ft"], 1.2, Dimension::AREA, false, "ft^2"),
