@@ -125,6 +125,16 @@ impl Home {
         path
     }
 
+    /// What is known before the innermost block around it.
+    pub(crate) fn before_block(mut self) -> Self {
+        if let Self::Program { way, before, .. } = &mut self
+            && let Some(around) = way.pop()
+        {
+            *before = Some(around.address);
+        }
+        self
+    }
+
     /// Where what is drawn goes while something is recorded, or nothing is.
     pub(crate) fn of(recording: Option<&Recording>) -> Self {
         match recording {

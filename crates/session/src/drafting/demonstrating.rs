@@ -86,9 +86,9 @@ impl Session {
     pub fn take_of_set(&mut self, id: DocumentId, figure: &str) -> Result<Change, Refusal> {
         let (open, beside) = self.beside_others(id);
         blocks::recorded(open)?;
-        let names: Vec<String> =
-            blocks::caught(open).iter().cloned().chain([figure.to_string()]).collect();
-        let all = scene::scene(&open.state, &home(open));
+        let mut names = blocks::taken(open);
+        names.push(figure.into());
+        let all = scene::scene(&open.state, &home(open).before_block());
         let kinds = scene::kinds_in_words(&open.state, &all, &names);
         let of_one_kind = |refusal| match &kinds {
             None => refusal,
@@ -106,11 +106,13 @@ impl Session {
     /// be changed, or no figure lies there.
     pub fn of_set_at(&self, id: DocumentId, pointer: &Pointer) -> Option<String> {
         let open = self.document(id);
-        let home = home(open);
-        let all = scene::scene(&open.state, &home);
         let caught = blocks::caught(open);
+        if caught.is_empty() {
+            return None;
+        }
+        let all = scene::scene(&open.state, &home(open).before_block());
         let is_caught = |found: &&scene::Found| caught.contains(&scene::whole_of(found));
-        let figures = all.iter().filter(|found| !found.is_place && !caught.is_empty());
+        let figures = all.iter().filter(|found| !found.is_place);
         let found = scene::nearest(figures.clone().filter(is_caught), pointer);
         found.or_else(|| scene::nearest(figures, pointer)).map(scene::whole_of)
     }

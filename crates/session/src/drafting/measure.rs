@@ -162,7 +162,7 @@ fn distance(state: &State, a: &Found, b: &Found) -> Option<String> {
             (true, false) => return distance(state, b, a),
         },
         (Sort::Straight | Sort::Round, Sort::Round) if is_arc(b) => {
-            format!("{first}.gap(to: {second})")
+            format!("{first}.arcClearance(to: {second})")
         }
         (Sort::Round, Sort::Round) if is_arc(a) => return distance(state, b, a),
         (Sort::Straight, Sort::Round) => {

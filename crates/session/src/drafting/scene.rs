@@ -53,15 +53,20 @@ impl Found {
 }
 
 /// Returns the nearest of figures under a pointer, a point before what runs through it where it is within half of the
-/// pointer's reach: a finger reaches far, and would never find a short line between its ends.
+/// pointer's reach: a finger reaches far, and would never find a short line between its ends. Beyond an end the line is
+/// no nearer than that.
 pub(crate) fn nearest<'f>(
     all: impl Iterator<Item = &'f Found>,
     pointer: &Pointer,
 ) -> Option<&'f Found> {
     let near = all.map(|f| (f.curve.distance(pointer.at), f));
     let near = near.filter(|(far, _)| *far <= pointer.reach);
-    let is_aside = |(far, f): &(f64, &Found)| !f.curve.is_point() || *far > pointer.reach / 2.0;
-    near.min_by(|a, b| is_aside(a).cmp(&is_aside(b)).then(a.0.total_cmp(&b.0))).map(|(_, f)| f)
+    let runs = |(_, f): &(f64, &Found)| !f.curve.is_point();
+    let is_aside = |one: &(f64, &Found)| runs(one) || one.0 > pointer.reach / 2.0;
+    let order = |a: &(f64, &Found), b: &(f64, &Found)| {
+        is_aside(a).cmp(&is_aside(b)).then(a.0.total_cmp(&b.0)).then(runs(a).cmp(&runs(b)))
+    };
+    near.min_by(order).map(|(_, f)| f)
 }
 
 /// Returns the nearest of figures that may take the place of one. A centre or an end stands for a place alone, unless
@@ -382,7 +387,10 @@ impl Curve {
                     (true, true) => along,
                     (true, false) => along.clamp(0.0, 1.0),
                 };
-                away([from[0] + along * dx, from[1] + along * dy])
+                match along == 1.0 {
+                    true => away(to),
+                    false => away([from[0] + along * dx, from[1] + along * dy]),
+                }
             }
             Figure::Circle { center, radius } => match self.arc {
                 Some([a, b]) if !is_between(center, a, b, at) => away(a).min(away(b)),

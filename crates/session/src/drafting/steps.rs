@@ -107,7 +107,8 @@ impl<'s> Found<'s> {
             program: self.name.to_string(),
             is_recorded: recording.is_some(),
             parameters: self.program.parameters.iter().map(parameter).collect(),
-            has_steps: self.written.as_ref().is_some_and(|(_, body, _)| text::has_steps(body)),
+            has_steps: { self.written.as_ref() }
+                .is_some_and(|(_, body, _)| !text::steps_of(body).is_empty()),
             rows: Vec::new(),
             open: recording.map(|it| blocks::view(&source, it)).unwrap_or_default(),
             at: recording.filter(|_| visit::is_inside(open)).map(|recording| {

@@ -114,21 +114,6 @@ pub(crate) fn steps_of(body: &ast::Body) -> Vec<StepNode> {
     all
 }
 
-/// Whether a body has any step.
-pub(crate) fn has_steps(body: &ast::Body) -> bool {
-    body.members().any(|member| {
-        matches!(
-            member,
-            Member::Assign(_)
-                | Member::If(_)
-                | Member::Repeat(_)
-                | Member::While(_)
-                | Member::For(_)
-                | Member::Erase(_)
-        )
-    })
-}
-
 fn only_if(choice: &ast::If) -> StepNode {
     StepNode {
         segment: "#0".into(),

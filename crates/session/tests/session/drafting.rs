@@ -401,13 +401,16 @@ fn a_short_line_is_picked_between_its_ends_by_a_finger() {
         made(enter(&mut desk, at));
     }
     begin(&mut desk, ":pattern(about,count)");
-    let finger = |x| Pointer { at: (x, 0.0), reach: 18.0, ..Pointer::default() };
-    let picked = |desk: &mut Desk, x| {
-        let hover = desk.session.hover(desk.id, &finger(x), "");
+    let finger = |at| Pointer { at, reach: 18.0, ..Pointer::default() };
+    let picked = |desk: &mut Desk, at| {
+        let hover = desk.session.hover(desk.id, &finger(at), "");
         hover.finds.expect("it lies there")
     };
-    assert_eq!(picked(&mut desk, 15.0), "line");
-    assert_eq!(picked(&mut desk, 4.0), "point");
+    assert_eq!(picked(&mut desk, (15.0, 0.0)), "line");
+    assert_eq!(picked(&mut desk, (4.0, 0.0)), "point");
+    // beyond an end the line is no nearer than that
+    assert_eq!(picked(&mut desk, (-12.0, 5.0)), "point");
+    assert_eq!(picked(&mut desk, (41.3, -6.7)), "point2");
 }
 
 #[test]
@@ -974,9 +977,20 @@ fn a_loop_runs_over_what_a_rubber_band_catches() {
         of_two_kinds.message,
         "a loop goes over figures of one kind: 3 Circle and 1 Rectangle would be in this one"
     );
+    desk.session.take_of_set(desk.id, "circle3").expect("two are left");
+    let of_two_kinds = desk.session.take_of_set(desk.id, "rectangle").expect_err("it is no circle");
+    assert!(of_two_kinds.message.contains("2 Circle and 1 Rectangle"), "{}", of_two_kinds.message);
+    desk.session.take_of_set(desk.id, "circle3").expect("it was caught");
     begin(&mut desk, "Circle.concentric(with,radius)");
     point(&mut desk, 14.0, 10.0);
     made(enter(&mut desk, "circle.radius + 2"));
+    // what is drawn in the turn is none of the set
+    assert_eq!(desk.session.of_set_at(desk.id, &pointer(16.0, 10.0)), Some("circle".into()));
+    begin(&mut desk, "Circle");
+    enter(&mut desk, "200,0");
+    made(enter(&mut desk, "1"));
+    assert_eq!(desk.session.of_set_at(desk.id, &pointer(201.0, 0.0)), None);
+    desk.undo();
     let begun = desk.session.take_of_set(desk.id, "circle").expect_err("it is drawn for this one");
     assert!(begun.message.starts_with("the first turn is drawn for circle"), "{}", begun.message);
     desk.session.end_turn(desk.id, Ends::Until).expect("it is drawn");

@@ -22,12 +22,12 @@ pub fn Constructions(
         lab.drafting.turned.track();
     };
     let all = once_painted(track, move || {
-        lab.id().map(|id| lab.ask(|session| session.constructions(id))).unwrap_or_default()
+        lab.id().map(|id| lab.ask(|session| session.constructions(id)))
     });
     let found = Memo::new(move |_| {
         let wanted = wanted.get().to_lowercase();
         let fits = |row: &ConstructionRow| says(row, row.also, &wanted);
-        all.with(|all| all.iter().filter(|row| fits(row)).cloned().collect::<Vec<_>>())
+        all.with(|all| all.iter().flatten().filter(|row| fits(row)).cloned().collect::<Vec<_>>())
     });
     // Enter begins this one
     let best = Memo::new(move |_| {
@@ -85,7 +85,7 @@ pub fn Constructions(
             title=words::FILTER_HELP
             prop:value=move || wanted.get()
             on:input=move |e| wanted.set(event_target_value(&e)) on:keydown=key />
-        <Show when=move || found.with(Vec::is_empty)>
+        <Show when=move || all.with(Option::is_some) && found.with(Vec::is_empty)>
             <p class="quiet">{words::NO_CONSTRUCTION}</p>
         </Show>
         <div class="shelves" on:keydown=|e| keyboard::go_in(LIST, &e)>{shelves}</div>

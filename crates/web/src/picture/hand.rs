@@ -238,7 +238,7 @@ impl Hand {
             self.set_mode(Mode::Idle);
         } else if e.button() == 0
             && (e.ctrl_key() || e.meta_key() || e.shift_key())
-            && self.lab.take_of_set_at(&self.pointer(at))
+            && self.lab.take_of_set_at(&self.lab.pointer_at(at, self.reach(), true))
         {
             self.set_mode(Mode::Idle);
         } else if e.button() == 0 {
