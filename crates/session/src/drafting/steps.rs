@@ -19,9 +19,13 @@ pub(crate) fn view(open: &Open, home: &Home, thing: Option<&str>) -> Option<Step
     let found = Found::of(open, home, thing)?;
     let evaluator = open.state.evaluator(open.values());
     let blocks = open.recording.as_ref().map_or(&[][..], |recording| &recording.blocks);
-    let is_visited = blocks.iter().all(|block| block.kind == blocks::Kind::Visited);
-    let visited = if is_visited { home } else { &Home::Document };
-    let rows = found.rows(&open.state, visited, &evaluator);
+    let visited = blocks.iter().take_while(|block| block.kind == blocks::Kind::Visited);
+    // what is demonstrated there is no turn that one looks at
+    let mut around = home.clone();
+    if let Home::Program { way, .. } = &mut around {
+        way.truncate(visited.count());
+    }
+    let rows = found.rows(&open.state, &around, &evaluator);
     Some(StepsView { rows, ..found.head(open, home, &evaluator) })
 }
 

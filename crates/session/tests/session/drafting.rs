@@ -804,6 +804,11 @@ fn a_wrong_step_is_found_by_what_it_drew_and_replaced() {
     desk.session.visit(desk.id, &Go::To("column.circle2".into())).expect("it is a step");
     assert_eq!(told(&desk, "column").as_deref(), Some("turn 3 of 6"));
     desk.session.visit(desk.id, &Go::To("column.circle".into())).expect("it is a step");
+    // they tell it as well while a loop is drawn in it
+    desk.session.begin_loop(desk.id, "").expect("it is written there");
+    assert_eq!(told(&desk, "column").as_deref(), Some("turn 3 of 6"));
+    desk.undo();
+    assert_eq!(told(&desk, "column").as_deref(), Some("turn 3 of 6"));
     // two turns are drawn before it, and both lines
     let drawn = desk.session.drawn_so_far(desk.id).expect("it is visited");
     assert_eq!(drawn.elements.len(), 2 + 4);
