@@ -82,7 +82,8 @@ impl Session {
     /// Leaves a figure out of the set that the open loop goes over, by its name, or takes it in.
     ///
     /// # Errors
-    /// No such loop is open, its first turn is drawn for this figure, none would be left, or it is of another kind.
+    /// No such loop is open, its first turn is drawn for this figure, none would be left, it is of another kind, or there
+    /// was no such figure before the loop.
     pub fn take_of_set(&mut self, id: DocumentId, figure: &str) -> Result<Change, Refusal> {
         let (open, beside) = self.beside_others(id);
         blocks::recorded(open)?;
@@ -97,6 +98,10 @@ impl Session {
             )),
         };
         let is_new = !blocks::caught(open).iter().any(|name| name == figure);
+        if is_new && !all.iter().any(|found| scene::whole_of(found) == figure) {
+            let message = format!("no figure called `{figure}` was drawn before the loop");
+            return Err(words::refuse(message));
+        }
         let change = repeat::take_of_set(open, &beside, figure)
             .map_err(|refusal| if is_new { of_one_kind(refusal) } else { refusal })?;
         Ok(*self.with_reach(id, change))

@@ -80,10 +80,13 @@ impl Loop {
         each.map_or(&[], |each| &each.caught)
     }
 
-    /// Makes it agree with the text, which undo may have changed.
+    /// Makes it agree with the text, which undo may have changed. What was asked of another first figure is forgotten.
     pub(crate) fn agree(&mut self, set: &[String]) {
-        if let (Some(each), Some(first)) = (&mut self.each, set.first()) {
+        if let (Some(each), Some(first)) = (&mut self.each, set.first())
+            && each.first != *first
+        {
             each.first.clone_from(first);
+            self.asked.clear();
         }
     }
 

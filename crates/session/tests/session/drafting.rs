@@ -947,6 +947,29 @@ fn an_if_is_drawn_by_two_demonstrations() {
 }
 
 #[test]
+fn what_is_asked_of_the_first_of_a_set_is_forgotten_where_undo_brings_another() {
+    let mut desk = Desk::recording("Plate", &[]);
+    for at in ["10,10", "50,10"] {
+        begin(&mut desk, "Circle");
+        enter(&mut desk, at);
+        made(enter(&mut desk, "4"));
+    }
+    desk.session.begin_each(desk.id, ((0.0, 0.0), (100.0, 100.0))).expect("two circles");
+    begin(&mut desk, "Circle");
+    enter(&mut desk, "circle2.center");
+    made(enter(&mut desk, "1"));
+    desk.session.take_of_set(desk.id, "circle").expect("nothing is drawn for it");
+    desk.session.end_turn(desk.id, Ends::Until).expect("it is drawn");
+    assert_eq!(asked(&desk).expect("it is asked").first, "circle2.center");
+    desk.undo();
+    let stale = desk.session.enter(desk.id, "element").expect_err("circle is the first now");
+    assert_eq!(stale.message, "nothing is asked");
+    assert!(asked(&desk).is_none());
+    let open = desk.session.steps(desk.id, None).expect("it is recorded").open;
+    assert_eq!(open[0].words, "turns: draw what is done for circle, the first of the set");
+}
+
+#[test]
 fn a_loop_runs_over_what_a_rubber_band_catches() {
     let mut desk = Desk::of("use geometry\nunit mm\n");
     desk.session.record(desk.id, "Plate").expect("a new program");
@@ -989,6 +1012,10 @@ fn a_loop_runs_over_what_a_rubber_band_catches() {
     begin(&mut desk, "Circle.concentric(with,radius)");
     point(&mut desk, 14.0, 10.0);
     made(enter(&mut desk, "circle.radius + 2"));
+    for none in ["", "circle2, circle3", "turns", "element"] {
+        let refused = desk.session.take_of_set(desk.id, none).expect_err("it is no figure");
+        assert_eq!(refused.message, format!("no figure called `{none}` was drawn before the loop"));
+    }
     // what is drawn in the turn is none of the set
     assert_eq!(desk.session.of_set_at(desk.id, &pointer(16.0, 10.0)), Some("circle".into()));
     begin(&mut desk, "Circle");
