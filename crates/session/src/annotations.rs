@@ -17,7 +17,7 @@ use crate::words;
 use base::Name;
 use eval::{Answer, Evaluator};
 use kernel::{BinaryOperator, ConstraintInstance, DOCUMENT, Path, Step, Term, ThingId};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::PI;
 use syntax::ast::{AstNode, Member};
 
@@ -44,8 +44,9 @@ pub(crate) fn annotations(open: &Open) -> Vec<Annotation> {
     let (own, of_parts): (Vec<_>, Vec<_>) = on.into_iter().partition(|(_, of)| of.owner == owner);
     let said = |one| annotation(state, &evaluator, (owner, &numbers), one);
     let told = relations::signs(state, &evaluator, is_part);
-    let is_told = |of: ThingId| told.iter().any(|(thing, _)| *thing == of);
-    let others: Vec<_> = of_parts.into_iter().filter(|(_, of)| !is_told(of.owner)).collect();
+    let is_told: BTreeSet<ThingId> = told.iter().map(|(thing, _)| *thing).collect();
+    let others: Vec<_> =
+        of_parts.into_iter().filter(|(_, of)| !is_told.contains(&of.owner)).collect();
     let in_document = |typed: &Offer| (prototype.is_none()).then(|| typed.clone());
     let relations = told.iter().map(|(_, sign)| Annotation {
         typed: sign.typed.as_ref().and_then(in_document),

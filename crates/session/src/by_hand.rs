@@ -192,13 +192,14 @@ impl Session {
     ) -> Result<Command, Refusal> {
         let beside = Beside::of(&*self.host, &self.documents, id);
         let open = self.document(id);
+        if matches!(offer.deed, Deed::Add | Deed::Rule(_))
+            && let Some(refusal) =
+                value.and_then(|value| offers::between::beyond(open, offer, value))
+        {
+            return Err(refusal);
+        }
         match &offer.deed {
             Deed::Add => {
-                if let Some(refusal) =
-                    value.and_then(|value| offers::between::beyond(open, offer, value))
-                {
-                    return Err(refusal);
-                }
                 let command = offer.command(value);
                 let is_dimension = offer.value.is_some();
                 let anew = is_dimension.then(|| ways_out::said_anew(open, &beside, &command));

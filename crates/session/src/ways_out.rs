@@ -18,11 +18,12 @@ use crate::view::{Choice, Question};
 use crate::write_back::settle_places;
 use crate::{views, words};
 use base::Name;
-use kernel::{Command, Path};
+use kernel::{Command, Path, Step, ThingId};
 use plan::Plans;
 use std::collections::BTreeSet;
-use syntax::ast::Member;
+use syntax::ast::{AstNode, Member, Merge};
 use syntax::edit::TextEdit;
+use syntax::{SyntaxElement, SyntaxNode};
 
 /// At most so many others are offered to be replaced.
 const MOST_REPLACED: usize = 4;
@@ -183,17 +184,52 @@ pub(crate) fn said_anew(open: &Open, host: &dyn Host, command: &Command) -> Opti
     })
 }
 
-/// Returns the command that says something in the place of a thing; nothing where it would not hold.
+/// Returns the command that says something in the place of a thing; nothing where it would not hold, or where more would
+/// go with the thing: words that speak of it, or merges that others have through it.
 pub(crate) fn instead_of(
     open: &Open,
     host: &dyn Host,
     thing: &Path,
     command: &Command,
 ) -> Option<Command> {
+    let Some(Step::Part(name)) = thing.0.last() else { return None };
+    if is_spoken_of(&open.state.text, name) {
+        return None;
+    }
+    let joined = joined_by(&open.state, thing_at(&open.state, thing)?);
     let mut trial = copy(open, host);
     apply::apply(&mut trial, host, command).ok()?;
     apply::apply(&mut trial, host, &Command::Delete(thing.clone())).ok()?;
-    trial.status.satisfied.then(|| Command::Text(trial.state.text.clone()))
+    let first =
+        |path: &Path| thing_at(&trial.state, path).map(|thing| trial.state.structure.merged[thing]);
+    let are_one = |all: &Vec<Path>| {
+        all.iter().all(|path| first(path).is_some() && first(path) == first(&all[0]))
+    };
+    let is_right = trial.status.satisfied && joined.iter().all(are_one);
+    is_right.then(|| Command::Text(trial.state.text.clone()))
+}
+
+/// Whether a text speaks of a name besides where it declares it, and in merges.
+fn is_spoken_of(text: &str, name: &Name) -> bool {
+    let file = syntax::parse(base::FileId(0), text).file();
+    let words = |node: &SyntaxNode| {
+        let tokens = node.descendants_with_tokens().filter_map(SyntaxElement::into_token);
+        tokens.filter(|token| token.text() == &**name).count()
+    };
+    let merges = file.syntax().descendants().filter_map(Merge::cast);
+    let in_merges: usize = merges.map(|merge| words(merge.syntax())).sum();
+    words(file.syntax()) > in_merges + 1
+}
+
+/// What each part of a thing is merged with outside of it.
+fn joined_by(state: &State, thing: ThingId) -> Vec<Vec<Path>> {
+    let structure = &state.structure;
+    let others = |part| {
+        let all = structure.merged_with(part).into_iter();
+        let all = all.filter(|&other| structure.things[other].owner != Some(thing));
+        all.map(|other| structure.path(&state.lowered.document, other)).collect()
+    };
+    structure.parts(thing).map(others).collect()
 }
 
 /// What a constraint is called; its rule, where it has no name of its own.

@@ -12,7 +12,8 @@ use crate::words;
 use base::Name;
 use eval::{Answer, Evaluator};
 use expr::Dimension;
-use kernel::{ClassKind, Path, Step, ThingId};
+use kernel::{ClassKind, ConstraintInstance, Path, Step, ThingId};
+use std::collections::BTreeMap;
 
 /// The classes that give a number, each with how it is drawn and what it is called.
 const DIMENSIONS: [(&str, Shows, &str); 2] = [
@@ -30,10 +31,23 @@ pub(super) fn signs<'a>(
     let things = structure.things.iter().map(|(thing, _)| thing).filter(|&thing| {
         is_part(thing) && structure.merged[thing] == thing && structure.slot_of(thing).is_none()
     });
-    things.filter_map(|thing| Some((thing, of(state, evaluator, thing)?))).collect()
+    let mut rules: BTreeMap<ThingId, Rules> = BTreeMap::new();
+    for (index, rule) in (0u32..).zip(structure.constraints.iter().copied()) {
+        rules.entry(rule.owner).or_default().push((index, rule));
+    }
+    let own = |thing| rules.get(&thing).map_or(&[][..], Vec::as_slice);
+    things.filter_map(|thing| Some((thing, of(state, evaluator, thing, own(thing))?))).collect()
 }
 
-fn of<'a>(state: &'a State, evaluator: &Evaluator<'a>, thing: ThingId) -> Option<Annotation> {
+/// The constraints of a thing, each with its index.
+type Rules = Vec<(u32, ConstraintInstance)>;
+
+fn of<'a>(
+    state: &'a State,
+    evaluator: &Evaluator<'a>,
+    thing: ThingId,
+    rules: &[(u32, ConstraintInstance)],
+) -> Option<Annotation> {
     let (document, structure) = (&state.lowered.document, &state.structure);
     let class = structure.things[thing].class;
     let said = &document.classes[class];
@@ -54,12 +68,10 @@ fn of<'a>(state: &'a State, evaluator: &Evaluator<'a>, thing: ThingId) -> Option
     if !matches!(drawn, Ok(Answer::Picture(elements)) if elements.is_empty()) {
         return None;
     }
-    let all = (0u32..).zip(structure.constraints.iter().copied());
-    let mut rules = all.filter(|(_, rule)| rule.owner == thing);
     let is_on = |rule| evaluator.is_on(rule).unwrap_or(false);
     let holds = |rule| evaluator.test(rule).is_ok_and(|verdict| verdict.holds);
-    let first = rules.clone().next().map(|(index, _)| index);
-    if first.is_some() && !rules.clone().any(|(_, rule)| is_on(rule)) {
+    let first = rules.first().map(|(index, _)| *index);
+    if first.is_some() && !rules.iter().any(|(_, rule)| is_on(*rule)) {
         return None;
     }
     let annotation = Annotation {
@@ -68,7 +80,7 @@ fn of<'a>(state: &'a State, evaluator: &Evaluator<'a>, thing: ThingId) -> Option
         words: sign(&said.name),
         shows: Shows::Relation,
         of,
-        holds: rules.all(|(_, rule)| !is_on(rule) || holds(rule)),
+        holds: rules.iter().all(|(_, rule)| !is_on(*rule) || holds(*rule)),
         measure: None,
         number: None,
         typed: None,

@@ -50,9 +50,10 @@ impl Offerer<'_> {
             let is_round = || self.is_a(one.class, "Round");
             self.is_place(one.class).then(|| one.path.clone()).or_else(|| is_round().then(center))
         };
+        let said = |line: &Selected, place: &Path| format!("{}.distance(to: {place})", line.path);
         let aside = |line: &Selected, place: Path| {
-            let said = format!("{}.distance(to: {place})", line.path);
-            self.is_a(line.class, "Straight").then(|| (line.path.clone(), place, vec![said]))
+            let lefts = vec![said(line, &place)];
+            self.is_a(line.class, "Straight").then(|| (line.path.clone(), place, lefts))
         };
         match (place(a), place(b)) {
             (Some(one), Some(other)) => {
@@ -63,8 +64,13 @@ impl Offerer<'_> {
             (None, Some(other)) => aside(a, other),
             (None, None) => {
                 let (first, second) = (self.straight(a)?, self.straight(b)?);
-                let start = b.path.then(Step::Part(Name::new("p1")));
-                runs_alongside(first, second).then(|| aside(a, start)).flatten()
+                let end = |one: &Selected, name: &str| one.path.then(Step::Part(Name::new(name)));
+                let (line, start, _) =
+                    runs_alongside(first, second).then(|| aside(a, end(b, "p1"))).flatten()?;
+                // it may be said of the other, or to the other end
+                let ways = [(a, b), (b, a)].into_iter();
+                let lefts = ways.flat_map(|(a, b)| ["p1", "p2"].map(|name| said(a, &end(b, name))));
+                Some((line, start, lefts.collect()))
             }
         }
     }

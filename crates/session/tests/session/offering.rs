@@ -499,6 +499,39 @@ fn a_dimension_that_only_follows_is_made_to_rule() {
 }
 
 #[test]
+fn what_speaks_of_a_dimension_that_follows_stays_when_it_is_made_to_rule() {
+    let text = "use geometry\nunit mm\na: Line { p1 = (0, 0)  p2 = (30, 40) }\n\
+        far: ReferenceDistance { from = a.p1  to = a.p2 }\n";
+    let speaking = [
+        "half: Length => far.reading / 2\n",
+        "said: Text => far.shown\n",
+        "k: Circle { radius = 50 }\nconstraint k.radius = far.reading\n",
+        "q: Point\nmerge far.from = q\n",
+        "check \"it is far\" { expect far.reading > 3 }\n",
+    ];
+    for more in speaking {
+        let before = format!("{text}{more}");
+        let mut desk = Desk::of(&before);
+        take(&mut desk, &["far"], "ruling distance", Some("100 mm"));
+        // it rules, and what followed is still read
+        let after = desk.text();
+        assert!(after.contains("constraint a.p1.distance(to: a.p2) = 100 mm"), "{after}");
+        let last = more.lines().last().expect("it says something");
+        assert!(after.contains("far: ReferenceDistance") && after.contains(last), "{after}");
+        desk.undo();
+        assert_eq!(desk.text(), before);
+    }
+    let two = format!(
+        "{text}b: Line {{ p1 = (0, 0)  p2 = (30, 0) }}\nang: ReferenceAngle {{ from = a  to = b }}\n"
+    );
+    let desk = Desk::of(&two);
+    let turned = offers(&desk, &["ang"]).pop().expect("it is offered");
+    let refused =
+        desk.session.said(desk.id, &turned, Some("200 deg")).expect_err("it is too large");
+    assert!(refused.message.contains("at most 180 deg"), "{}", refused.message);
+}
+
+#[test]
 fn what_is_computed_is_there_while_it_has_no_answer() {
     let mut desk = Desk::of(
         "use geometry\na: Line { p1 = (0, 0)  p2 = (30, 0) }\nb: Line { p1 = (10, 9)  p2 = (10, -9) }\n\
@@ -530,6 +563,14 @@ fn how_far_lines_circles_and_points_are_apart_is_offered_first() {
     assert_eq!(first(&["p", "a"]), "distance: constraint a.distance(to: p) = {}");
     assert_eq!(first(&["a", "c"]), "distance: constraint a.distance(to: c.center) = {}");
     assert_eq!(first(&["c", "d"]), "distance: constraint c.center.distance(to: d.center) = {}");
+    // what is said already is said anew, from either
+    let stood = Desk::of(&format!(
+        "{figure}constraint a.parallel(to: e)\nconstraint a.distance(to: e.p2) = 80\n"
+    ));
+    let again = |paths: &[&str]| offers(&stood, paths).into_iter().find(|o| o.label == "distance");
+    let (one, other) = (again(&["a", "e"]), again(&["e", "a"]));
+    let is_it = |offer: Offer| offer.stands && offer.members.contains("a.distance(to: e.p2)");
+    assert!(one.is_some_and(is_it) && other.is_some_and(is_it));
     let mut desk = Desk::of(&figure);
     take(&mut desk, &["p", "a"], "distance", Some("30"));
     let all = told(&desk);
