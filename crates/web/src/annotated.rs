@@ -259,14 +259,20 @@ impl Lab {
     }
 
     /// A hand is at something else: what has been typed of the size that is asked for is taken, and it is asked for no
-    /// longer. Returns whether it is so; what is refused stays.
+    /// longer. Returns whether it is so; what is refused stays, and what contradicts is asked first.
     pub fn settle_size(self) -> bool {
         let Some(Wish::Dimension(offer)) = self.wish.get_untracked() else { return true };
         if let Some(typed) = self.annotated.typed.get_value() {
             let value = exactly(&typed, offer.value.as_deref().unwrap_or_default());
-            if let Err(sentence) = self.set_dimension(&offer, &value) {
-                self.annotated.refused.set(Some(sentence));
-                return false;
+            match self.set_dimension(&offer, &value) {
+                Ok(holds) => {
+                    self.end_size();
+                    return holds;
+                }
+                Err(sentence) => {
+                    self.annotated.refused.set(Some(sentence));
+                    return false;
+                }
             }
         }
         self.end_size();
@@ -276,19 +282,23 @@ impl Lab {
     /// What was clicked at a place of the window is given a size, alone or with what was clicked before and not answered;
     /// with Shift another thing may follow. Of a dimension that stands there another value is typed; a sign is no thing.
     pub fn size_picked(self, (path, at): (Option<String>, (f64, f64)), goes_on: bool) {
-        let is_open = self.asks_size() && self.annotated.typed.with_value(Option::is_none);
+        let asks = self.asks_size();
+        let is_open = asks && self.annotated.typed.with_value(Option::is_none);
         let again = path.as_ref().is_some_and(|path| self.selection_untracked().contains(path));
         if is_open && again {
             return;
         }
         let before = self.selection_untracked();
         self.notice.set(None);
-        // from here on it is the tool that is held
-        self.annotated.sizing.set(Sizing::Held);
         if !self.settle_size() {
             return;
         }
+        if asks {
+            self.select(None);
+        }
         let Some(path) = path else { return self.select(None) };
+        // from here on it is the tool that is held
+        self.annotated.sizing.set(Sizing::Held);
         if is_open {
             self.select_all(&before);
         }

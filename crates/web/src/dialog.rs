@@ -112,8 +112,10 @@ fn Open(lab: Lab, wish: Wish) -> impl IntoView {
     };
     let change = move |_| {
         error.set(None);
+        // an empty field is no answer
         let typed = input.get_untracked().map(|input| input.value());
-        lab.annotated.typed.set_value(typed.filter(|_| is_size));
+        let typed = typed.filter(|typed| is_size && !typed.trim().is_empty());
+        lab.annotated.typed.set_value(typed);
         typing.update_value(|n| *n += 1);
         let mine = typing.get_value();
         let later = move || {
@@ -140,7 +142,7 @@ fn Open(lab: Lab, wish: Wish) -> impl IntoView {
             Wish::Dimension(offer) => {
                 let value = exactly(&typed, offer.value.as_deref().unwrap_or_default());
                 match lab.set_dimension(&offer, &value) {
-                    Ok(()) => lab.end_size(),
+                    Ok(_) => lab.end_size(),
                     Err(sentence) => error.set(Some(sentence)),
                 }
             }
@@ -222,14 +224,19 @@ fn is_outside(target: Option<EventTarget>, selector: &str) -> bool {
     element.is_some_and(|element| element.closest(selector).ok().flatten().is_none())
 }
 
-/// Asks for a size no longer once the document is another: what was asked may not be there.
+/// Asks for a size no longer once the document is another, or says another text: what was asked may not be there. What
+/// has been typed of it stays meanwhile, and is judged when it is taken.
 fn end_where_document_changes(lab: Lab, asked: Wish) {
-    let before = lab.text.with_untracked(|text| text.source.clone());
+    let (document, before) =
+        (lab.current.get_untracked(), lab.text.with_untracked(|text| text.source.clone()));
     Effect::new(move |_| {
-        let is_other = lab.text.with(|text| text.source != before);
+        let is_another = lab.current.with(|current| *current != document);
+        let is_changed = lab.text.with(|text| text.source != before);
+        let is_open = lab.annotated.typed.with_value(Option::is_none);
         // what was clicked next may be asked for already
-        if is_other && lab.wish.with_untracked(|wish| wish.as_ref() == Some(&asked)) {
-            lab.wish.set(None);
+        let is_asked = || lab.wish.with_untracked(|wish| wish.as_ref() == Some(&asked));
+        if (is_another || is_changed && is_open) && is_asked() {
+            lab.end_size();
         }
     });
 }
@@ -283,14 +290,14 @@ impl Lab {
         })
     }
 
-    /// Says a dimension with the value that was typed.
+    /// Says a dimension with the value that was typed; answers whether it holds now, or something is asked first.
     ///
     /// # Errors
     /// Why not, in one sentence.
-    pub fn set_dimension(self, offer: &Offer, typed: &str) -> Result<(), String> {
+    pub fn set_dimension(self, offer: &Offer, typed: &str) -> Result<bool, String> {
         match self.say_offer(offer, Some(typed)) {
-            Ok(true) => Ok(()),
-            Ok(false) => refused(self),
+            Ok(true) => Ok(true),
+            Ok(false) => refused(self).map(|()| false),
             Err(refusal) => Err(crate::field::reason(&refusal)),
         }
     }

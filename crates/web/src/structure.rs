@@ -12,6 +12,8 @@ use presentation::rows::{Shown, called, is_unnamed, rule_alone, shown};
 use session::Command;
 use session::view::{RowKind, StructureRow};
 use std::collections::BTreeSet;
+use wasm_bindgen::JsCast;
+use web_sys::Element;
 
 /// At first so many levels are open as show no more rows than this.
 const FIRST_ROWS: usize = 30;
@@ -151,7 +153,7 @@ impl Tree {
         request_animation_frame(move || {
             self.scroll_to(at);
             if let Some(row) = document().get_element_by_id(&format!("row-{at}")) {
-                let row: web_sys::HtmlElement = wasm_bindgen::JsCast::unchecked_into(row);
+                let row: web_sys::HtmlElement = JsCast::unchecked_into(row);
                 // A row that has gone meanwhile needs no focus.
                 let _ = row.focus();
             }
@@ -299,8 +301,18 @@ pub fn Structure(
     });
     let leave = move |e: FocusEvent| {
         if e.related_target().is_some() {
-            held.set_value(false);
+            return held.set_value(false);
         }
+        // a row that is still there has been left, be it for nothing
+        let row = e.target().and_then(|target| target.dyn_into::<Element>().ok());
+        request_animation_frame(move || {
+            let is_there = row.is_some_and(|row| row.is_connected());
+            let is_held = keyboard::holder().is_some_and(|holder| holder.id().starts_with("row-"));
+            if is_there && !is_held {
+                // the tree may have gone meanwhile
+                let _ = held.try_set_value(false);
+            }
+        });
     };
     view! {
         <section class="panel structure" aria-label=words::STRUCTURE>

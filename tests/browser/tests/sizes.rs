@@ -188,8 +188,12 @@ async fn dimensions_stand_on_the_drawing_and_are_typed_anew_there() {
     click(&visit, word(&sized, "constraint5")).await;
     visit.until("window.__thinglab.state().selected === 'constraint5'").await;
     chord(&visit, &[], 'd').await;
-    answer(&visit, "60").await;
+    visit.until("document.activeElement.id === 'asked'").await;
+    keys(&visit, "60").await;
+    // a click on empty paper takes it, and the hand selects again
+    click(&visit, at(&visit, 0.5, 0.6).await).await;
     visit.until("window.__thinglab.state().text.includes('constraint line.length = 60')").await;
+    visit.until("document.querySelector('[data-action=select][aria-pressed=true]')").await;
     let typed = state(&visit).await;
     let number = |path: &str| {
         let mut rows = typed["values"].as_array().expect("a list").iter();
@@ -203,4 +207,17 @@ async fn dimensions_stand_on_the_drawing_and_are_typed_anew_there() {
     let printed = visit.script(print).await;
     let has = |words: &str| printed.as_array().is_some_and(|all| all.iter().any(|t| t == words));
     assert!(has("60 mm") && has("30 mm") && has("H"), "{printed}");
+    // what contradicts is asked before the next thing is
+    let middle = |ends: [&str; 2]| {
+        let [a, b] = ends.map(|end| grip(&typed, end));
+        (f64::midpoint(a.0, b.0), f64::midpoint(a.1, b.1))
+    };
+    click(&visit, middle(["line2.p2", "line3.p2"])).await;
+    visit.until("window.__thinglab.state().selected === 'line3'").await;
+    chord(&visit, &[], 'd').await;
+    visit.until(&asks("Value of the length")).await;
+    keys(&visit, "90 mm").await;
+    click(&visit, middle(["line.p2", "line2.p2"])).await;
+    visit.until("window.__thinglab.state().notice && !document.getElementById('asked')").await;
+    assert_eq!(state(&visit).await["text"], typed["text"]);
 }

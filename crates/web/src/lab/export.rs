@@ -61,7 +61,13 @@ impl Lab {
     /// whether it is to be fitted to the page.
     pub fn printed(self) -> Option<(String, String, bool)> {
         let (_, picture) = self.drawn()?;
-        let scale = printed_true(&picture.drawing, picture.millimetres);
+        // what stands on it needs room on the page as well
+        let has_room = |scale: &f64| {
+            let mut noted = picture.clone();
+            self.draw_notes(&mut noted, *scale);
+            printed_true(&noted.drawing, noted.millimetres).is_some()
+        };
+        let scale = printed_true(&picture.drawing, picture.millimetres).filter(has_room);
         let title = self.document.with_untracked(|d| d.as_ref().map(|d| d.title.clone()))?;
         let svg = self.svg_of(picture, scale);
         Some(match scale {
