@@ -1,7 +1,8 @@
 //! Results in the units of what they are made of: pounds and feet make pound-feet, not newton metres.
 //!
 //! In: the units that a text writes, where all that speak of lengths and masses are of one system that is not that of
-//! SI. Out: for what it measures without writing any unit of that, the unit that those make.
+//! SI. Out: for what it measures without writing any unit of that, the unit that those make. Heat is counted apart: a
+//! text with BTU has its powers in none of foot-pounds an hour.
 
 use base::Name;
 use expr::dimension::Dimension;
@@ -60,7 +61,6 @@ const SYSTEMS: [System; 2] = [
             factor("psi", ["lbf", "", "in"], true),
             factor("ksi", ["kip", "", "in"], true),
             factor("hp", ["", "", ""], true),
-            factor("BTU", ["", "", ""], true),
         ],
         force: "lbf",
         mass: "lb",

@@ -164,13 +164,16 @@ fn awkwardness(size: f64) -> f64 {
 
 /// Chooses the unit for a number of base units where that in which it was written says nothing.
 fn spelling_of_text(x: f64, quantity: Quantity<'_>, document: &Document) -> String {
-    let Quantity { dimension, class, .. } = quantity;
+    let Quantity { dimension, class, written } = quantity;
     let size = |spelling: &str| in_unit(x, dimension, spelling, document).abs();
     if let Some(spelling) = usual(class, dimension, document, size) {
         return spelling;
     }
     let sort = || sort_in(document, class, dimension).unwrap_or_default();
-    if let Some(customary) = document.customary.as_ref().filter(|_| dimension != Dimension::LENGTH)
+    // what is written bare is written in SI
+    let is_bare = written.trim().parse::<f64>().is_ok_and(|x| x != 0.0);
+    let is_made = dimension != Dimension::LENGTH && !is_bare;
+    if let Some(customary) = document.customary.as_ref().filter(|_| is_made)
         && let Some(spelling) = customary.spelling(dimension, sort() == "Torque", size)
     {
         return spelling;

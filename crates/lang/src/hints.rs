@@ -269,7 +269,7 @@ impl Lowerer<'_> {
             {
                 d.hint(counted(&self.document, *found, value, &written))
             }
-            (Kind::Tuple(items), Kind::Thing(_), _) if items.contains(&Kind::PLAIN) => {
+            (Kind::Tuple(items), Kind::Thing(class), _) if self.wants_length(*class, items) => {
                 d.hint(PLAIN_AS_LENGTH)
             }
             (Kind::List(_), Kind::Thing(_), Expr::List(list)) => {
@@ -304,6 +304,16 @@ impl Lowerer<'_> {
         });
     }
 
+    /// Returns true if a plain number stands in a tuple where a part of a class is a length.
+    fn wants_length(&self, class: ClassId, items: &[Kind]) -> bool {
+        let document = &self.document;
+        let mut fields = document.layout(class).into_iter().zip(items);
+        fields.any(|(field, item)| {
+            let wanted = Kind::of_class(document, document.field_class(field));
+            *item == Kind::PLAIN && wanted == Kind::LENGTH
+        })
+    }
+
     pub(crate) fn mismatch(
         &mut self,
         scope: &Scope,
@@ -335,9 +345,9 @@ impl Lowerer<'_> {
         if let (Kind::List(_), Kind::List(_), Some(BinaryOperator::Add)) = (left, right, operator) {
             d = d.hint("what either list has, each once, is `xs.union(other: ys)`; numbers of two lists are added by `xs.zip(other: ys).map(pair => pair[0] + pair[1])`");
         }
-        if let (Kind::Thing(_), Kind::Tuple(items)) | (Kind::Tuple(items), Kind::Thing(_)) =
+        if let (Kind::Thing(class), Kind::Tuple(items)) | (Kind::Tuple(items), Kind::Thing(class)) =
             (left, right)
-            && items.contains(&Kind::PLAIN)
+            && self.wants_length(*class, items)
         {
             d = d.hint(PLAIN_AS_LENGTH);
         }

@@ -1,11 +1,13 @@
 //! Given twice: one body gives a part two values, of which the later counts. A warning at the earlier.
 //!
-//! In: what a text means. Out: diagnostics. What a body further out gives in the place of one further in is meant so.
+//! In: what a text means. Out: diagnostics. What a body further out gives in the place of one further in is meant so, and
+//! so is what a loop or a condition gives of which something else is an exception.
 
 use crate::lower::{Lowered, OWN};
-use base::{Diagnostic, Place};
-use kernel::{Given, Path};
+use base::Diagnostic;
+use kernel::{Given, OriginId, Path};
 use std::collections::{BTreeMap, BTreeSet};
+use syntax::{SyntaxKind, SyntaxNode};
 
 /// The code of the warning.
 const CODE: &str = "given-twice";
@@ -15,18 +17,21 @@ impl Lowered {
     ///
     /// Cost: a look at every given value.
     pub fn given_twice(&self) -> Vec<Diagnostic> {
+        let root = self.effective_parse.syntax();
         let mut said = BTreeSet::new();
         let mut warnings = Vec::new();
         for (_, class) in self.document.classes.iter() {
-            let mut latest: BTreeMap<&Path, Place> = BTreeMap::new();
+            let mut latest: BTreeMap<&Path, OriginId> = BTreeMap::new();
             for given in class.givens.iter().map(|given| &**given) {
                 let Given { path, origin, .. } = given;
                 let place = self.place(*origin);
                 if place.file != OWN {
                     continue;
                 }
-                let before = latest.insert(path, place).filter(|before| *before != place);
-                if let Some(before) = before.filter(|before| said.insert(*before)) {
+                let Some(earlier) = latest.insert(path, *origin) else { continue };
+                let before = self.place(earlier);
+                let [one, other] = [earlier, *origin].map(|origin| self.repeated(&root, origin));
+                if before != place && one == other && said.insert(before) {
                     let message =
                         format!("{path} is given here, and again further on: that counts");
                     let d = Diagnostic::warning(CODE, before, message).label(place, "here");
@@ -35,5 +40,12 @@ impl Lowered {
             }
         }
         warnings
+    }
+
+    /// Returns the innermost loop or condition that a member of the text stands in.
+    fn repeated(&self, root: &SyntaxNode, origin: OriginId) -> Option<SyntaxNode> {
+        let start = self.origins.place(origin).span.start.into();
+        let token = root.token_at_offset(start).right_biased()?;
+        token.parent_ancestors().find(|n| matches!(n.kind(), SyntaxKind::For | SyntaxKind::If))
     }
 }

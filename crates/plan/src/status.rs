@@ -110,19 +110,19 @@ impl Planner {
         host: &mut dyn Host,
     ) -> BTreeSet<SlotId> {
         let structure = model.structure;
+        let is_given = |slot: SlotId| {
+            structure.slots[slot].given.is_some() || structure.copied.contains_key(&slot)
+        };
         let is_asked = |slot: SlotId| {
             let s = &structure.slots[slot];
-            let is_given = s.given.is_some() || structure.copied.contains_key(&slot);
-            !is_given && !s.anchored && !s.is_layout && s.primitive.is_number()
+            !is_given(slot) && !s.anchored && !s.is_layout && s.primitive.is_number()
         };
         let lone = |&slot: &SlotId| is_asked(slot) && self.net.rules_of(slot).is_empty();
         let mut found: BTreeSet<SlotId> = structure.slots.ids().filter(lone).collect();
         let mut components = self.whole(structure).components.clone();
         components.retain(|component| component.slots().iter().any(|&s| is_asked(s)));
         let holding = |slot: SlotId| match Self::resting_hold(structure, slot) {
-            Holding::Kept if structure.slots[slot].given.is_some() => {
-                Holding::Given(Giver::Document)
-            }
+            Holding::Kept if is_given(slot) => Holding::Given(Giver::Document),
             held => held,
         };
         for task in self.tasks(structure, components, &holding, &[], None) {

@@ -226,7 +226,9 @@ impl Planned {
         given_faults.extend(texts.unlike_copy(&values).map(|origin| eval::Fault {
             origin: Some(origin),
             kind: eval::FaultKind::Endless,
-            message: "a copy that what it is a copy of depends on".into(),
+            message: format!(
+                "what this is a copy of depends on it, or on more than {MOST_COPIES} copies in turn"
+            ),
         }));
         crate::placing::place_layout(structure, &self.planner, &mut values);
         let on_course = self.planner.course_faults().iter().filter(|f| !follows(lowered, f));

@@ -7,7 +7,7 @@
 use crate::state::State;
 use crate::words::show_thing;
 use base::{Diagnostic, Place};
-use kernel::{SlotId, Term, ThingId, Value};
+use kernel::{SlotId, Structure, Term, ThingId, Value};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The code of the warning.
@@ -33,10 +33,7 @@ pub(crate) fn warnings(state: &State) -> Vec<Diagnostic> {
     let mut lines: BTreeMap<(u32, u32), (Place, Line)> = BTreeMap::new();
     let anchors = structure.stays.iter().filter(|stay| stay.strength.is_none());
     let anchored: BTreeSet<ThingId> = anchors.map(|stay| stay.thing).collect();
-    let is_anchored = |thing: ThingId| {
-        let mut around = std::iter::successors(Some(thing), |&t| structure.owner(t));
-        around.any(|t| anchored.contains(&t))
-    };
+    let is_anchored = |thing: ThingId| around(structure, thing).any(|t| anchored.contains(&t));
     let merged = structure.merged.iter().filter(|(t, _)| structure.is_merged(*t));
     for (thing, _) in merged {
         let Some(slot) = structure.slot_of(thing) else { continue };
@@ -67,8 +64,7 @@ pub(crate) fn warnings(state: &State) -> Vec<Diagnostic> {
 /// Cost: a look at every merge of the document itself.
 fn merged_at(state: &State, thing: ThingId, other: ThingId) -> Option<Place> {
     let (structure, document) = (&state.structure, &state.lowered.document);
-    let around = |thing: ThingId| std::iter::successors(Some(thing), |&t| structure.owner(t));
-    let all: Vec<ThingId> = around(thing).chain(around(other)).collect();
+    let all: Vec<ThingId> = around(structure, thing).chain(around(structure, other)).collect();
     let merges = document.classes[document.root].merges.iter();
     let mut found = merges.filter(|merge| {
         let things = merge.paths.iter().filter_map(|p| structure.follow(kernel::DOCUMENT, p).ok());
@@ -76,6 +72,11 @@ fn merged_at(state: &State, thing: ThingId, other: ThingId) -> Option<Place> {
         named.count() > 1
     });
     found.next().map(|merge| state.lowered.place(merge.origin))
+}
+
+/// Returns a thing and all that it is in: lists too, which own no part by its name.
+fn around(structure: &Structure, thing: ThingId) -> impl Iterator<Item = ThingId> {
+    std::iter::successors(Some(thing), |&t| structure.things[t].owner)
 }
 
 /// Returns the place that a coordinate belongs to, or the thing itself.

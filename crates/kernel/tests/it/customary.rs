@@ -35,5 +35,6 @@ fn products_are_in_the_units_of_their_factors() {
     assert_eq!(shown(&["lbf", "ft", "mm"], 1.0, Dimension::AREA, false), None);
     assert_eq!(shown(&["lbf", "V"], 1.0, Dimension::FORCE, false), None, "a volt is of SI");
     assert_eq!(shown(&["lbf"], 1.0, Dimension::AREA, false), None, "no length is written");
+    assert_eq!(shown(&["BTU", "ft", "h"], 1.0, Dimension::POWER, false), None, "heat is no work");
     assert_eq!(shown(&["ft"], 1.0, Dimension::TEMPERATURE, false), None);
 }

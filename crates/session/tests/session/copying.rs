@@ -258,3 +258,26 @@ fn a_copy_in_a_sheet_of_centimetres_lies_near() {
     desk.apply(&command).expect("it can be made");
     assert_eq!(desk.place("point"), (3.0, 3.0));
 }
+
+#[test]
+fn a_copy_of_what_is_computed_stays_as_it_is_and_opens_so_again() {
+    let text = "class Q { x: Real }\na: Real = 3\nq: Q\nconstraint q.x = 2 * a\n\
+        r: Q = copy of q\nhalf: Real\nconstraint half = r.x / 2\n";
+    let mut desk = Desk::of(text);
+    let arbitrary = desk.session.arbitrary(desk.id);
+    assert!(arbitrary.is_empty(), "all follows from what is given: {arbitrary:?}");
+    desk.set("a", 5.0).expect("q follows");
+    for desk in [&desk, &Desk::of(&desk.text())] {
+        let values = ["q.x", "r.x", "half"].map(|path| shown(desk, path));
+        assert_eq!(values, ["10", "6", "3"], "{}", desk.text());
+    }
+    desk.apply(&Command::Undo).expect("one step");
+    assert_eq!(desk.text(), text);
+    desk.type_text(&text.replace("a: Real = 3", "a: Real = 4"));
+    for desk in [&desk, &Desk::of(&desk.text())] {
+        assert_eq!(["q.x", "r.x"].map(|path| shown(desk, path)), ["8", "6"], "{}", desk.text());
+    }
+    desk.type_text(&text.replace(" = 3", "").replace("q: Q\n", "q: Q\nq.x = 8\n"));
+    let values = ["a", "q.x", "r.x"].map(|path| shown(&desk, path));
+    assert_eq!(values, ["4", "8", "8"], "what is given is copied as it is given");
+}

@@ -570,7 +570,6 @@ fn floor(a: i128, b: i128) -> i128 {
     a.div_euclid(b)
 }
 
-/// Returns the greatest common divisor of two numbers; of nothing and a number, that number.
 fn ceiling(a: i128, b: i128) -> i128 {
     -((-a).div_euclid(b))
 }

@@ -207,6 +207,7 @@ impl Linear {
     }
 }
 
+/// Returns the greatest common divisor of two numbers; of nothing and a number, that number.
 fn common_divisor(a: u64, b: u64) -> u64 {
     if b == 0 { a } else { common_divisor(b, a % b) }
 }

@@ -276,6 +276,8 @@ pub(in crate::grammar) fn strange_number(p: &mut Parser<'_>) -> Option<usize> {
     let found = found.or_else(|| thousands(p)).or_else(|| spelled(p));
     let ((length, number), at) = (found?, p.pos());
     let (digits, last) = (p.text_between(at - 1, at - 1), at + length - 1);
+    // `2k` is perhaps twice a part that is called so
+    let may_be_product = p.word(0) == "k" && !number.ends_with("ohm");
     let said = (
         "implied-product",
         format!("found `{}` right after `{digits}`, wanted one number", p.word(0)),
@@ -286,11 +288,14 @@ pub(in crate::grammar) fn strange_number(p: &mut Parser<'_>) -> Option<usize> {
             1 | 2 if number.ends_with("ohm") => {
                 format!("a number has its point and its unit: `{number}`")
             }
+            _ if may_be_product => {
+                format!("so many thousands are `{number}`; a product has its sign, `{digits} * k`")
+            }
             _ => format!("write `{number}`"),
         },
     );
     let span = p.span_at(at - 1).join(p.span_at(last));
-    p.report_mistake((at - 1, last), said, Some((span, number)));
+    p.report_mistake((at - 1, last), said, (!may_be_product).then_some((span, number)));
     Some(length)
 }
 
@@ -329,13 +334,13 @@ fn resistance(p: &Parser<'_>) -> Option<(usize, String)> {
     is_one.then(|| (1 + usize::from(has_unit), format!("{digits}.{rest} {unit}")))
 }
 
-/// `2h30m`, `45º`, `0x1F`: how many tokens it has behind its number, and how it is written.
+/// `2h30m`, `45º`, `0x1F`: how many tokens it has behind its number, and how it is written. `2h1` is two heights.
 fn spelled(p: &Parser<'_>) -> Option<(usize, String)> {
     let (digits, rest) = (p.text_between(p.pos() - 1, p.pos() - 1), p.word(0));
+    let minutes = rest.strip_suffix("min").or_else(|| rest.strip_suffix('m'));
+    let minutes = minutes.and_then(|rest| rest.strip_prefix('h')).filter(|rest| is_whole(rest));
     let number = match rest.split_at_checked(1) {
-        Some(("h", minutes)) if is_whole(minutes.trim_end_matches(['m', 'i', 'n'])) => {
-            format!("{digits} h + {} min", minutes.trim_end_matches(['m', 'i', 'n']))
-        }
+        _ if let Some(minutes) = minutes => format!("{digits} h + {minutes} min"),
         Some(("x", hexadecimal)) if digits == "0" => {
             i64::from_str_radix(hexadecimal, 16).ok()?.to_string()
         }
