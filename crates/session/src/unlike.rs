@@ -6,6 +6,7 @@
 
 use crate::state::State;
 use crate::words::show_thing;
+use base::number::ROUNDING;
 use base::{Diagnostic, Place};
 use kernel::{SlotId, Structure, Term, ThingId, Value};
 use std::collections::{BTreeMap, BTreeSet};
@@ -42,7 +43,11 @@ pub(crate) fn warnings(state: &State) -> Vec<Diagnostic> {
         };
         let is_own = |origin| state.lowered.is_own_given(origin);
         let (Some(is), Some(was)) = (value(&given.term), value(&own.term)) else { continue };
-        if given.origin == own.origin || is == was || !is_own(own.origin) || !is_own(given.origin) {
+        if given.origin == own.origin
+            || are_alike(&is, &was)
+            || !is_own(own.origin)
+            || !is_own(given.origin)
+        {
             continue;
         }
         let giver = |t: &ThingId| structure.given_apart(*t) == Some(given);
@@ -91,6 +96,14 @@ fn value(term: &Term) -> Option<Value> {
         Term::Number { value, .. } => Some(Value::Number(*value)),
         Term::Text(text) => Some(Value::Text(text.as_str().into())),
         _ => None,
+    }
+}
+
+/// Returns true for values that nobody can tell apart: `1.1 in` and `27.94 mm` differ by rounding alone.
+fn are_alike(a: &Value, b: &Value) -> bool {
+    match (a, b) {
+        (Value::Number(a), Value::Number(b)) => (a - b).abs() <= ROUNDING * a.abs().max(b.abs()),
+        _ => a == b,
     }
 }
 
