@@ -22,7 +22,7 @@ struct Line {
     counts: Place,
     /// By slot, what the line gives and what counts.
     values: Vec<(SlotId, [Value; 2])>,
-    /// True if either is anchored at what it is given.
+    /// True if both are anchored at what they are given, in one coordinate at least.
     holds: bool,
 }
 
@@ -56,9 +56,9 @@ pub(crate) fn warnings(state: &State) -> Vec<Diagnostic> {
         let (_, line) = lines.entry((place.span.start, place.span.end)).or_insert_with(|| {
             let parts = [whole(state, thing), whole(state, by)];
             let counts = state.lowered.place(given.origin);
-            let holds = is_anchored(thing) && is_anchored(by);
-            (place, Line { parts, counts, values: Vec::new(), holds })
+            (place, Line { parts, counts, values: Vec::new(), holds: false })
         });
+        line.holds |= is_anchored(thing) && is_anchored(by);
         line.values.push((slot, [was, is]));
     }
     lines.into_values().map(|(place, line)| warning(state, place, &line)).collect()
