@@ -170,9 +170,7 @@ fn spelling_of_text(x: f64, quantity: Quantity<'_>, document: &Document) -> Stri
         return spelling;
     }
     let sort = || sort_in(document, class, dimension).unwrap_or_default();
-    // what is written bare is written in SI
-    let is_bare = written.trim().parse::<f64>().is_ok_and(|x| x != 0.0);
-    let is_made = dimension != Dimension::LENGTH && !is_bare;
+    let is_made = dimension != Dimension::LENGTH && !is_bare(written);
     if let Some(customary) = document.customary.as_ref().filter(|_| is_made)
         && let Some(spelling) = customary.spelling(dimension, sort() == "Torque", size)
     {
@@ -188,6 +186,15 @@ fn spelling_of_text(x: f64, quantity: Quantity<'_>, document: &Document) -> Stri
         Some(spelling) => prefixed(spelling, size),
         None => dimension.to_string(),
     }
+}
+
+/// Returns true for what is written in numbers alone, `5` or `[1, 2e3]`: these are in SI. Nothing is nothing anywhere.
+fn is_bare(written: &str) -> bool {
+    let words = written.split(|c: char| !c.is_alphanumeric() && c != '.');
+    let numbers = words.filter(|word| !word.is_empty());
+    let numbers: Result<Vec<f64>, _> =
+        numbers.map(|word| word.trim_end_matches(['e', 'E']).parse()).collect();
+    numbers.is_ok_and(|all| all.iter().any(|&x| x != 0.0))
 }
 
 /// Returns the unit of SI in which a class of quantities is shown; none for plain numbers, lengths and what has no name.
