@@ -100,7 +100,7 @@ pub(in crate::grammar) fn no_operand(p: &Parser<'_>) -> Option<String> {
             Some("a list stands in square brackets: `[1, 2, 3]`".into())
         }
         (Eq, LBrace) => Some("the parts of a thing stand in round brackets: `(x: 1, y: 2)`".into()),
-        (_, LBrace) if p.text_between(p.pos() - 1, p.pos() - 1) == "in" => {
+        (_, LBrace) if p.pos() > 0 && p.text_between(p.pos() - 1, p.pos() - 1) == "in" => {
             Some("a range is `1..3`; what is one of several is a rule, `x in [1, 2, 4]`".into())
         }
         (AndKw, Less | LessEq | Greater | GreaterEq) => {
