@@ -128,9 +128,13 @@ pub fn read_literal(
     if let Some(Primitive::Text | Primitive::Color) = primitive {
         return Ok(Literal::Text(typed.to_string()));
     }
+    let in_full = match primitive {
+        Some(Primitive::Real(dimension)) => with_unit_of_prefix(typed.trim(), dimension),
+        _ => None,
+    };
     let span = Span::new(0, typed.len() as u32);
     let place = Place { file: OWN, span };
-    let parse = syntax::parse_expression(OWN, typed.trim());
+    let parse = syntax::parse_expression(OWN, in_full.as_deref().unwrap_or(typed.trim()));
     let broken = || Diagnostic::error("not-a-value", place, format!("`{typed}` is no value"));
     if let Some(d) = parse.diagnostics().first() {
         return Err(match crate::files::word_for_unit(&parse, d) {
@@ -167,6 +171,43 @@ pub fn read_literal(
             Some(Primitive::Real(_)) if d.code == "not-a-value" => d.hint("a number is wanted"),
             _ => d,
         }
+    })
+}
+
+/// The prefixes of the short form, each with that of a unit; not `m` and `T`, which are units of other quantities.
+const SHORT_PREFIXES: [(&str, &str); 10] = [
+    ("f", "f"),
+    ("p", "p"),
+    ("n", "n"),
+    ("u", "u"),
+    ("\u{b5}", "u"),
+    ("\u{3bc}", "u"),
+    ("k", "k"),
+    ("K", "k"),
+    ("M", "M"),
+    ("G", "G"),
+];
+
+/// Returns a number in the short form of IEC 60062 with its unit in full: `2k` and `4k7` of a resistance are `2 kohm`
+/// and `4.7 kohm`, `100n` of a capacitance `100 nF`. Nothing for any other.
+fn with_unit_of_prefix(typed: &str, dimension: Dimension) -> Option<String> {
+    let is_digit = |c: char| c.is_ascii_digit();
+    let at = typed.find(char::is_alphabetic)?;
+    let (whole, rest) = typed.split_at(at);
+    let mut short = SHORT_PREFIXES.into_iter();
+    let (prefix, decimals) =
+        short.find_map(|(short, prefix)| Some((prefix, rest.strip_prefix(short)?)))?;
+    let begins = whole.strip_prefix('-').unwrap_or(whole).starts_with(is_digit);
+    let spelling = format!("{prefix}{}", units::preferred(dimension)?);
+    let is_unit = units::unit(&spelling).is_some_and(|unit| unit.dimension == dimension);
+    // a kelvin is one
+    if !begins || !decimals.chars().all(is_digit) || !is_unit || dimension == Dimension::TEMPERATURE
+    {
+        return None;
+    }
+    Some(match decimals {
+        "" => format!("{whole} {spelling}"),
+        _ => format!("{whole}.{decimals} {spelling}"),
     })
 }
 

@@ -359,11 +359,16 @@ impl Desk<'_> {
                 vec![note(0, ((at.0 + off.0, at.1 + off.1), Vec::new(), LEVEL))]
             }
             (_, of) => {
+                // of a place on a line or a circle it is said at the place alone
+                let is_said = |seen: &Seen| match of {
+                    [Seen::Place(_), _] | [_, Seen::Place(_)] => matches!(seen, Seen::Place(_)),
+                    _ => true,
+                };
                 let sign = |(n, seen): (usize, &Seen)| {
                     let (at, off) = (self.sign(*seen), self.moved(&key(n)));
                     note(n, ((at.0 + off.0, at.1 + off.1), Vec::new(), LEVEL))
                 };
-                of.iter().enumerate().map(sign).collect()
+                of.iter().enumerate().filter(|(_, seen)| is_said(seen)).map(sign).collect()
             }
         }
     }
@@ -590,6 +595,20 @@ mod tests {
         assert!(off.0.abs() < 1e-9 && off.1.abs() < 1e-9, "{angle:?}");
         // the arc, and the first line continued
         assert_eq!(angle.lines.len(), 2);
+    }
+
+    #[test]
+    fn of_a_place_on_a_line_the_sign_stands_at_the_place_alone() {
+        let mut picture = corner();
+        picture.grips.push(Grip { path: "p".into(), x: 50.0, y: 0.0, ..Grip::default() });
+        let view = View { scale: 2.0, x: 200.0, y: 300.0, ..View::default() };
+        for of in [["a", "p"], ["p", "a"]] {
+            let all = [annotation("c1", Shows::Relation, "on", &of)];
+            let all = notes(&all, &picture, &view, &Moved::new());
+            let [note] = all.as_slice() else { panic!("one note: {all:?}") };
+            // (50, 0) is at pixel (300, 300)
+            assert!((note.at.0 - 300.0).abs() < 30.0 && (note.at.1 - 300.0).abs() < 30.0);
+        }
     }
 
     #[test]

@@ -16,7 +16,7 @@ use crate::view::{Annotation, Offer, Shows};
 use crate::words;
 use base::Name;
 use eval::{Answer, Evaluator};
-use kernel::{BinaryOperator, ConstraintInstance, DOCUMENT, Path, Step, Term, ThingId};
+use kernel::{Argument, BinaryOperator, ConstraintInstance, DOCUMENT, Path, Step, Term, ThingId};
 use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::PI;
 use syntax::ast::{AstNode, Member};
@@ -174,6 +174,12 @@ impl<'a> Reader<'a, '_> {
             .or_else(|| self.dimension(left, right))
             .or_else(|| self.dimension(right, left)),
             Term::Send { to, name, arguments, search: None } => {
+                if let Some(circle) = touched(name, arguments) {
+                    return Some(Reading::relation(
+                        "T",
+                        vec![self.at(to)?, self.absolute(&circle)],
+                    ));
+                }
                 let to = std::iter::once(&**to);
                 let all = to.chain(arguments.iter().map(|argument| &argument.value));
                 let of = all.map(|term| self.at(term)).collect::<Option<_>>()?;
@@ -281,6 +287,16 @@ fn turned(term: &Term) -> (&Term, bool) {
         }
         _ => (term, false),
     }
+}
+
+/// The circle that a line touches where it ends, by the rule that drawing writes: that it is square to the radius
+/// there, `line.perpendicular(to: Line(circle.center, line.p2))`.
+fn touched(name: &str, arguments: &[Argument]) -> Option<Path> {
+    let [Argument { value: Term::Make { arguments: ends, .. }, .. }] = arguments else {
+        return None;
+    };
+    let center = ends.first().filter(|_| name == "perpendicular")?.value.path()?;
+    parted(&center).filter(|(_, part)| *part == "center").map(|(circle, _)| circle)
 }
 
 /// The end of a path, and what is before it.

@@ -58,6 +58,7 @@ fn is_of_loop(state: &State, instance: ConstraintInstance) -> bool {
 /// ```
 /// use session::rule_in_words;
 /// assert_eq!(rule_in_words("a.perpendicular(to: b.side1)"), "a ⟂ b.side1");
+/// assert_eq!(rule_in_words("a.perpendicular(to: Line(c.center, a.p2))"), "a touches c at a.p2");
 /// assert_eq!(rule_in_words("circle.passes(through: line.p2)"), "circle passes through line.p2");
 /// assert_eq!(rule_in_words("a.angle(to: b) = 30 deg"), "angle of a to b = 30 deg");
 /// assert_eq!(rule_in_words("b.angle(to: -a) = 60 deg"), "angle between b and a = 60 deg");
@@ -72,6 +73,9 @@ pub fn rule_in_words(rule: &str) -> String {
         Some((left, value)) if value.starts_with(|c: char| c.is_ascii_digit()) => (left, value),
         Some((left, right)) => return level(left, right).unwrap_or_else(|| rule.into()),
         None => {
+            if let Some((one, circle, place)) = touching(rule) {
+                return format!("{one} touches {circle} at {place}");
+            }
             return asked(rule).map_or(rule.into(), |(one, verb, other)| match verb.as_str() {
                 "parallel to" => format!("{one} ∥ {other}"),
                 "perpendicular to" => format!("{one} ⟂ {other}"),
@@ -101,6 +105,13 @@ fn level(left: &str, right: &str) -> Option<String> {
         _ => return None,
     };
     (is_path(one) && is_path(other)).then(|| format!("{one} {said} {other}"))
+}
+
+/// A line, the circle that it touches, and where: it is square to the radius there.
+fn touching(rule: &str) -> Option<(&str, &str, &str)> {
+    let (one, radius) = rule.strip_suffix("))")?.split_once(".perpendicular(to: Line(")?;
+    let (circle, place) = radius.split_once(".center, ")?;
+    [one, circle, place].into_iter().all(is_path).then_some((one, circle, place))
 }
 
 /// The two sides of an angle of which one is turned round at least, so that both run from their corner.

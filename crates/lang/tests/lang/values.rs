@@ -219,6 +219,27 @@ fn what_a_person_types() {
     assert_eq!(typed("7", "Integer", ""), number(7.0));
 }
 
+/// The short form of IEC 60062, in which the prefix stands for the point.
+#[test]
+fn a_prefix_alone_stands_for_the_unit_that_is_wanted() {
+    let number = |x| Ok(Literal::Number(x));
+    assert_eq!(typed("2k", "Resistance", ""), number(2000.0));
+    assert_eq!(typed(" 4k7 ", "Resistance", ""), number(4700.0));
+    assert_eq!(typed("10K", "Resistance", ""), number(10_000.0));
+    assert_eq!(typed("10K", "Temperature", ""), number(10.0));
+    assert_eq!(typed("2.5M", "Resistance", ""), number(2.5e6));
+    assert_eq!(typed("100n", "Capacitance", ""), number(1e-7));
+    assert_eq!(typed("-3k", "Voltage", ""), number(-3000.0));
+    // a metre and a volt are no resistance; lengths and plain numbers have no such form; no prefix
+    assert_eq!(typed("1m", "Resistance", ""), Err("dimension-mismatch"));
+    assert_eq!(typed("1V", "Resistance", ""), Err("dimension-mismatch"));
+    for (text, class) in
+        [("2k", "Length"), ("2k", "Real"), ("2q", "Resistance"), ("4k-7", "Resistance")]
+    {
+        assert_eq!(typed(text, class, ""), Err("not-a-value"), "{text}");
+    }
+}
+
 #[test]
 fn what_is_no_value() {
     assert_eq!(typed("3 V", "Length", ""), Err("dimension-mismatch"));

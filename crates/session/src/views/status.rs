@@ -21,7 +21,11 @@ pub(crate) fn view(open: &Open) -> Status {
     let notes: Vec<String> = double_roots(state).into_iter().chain(yielded(state)).collect();
     let said: Vec<String> =
         status.unmet.iter().filter_map(|u| crate::rules::told(state, u.source)).collect();
-    let mut message = sentence(satisfied, &said, open.freedom(), errors);
+    let is_empty = state.structure.things.len() == 1 && errors == 0;
+    let mut message = match is_empty && said.is_empty() {
+        true => "the sheet is empty".into(),
+        false => sentence(satisfied, &said, open.freedom(), errors),
+    };
     for note in &notes {
         message = format!("{message}; {note}");
     }

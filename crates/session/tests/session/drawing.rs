@@ -438,6 +438,9 @@ fn a_line_is_drawn_along_across_and_touching_what_is_there() {
     ] {
         assert!(text.contains(said), "{said}: {text}");
     }
+    let all = desk.session.annotations(desk.id);
+    let touches = all.iter().find(|one| one.of == ["line3", "c"]).expect("it has a sign");
+    assert_eq!(touches.words, "T");
     // 130 from the centre of a circle of radius 50, a tangent is 120 long
     assert!((desk.number("line3.length") - 120.0).abs() < 1e-9);
 }
