@@ -12,8 +12,8 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-/// How many steps a drag has: one turn, and then another.
-const STEPS: usize = 720;
+/// How many steps a drag has: two turns, and a third of another, so that what is let go is not where it was.
+const STEPS: usize = 840;
 
 /// Reads the library in a copy of the project.
 pub(crate) struct Library(pub(crate) PathBuf);

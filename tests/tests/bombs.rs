@@ -310,6 +310,8 @@ fn what_is_huge_is_refused_before_it_is_made() {
 fn whole_numbers_without_a_solution_are_no_search_without_end() {
     assert_as_said(vec![
         ("even and odd", "d, l: Integer\nconstraint 2 * d + 10 * l = 1\n".into(), Unmet),
+        ("halves of threes", "c, e: Integer\nconstraint 3 * c - 3 * e = 1.5\n".into(), Unmet),
+        ("tenths of quarters", "f, g: Integer\nconstraint 0.5 * f + g / 4 = 0.1\n".into(), Unmet),
         (
             "no common divisor",
             "a, b, c: Integer\nconstraint 6 * a + 10 * b + 15 * c = 1\n".into(),

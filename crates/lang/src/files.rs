@@ -1,14 +1,17 @@
 //! Files: the document's text and those that it uses, read and put in order.
 
+use crate::hints;
 use crate::lower::{Lowerer, OWN};
 use crate::scope::Scope;
 use crate::tables;
 use base::{Diagnostic, FileId, Name, Place};
 use expr::dimension::Dimension;
 use kernel::{ClassId, OriginId, Part, Step, Vertical};
+use std::cell::LazyCell;
+use std::collections::BTreeSet;
 use std::rc::Rc;
 use syntax::ast::{self, AstNode, Member};
-use syntax::{Parse, SyntaxKind, SyntaxToken};
+use syntax::{Parse, SyntaxKind, SyntaxNode, SyntaxToken};
 
 /// A text that a document is made of.
 #[derive(Clone, Debug)]
@@ -80,11 +83,17 @@ impl Lowerer<'_> {
     ) -> FileId {
         let id = self.files.next_id();
         let parse = self.parse(id, name, text);
+        let parts = LazyCell::new(|| names_of_parts(&parse));
         for diagnostic in parse.diagnostics() {
             self.report(match word_for_unit(&parse, diagnostic) {
                 Some(word) => {
                     let place = Place { file: id, span: syntax::span_of_token(&word) };
-                    crate::hints::unknown_unit(place, word.text())
+                    let is_adjacent =
+                        word.prev_token().is_some_and(|t| t.kind() == SyntaxKind::Number);
+                    match is_adjacent && parts.contains(word.text()) {
+                        true => hints::product_without_sign(place, word.text()),
+                        false => hints::unknown_unit(place, word.text()),
+                    }
                 }
                 None => diagnostic.clone(),
             });
@@ -220,6 +229,17 @@ impl Lowerer<'_> {
 
 pub(crate) fn name_of(path: &ast::DottedName) -> String {
     path.segments().map(|w| w.text().to_string()).collect::<Vec<String>>().join(".")
+}
+
+/// Returns what parts and messages are called in a text, wherever they are.
+fn names_of_parts(parse: &Parse) -> BTreeSet<String> {
+    let names = |node: SyntaxNode| match Member::cast(node)? {
+        Member::Part(part) => Some(part.names().collect()),
+        Member::Message(message) => message.name().map(|name| vec![name]),
+        _ => None,
+    };
+    let words: Vec<Vec<ast::Word>> = parse.syntax().descendants().filter_map(names).collect();
+    words.iter().flatten().map(|word| word.text().to_string()).collect()
 }
 
 /// Returns the word after a number that was to be its unit, where that is what a diagnostic is at.

@@ -626,10 +626,22 @@ fn squared(word: &str) -> Option<String> {
     Some(format!("{of}^{}", &word[of.len()..]))
 }
 
+/// Says of a name behind a number that what is meant is a product.
+pub(crate) fn product_without_sign(place: Place, name: &str) -> Diagnostic {
+    let written = format!("* {name}");
+    no_unit(place, name)
+        .hint(format!("a product has its sign: `{written}`"))
+        .fix(format!("write {written}"), [(place, written)])
+}
+
+fn no_unit(place: Place, spelling: &str) -> Diagnostic {
+    let message = format!("{spelling} is no unit that is known here");
+    Diagnostic::error("unknown-unit", place, message)
+}
+
 /// Says that a word is no unit, and which one is meant.
 pub(crate) fn unknown_unit(place: Place, spelling: &str) -> Diagnostic {
-    let message = format!("{spelling} is no unit that is known here");
-    let d = Diagnostic::error("unknown-unit", place, message);
+    let d = no_unit(place, spelling);
     match spelling {
         "weak" | "medium" | "strong" | "required" => {
             return d.hint(format!("a strength stands before its rule: `{spelling} constraint …`"));
@@ -656,9 +668,7 @@ pub(crate) fn unknown_unit(place: Place, spelling: &str) -> Diagnostic {
     let meant = expr::units::meant(spelling);
     match meant.as_slice() {
         [] if find(FUNCTIONS, spelling).is_some_and(|f| f.parameters.is_empty()) => {
-            let fix = format!("write * {spelling}");
-            let written = format!("* {spelling}");
-            d.hint(format!("a product has its sign: `* {spelling}`")).fix(fix, [(place, written)])
+            product_without_sign(place, spelling)
         }
         [] if let Some(power) = raised(spelling).or_else(|| squared(spelling)).filter(|u| expr::units::unit(u).is_some()) => d
             .hint(format!("the unit is `{power}`"))

@@ -83,7 +83,7 @@ pub(crate) fn different(arena: &Arena, of: Cells<'_>, expressions: &[ExprId]) ->
         let sum = linear(arena, of, e)?;
         let mut terms = sum.terms.iter();
         match (terms.next(), terms.next()) {
-            (Some((&cell, 1)), None) if of.whole[cell as usize] => {
+            (Some((&cell, 1)), None) if sum.per == 1 && of.whole[cell as usize] => {
                 Some(Shifted { cell, by: sum.constant })
             }
             _ => None,
@@ -105,7 +105,7 @@ pub(crate) fn different(arena: &Arena, of: Cells<'_>, expressions: &[ExprId]) ->
 fn compare(arena: &Arena, of: Cells<'_>, comparison: Comparison) -> Row {
     let Comparison { comparing, left, right } = comparison;
     if let (Some(l), Some(r)) = (linear(arena, of, left), linear(arena, of, right))
-        && let Some(difference) = l.plus(&r, -1)
+        && let Some(difference) = l.plus(r.times(-1, 1))
         && difference.terms.keys().all(|&cell| of.whole[cell as usize])
     {
         let terms = difference.terms.into_iter().filter(|t| t.1 != 0).collect();
@@ -128,60 +128,100 @@ fn compare(arena: &Arena, of: Cells<'_>, comparison: Comparison) -> Row {
     Row::General(General { comparing, left, right, sides, cells })
 }
 
-/// A sum of cells with whole coefficients, and a constant.
+/// A sum of cells and a constant, with whole coefficients over one positive divisor.
+#[derive(Clone)]
 struct Affine {
     terms: BTreeMap<u32, i64>,
     constant: i64,
+    per: i64,
 }
 
 impl Affine {
-    fn constant(constant: i64) -> Self {
-        Self { terms: BTreeMap::new(), constant }
+    fn constant(constant: i64, per: i64) -> Self {
+        Self { terms: BTreeMap::new(), constant, per }
     }
-    /// Returns the sum with `factor` times another; nothing where a number becomes too large.
-    fn plus(mut self, other: &Self, factor: i64) -> Option<Self> {
-        for (&cell, &c) in &other.terms {
-            let sum = self.terms.entry(cell).or_insert(0);
-            *sum = sum.checked_add(c.checked_mul(factor)?)?;
+    fn cell(cell: u32) -> Self {
+        Self { terms: BTreeMap::from([(cell, 1)]), constant: 0, per: 1 }
+    }
+    /// Returns the sum times a fraction; nothing where a number becomes too large, or the fraction is by nothing.
+    fn times(mut self, factor: i64, per: i64) -> Option<Self> {
+        let factor = factor.checked_mul(per.signum())?;
+        for number in self.terms.values_mut().chain([&mut self.constant]) {
+            *number = number.checked_mul(factor)?;
         }
-        self.constant = self.constant.checked_add(other.constant.checked_mul(factor)?)?;
-        Some(self)
+        self.per = self.per.checked_mul(per.checked_abs()?)?;
+        (self.per > 0).then_some(self)
+    }
+    /// Returns the sum of two; nothing where a number becomes too large.
+    fn plus(self, other: Option<Self>) -> Option<Self> {
+        let other = other?;
+        let common = common_divisor(self.per.unsigned_abs(), other.per.unsigned_abs()) as i64;
+        let (more, less) = (other.per / common, self.per / common);
+        let (mut sum, other) = (self.widened(more)?, other.widened(less)?);
+        for (cell, c) in other.terms {
+            let own = sum.terms.entry(cell).or_insert(0);
+            *own = own.checked_add(c)?;
+        }
+        sum.constant = sum.constant.checked_add(other.constant)?;
+        Some(sum)
+    }
+    /// Returns the same sum with every number so many times as large.
+    fn widened(self, factor: i64) -> Option<Self> {
+        let per = self.per.checked_mul(factor)?;
+        Some(Self { per, ..self.times(factor, 1)? })
     }
 }
 
-/// Returns the sum that an expression is, where its coefficients are whole. What a truth value chooses between is
+/// Returns the sum that an expression is, where its coefficients are fractions. What a truth value chooses between is
 /// one, where the two lie a constant apart.
 fn linear(arena: &Arena, of: Cells<'_>, id: ExprId) -> Option<Affine> {
     let sum = |id| linear(arena, of, id);
     match arena.node(id) {
-        Node::Constant(bits) => Some(Affine::constant(whole_number(f64::from_bits(bits))?)),
-        Node::Var(v) => Some(Affine { terms: BTreeMap::from([(v.0, 1)]), constant: 0 }),
-        Node::Unary(Unary::Neg, a) => Affine::constant(0).plus(&sum(a)?, -1),
+        Node::Constant(bits) => {
+            let (number, per) = fraction(f64::from_bits(bits))?;
+            Some(Affine::constant(number, per))
+        }
+        Node::Var(v) => Some(Affine::cell(v.0)),
+        Node::Unary(Unary::Neg, a) => sum(a)?.times(-1, 1),
         Node::Unary(Unary::Not, a) => match arena.node(a) {
-            Node::Var(v) if of.is_truth_value(v.0) => Affine::constant(1).plus(&sum(a)?, -1),
+            Node::Var(v) if of.is_truth_value(v.0) => {
+                Affine::constant(1, 1).plus(sum(a)?.times(-1, 1))
+            }
             _ => None,
         },
-        Node::Binary(Binary::Add, a, b) => sum(a)?.plus(&sum(b)?, 1),
-        Node::Binary(Binary::Sub, a, b) => sum(a)?.plus(&sum(b)?, -1),
+        Node::Binary(Binary::Add, a, b) => sum(a)?.plus(sum(b)),
+        Node::Binary(Binary::Sub, a, b) => sum(a)?.plus(sum(b)?.times(-1, 1)),
         Node::Binary(Binary::Mul, a, b) => {
             let (a, b) = (sum(a)?, sum(b)?);
             match (a.terms.is_empty(), b.terms.is_empty()) {
-                (true, _) => Affine::constant(0).plus(&b, a.constant),
-                (false, true) => Affine::constant(0).plus(&a, b.constant),
+                (true, _) => b.times(a.constant, a.per),
+                (false, true) => a.times(b.constant, b.per),
                 (false, false) => None,
             }
+        }
+        Node::Binary(Binary::Div, a, b) => {
+            let (a, b) = (sum(a)?, sum(b)?);
+            b.terms.is_empty().then(|| a.times(b.per, b.constant))?
         }
         Node::Select { condition, then, otherwise } => {
             let Node::Var(v) = arena.node(condition) else { return None };
             let (then, otherwise) = (sum(then)?, sum(otherwise)?);
-            let more = then.plus(&otherwise, -1)?;
+            let more = then.plus(otherwise.clone().times(-1, 1))?;
             let is_constant = more.terms.values().all(|&c| c == 0);
-            let truth = Affine { terms: BTreeMap::from([(v.0, 1)]), constant: 0 };
-            (of.is_truth_value(v.0) && is_constant)
-                .then(|| otherwise.plus(&truth, more.constant))?
+            let truth = Affine::cell(v.0).times(more.constant, more.per);
+            (of.is_truth_value(v.0) && is_constant).then(|| otherwise.plus(truth))?
         }
         Node::Unary(..) | Node::Binary(..) => None,
     }
+}
+
+/// Returns the fraction that a number is as it is written: 0.1 is a tenth.
+fn fraction(x: f64) -> Option<(i64, i64)> {
+    let written = x.to_string();
+    let (whole, decimals) = written.split_once('.').unwrap_or((&written, ""));
+    let number: i64 = format!("{whole}{decimals}").parse().ok()?;
+    let per = 10i64.checked_pow(u32::try_from(decimals.len()).ok()?)?;
+    (number.abs() <= super::domain::MOST && per <= super::domain::MOST).then_some((number, per))
 }
 
 /// Returns the whole number that a number is.
