@@ -408,7 +408,7 @@ impl<'a> Evaluator<'a> {
             Ok(x as i64)
         } else {
             let x = base::number::shortest(x);
-            Err(Fault::wrong(format!("{x} where a whole number is wanted")))
+            Err(Fault::no_answer(format!("{x} where a whole number is wanted")))
         }
     }
 

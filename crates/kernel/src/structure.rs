@@ -136,8 +136,16 @@ impl Structure {
     }
     /// Returns what a thing is given by itself, the document's own merges of it left aside.
     pub fn given_apart(&self, thing: ThingId) -> Option<&GivenTerm> {
+        self.given_apart_in(thing).map(|(given, _)| given)
+    }
+    /// The same, and the thing that it is in terms of.
+    pub fn given_apart_in(&self, thing: ThingId) -> Option<(&GivenTerm, ThingId)> {
         let given = self.grown.as_ref()?.given(thing)?;
-        Some(&self.givens[given.value])
+        Some((&self.givens[given.value], given.me))
+    }
+    /// Returns the given value of a slot, and the thing that this is in terms of.
+    pub fn given_in(&self, slot: SlotId) -> Option<(&GivenTerm, ThingId)> {
+        self.slots[slot].given.map(|g| (&self.givens[g.value], g.me))
     }
 }
 

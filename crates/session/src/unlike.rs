@@ -8,7 +8,8 @@ use crate::state::State;
 use crate::words::show_thing;
 use base::number::ROUNDING;
 use base::{Diagnostic, Place};
-use kernel::{SlotId, Structure, Term, ThingId, Value};
+use eval::Answer;
+use kernel::{GivenTerm, SlotId, Structure, Term, ThingId, Value};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The code of the warning.
@@ -38,20 +39,20 @@ pub(crate) fn warnings(state: &State) -> Vec<Diagnostic> {
     let merged = structure.merged.iter().filter(|(t, _)| structure.is_merged(*t));
     for (thing, _) in merged {
         let Some(slot) = structure.slot_of(thing) else { continue };
-        let (Some(given), Some(own)) = (structure.given(slot), structure.given_apart(thing)) else {
-            continue;
-        };
-        let is_own = |origin| state.lowered.is_own_given(origin);
-        let (Some(is), Some(was)) = (value(&given.term), value(&own.term)) else { continue };
-        if given.origin == own.origin
-            || are_alike(&is, &was)
-            || !is_own(own.origin)
-            || !is_own(given.origin)
-        {
+        let given = structure.given_in(slot).or_else(|| binding(structure, thing, slot));
+        let (Some(given), Some(own)) = (given, structure.given_apart_in(thing)) else { continue };
+        let is_own = |(term, _): (&GivenTerm, ThingId)| state.lowered.is_own_given(term.origin);
+        if given.0.origin == own.0.origin || !is_own(own) || !is_own(given) {
             continue;
         }
-        let giver = |t: &ThingId| structure.given_apart(*t) == Some(given);
+        let value = |(given, me): (&GivenTerm, ThingId)| value(state, &given.term, me);
+        let (Some(is), Some(was)) = (value(given), value(own)) else { continue };
+        if are_alike(&is, &was) {
+            continue;
+        }
+        let giver = |t: &ThingId| structure.given_apart_in(*t) == Some(given);
         let Some(by) = structure.merged_with(thing).into_iter().find(giver) else { continue };
+        let (given, own) = (given.0, own.0);
         let place = state.lowered.place(own.origin);
         let (_, line) = lines.entry((place.span.start, place.span.end)).or_insert_with(|| {
             let parts = [whole(state, thing), whole(state, by)];
@@ -62,6 +63,14 @@ pub(crate) fn warnings(state: &State) -> Vec<Diagnostic> {
         line.values.push((slot, [was, is]));
     }
     lines.into_values().map(|(place, line)| warning(state, place, &line)).collect()
+}
+
+/// Returns what a slot is bound to: of the parts that are one, the first that is given by others.
+fn binding(structure: &Structure, thing: ThingId, slot: SlotId) -> Option<(&GivenTerm, ThingId)> {
+    let is_bound = structure.bound.contains(&slot);
+    let all = structure.merged_with(thing).into_iter().filter(|_| is_bound);
+    let mut given = all.filter_map(|thing| structure.given_apart_in(thing));
+    given.find(|(given, _)| !matches!(given.term, Term::Number { .. } | Term::Text(_)))
 }
 
 /// Returns where the document's own text says that a part is one with another, or what has the part is.
@@ -91,11 +100,16 @@ fn whole(state: &State, thing: ThingId) -> ThingId {
     structure.owner(thing).filter(is_place).unwrap_or(thing)
 }
 
-fn value(term: &Term) -> Option<Value> {
+/// Returns what a given value comes to; nothing where that is not known.
+fn value(state: &State, term: &Term, me: ThingId) -> Option<Value> {
     match term {
         Term::Number { value, .. } => Some(Value::Number(*value)),
         Term::Text(text) => Some(Value::Text(text.as_str().into())),
-        _ => None,
+        computed => match state.evaluator(&state.values).evaluate(computed, me).ok()? {
+            Answer::Number(x, _) => Some(Value::Number(x)),
+            Answer::Text(text) => Some(Value::Text(text)),
+            _ => None,
+        },
     }
 }
 

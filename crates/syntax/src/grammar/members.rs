@@ -105,6 +105,10 @@ pub(super) fn member(p: &mut Parser<'_>) -> bool {
         }),
         "required" | "strong" | "medium" | "weak" => strengthened(p),
         "constraint" => constraint(p),
+        "stay" | "anchor" if p.nth(1) == Ident && p.nth(2) == Colon => {
+            mistakes::anchored_part(p);
+            part(p);
+        }
         "stay" => one(p, Stay, paths),
         "when" => when(p),
         "anchor" => one(p, Anchor, paths),
@@ -206,7 +210,7 @@ fn named(p: &mut Parser<'_>) -> bool {
 /// `x, y: Length in 0..9 = 3 { … }`, `length: Length => …`, `layout at: Point`
 fn part(p: &mut Parser<'_>) {
     p.start_documented(Part);
-    if p.at_word(0, "layout") && p.nth(1) == Ident {
+    if p.nth(1) == Ident && matches!(p.word(0), "layout" | "anchor" | "stay") {
         p.bump_keyword();
     }
     p.bump();

@@ -569,6 +569,18 @@ fn anchored_value(p: &mut Parser<'_>) -> bool {
     is_one
 }
 
+/// `anchor x: Real = 3`, which is read as the part that it declares.
+pub(super) fn anchored_part(p: &mut Parser<'_>) {
+    let at = p.pos();
+    let (word, name, rest) = (p.word(0), p.word(1), p.quoted_line(at + 1));
+    let said = (
+        "expected-member",
+        format!("found a part that is declared after `{word}`, wanted its name alone"),
+        format!("declare it by itself: `{rest}`, and then `{word} {name}`"),
+    );
+    p.report_mistake((at, at), said, None);
+}
+
 /// `x: Real := 3`: returns true where it was reported.
 pub(super) fn value_by_assignment(p: &mut Parser<'_>) -> bool {
     let is_one = p.at(ColonEq) && !p.begins_line(0);
