@@ -396,21 +396,24 @@ impl Document {
         }
         handles
     }
-    /// Returns true if things of the class are a *place*: two or three stored parts, all real
-    /// numbers, no constraints. A place yields as one. A document is none, whatever it consists of; nor is what a program
-    /// draws, whatever it asks for.
+    /// Returns true if things of the class are a *place*: the stored parts `x`, `y` and perhaps `z`, all real numbers
+    /// of one dimension, no constraints. A place yields as one; a start and a duration do not. A document is none,
+    /// whatever it consists of; nor is what a program draws, whatever it asks for.
     pub fn is_place(&self, class: ClassId) -> bool {
         if class == self.root {
             return false;
         }
         let layout = self.layout(class);
+        let dimension = |&f: &PartRef| match self.classes[self.field_class(f)].kind {
+            ClassKind::Primitive(crate::class::Primitive::Real(dimension)) => Some(dimension),
+            _ => None,
+        };
+        let coordinates = ["x", "y", "z"].into_iter();
         (2..=3).contains(&layout.len())
-            && layout.iter().all(|&f| {
-                matches!(
-                    self.classes[self.field_class(f)].kind,
-                    ClassKind::Primitive(crate::class::Primitive::Real(_))
-                )
-            })
+            && layout.iter().zip(coordinates).all(|(&f, name)| self.field_name(f) == name)
+            && layout
+                .iter()
+                .all(|f| dimension(f).is_some() && dimension(f) == dimension(&layout[0]))
             && self.lineage(class).iter().all(|&c| self.classes[c].constraints.is_empty())
             && self.program(class).is_none()
     }
