@@ -232,9 +232,17 @@ impl Lowerer<'_> {
             let classes = self.visible.names(scope.file).map(ToString::to_string);
             let names = self.own_names(scope).chain(functions).chain(classes);
             let names: Vec<String> = names.collect();
-            if let Some(near) = self.nearest(word.text(), names.iter().map(String::as_str)) {
-                d = d.meant(near);
-            }
+            let is_unit = expr::units::unit(word.text()).is_some();
+            d = match self.nearest(word.text(), names.iter().map(String::as_str)) {
+                Some(near) => d.meant(near),
+                None if is_unit => {
+                    let unit = word.text();
+                    d.hint(format!(
+                        "as a unit it stands right after a number: `1 {unit}`, `1 N/{unit}`"
+                    ))
+                }
+                None => d,
+            };
         }
         self.report(d);
     }

@@ -5,9 +5,9 @@ pub(super) mod elsewhere;
 
 use super::members::is_keyword;
 use crate::kind::SyntaxKind::{
-    Arrow, Colon, ColonEq, Comma, Dot, Ellipsis, Eof, Eq, EqEq, FatArrow, Greater, GreaterEq,
-    Ident, LBrace, LBracket, LParen, Less, LessEq, LetKw, Minus, NotEq, NotKw, Number, Plus,
-    RBrace, RBracket, RParen, Slash, Star, Text, TextOpen, Unit,
+    AndKw, Arrow, Colon, ColonEq, Comma, Dot, Ellipsis, Eof, Eq, EqEq, FatArrow, Greater,
+    GreaterEq, Ident, LBrace, LBracket, LParen, Less, LessEq, LetKw, Minus, NotEq, NotKw, Number,
+    OrKw, Plus, RBrace, RBracket, RParen, Slash, Star, Text, TextOpen, Unit,
 };
 use crate::parser::Parser;
 use crate::units::{follows_operand, unit_length};
@@ -563,6 +563,22 @@ fn anchored_value(p: &mut Parser<'_>) -> bool {
             "expected-member",
             "found `=`, wanted the end of the line".to_string(),
             format!("give the value by itself: `{name} = {value}`, and then `{word} {name}`"),
+        );
+        p.report_mistake((at, at), said, None);
+    }
+    is_one
+}
+
+/// `x = 3 within 1e-9 and y = 4`: returns true where `and` or `or` stands behind a tolerance.
+pub(super) fn joined_after_tolerance(p: &mut Parser<'_>) -> bool {
+    let is_one = !p.begins_line(0) && (p.at(AndKw) || p.at(OrKw));
+    if is_one {
+        let (at, word) = (p.pos(), p.word(0));
+        let said = (
+            "joined-after-tolerance",
+            format!("found `{word}` behind a tolerance, which ends what it belongs to"),
+            "each that has a tolerance is said by itself: `expect x = 3 within 1e-9  expect y = 4`"
+                .to_string(),
         );
         p.report_mistake((at, at), said, None);
     }
