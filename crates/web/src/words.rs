@@ -671,7 +671,9 @@ pub const BACKSPACE: &str = "take the last letter back";
 /// Gives the expression.
 pub const GIVE: &str = "Enter";
 /// Lets a pick of a set mean more.
-pub const WIDER: &str = "Wider (Tab)";
+pub const WIDER: &str = "Wider";
+/// That, with the key that does it.
+pub const WIDER_BY_KEY: &str = "Wider (Tab)";
 /// How a set is caught.
 pub const BAND: &str = "Draw a rectangle around the figures; each is taken by its name.";
 

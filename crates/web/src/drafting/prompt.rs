@@ -82,7 +82,8 @@ pub fn PromptLine(
                 </Show>
                 <Answers lab=lab />
                 <Show when=move || goes_wider.get()>
-                    <button type="button" data-draft="wider" on:click=move |_| lab.draft_wider()>{words::WIDER}</button>
+                    <button type="button" data-draft="wider" on:click=move |_| lab.draft_wider()>
+                        {move || if lab.touch.get() { words::WIDER } else { words::WIDER_BY_KEY }}</button>
                 </Show>
                 <Show when=is_drawn>
                     <label><input type="checkbox" name="guide" prop:checked=move || of(&|p| p.is_guide)
