@@ -19,7 +19,8 @@ use base::{Name, Span};
 use kernel::Path;
 use std::collections::BTreeSet;
 use std::rc::Rc;
-use syntax::ast::AstNode;
+use syntax::SyntaxKind;
+use syntax::ast::{AstNode, ListExpr};
 
 /// A loop whose first turn is drawn.
 #[derive(Clone, PartialEq, Debug, Default)]
@@ -205,11 +206,54 @@ pub(crate) fn set_of(
     program: &str,
     address: &str,
 ) -> Option<(Vec<String>, Span)> {
+    let list = list_of(source, program, address)?;
+    let names = list.elements().map(|one| one.syntax().text().to_string().trim().to_string());
+    Some((names.collect(), list.span()))
+}
+
+/// The list that a loop goes over.
+fn list_of(source: &text::Source, program: &str, address: &str) -> Option<ListExpr> {
     let step = text::step_at(source, program, address)?;
     let Some(syntax::ast::Value::For(each)) = step.value else { return None };
     let Some(syntax::ast::Expr::List(list)) = each.range() else { return None };
-    let names = list.elements().map(|one| one.syntax().text().to_string().trim().to_string());
-    Some((names.collect(), list.span()))
+    Some(list)
+}
+
+/// Writes a figure into a list before the element at an index, or behind the last one. What else stands in the list
+/// stays.
+fn insert_element(text: &mut String, list: &ListExpr, (at, figure): (usize, &str)) {
+    if let Some(next) = list.elements().nth(at) {
+        text.insert_str(next.span().start as usize, &format!("{figure}, "));
+    } else if let Some(last) = list.elements().last() {
+        text.insert_str(last.span().end as usize, &format!(", {figure}"));
+    }
+}
+
+/// Takes the element at an index out of a list, with the comma behind it; with the one before it where it is the last.
+/// What else stands in the list stays: its comments, too.
+fn remove_element(text: &mut String, list: &ListExpr, at: usize) {
+    let Some(one) = list.elements().nth(at).map(|one| one.span()) else { return };
+    let tokens = list.syntax().children_with_tokens();
+    let commas: Vec<usize> = tokens
+        .filter(|token| token.kind() == SyntaxKind::Comma)
+        .map(|token| usize::from(token.text_range().start()))
+        .collect();
+    let (start, end) = (one.start as usize, one.end as usize);
+    let behind = commas.iter().find(|comma| **comma >= end);
+    let Some(comma) = behind.or(commas.iter().rfind(|comma| **comma < start)).copied() else {
+        text.replace_range(start..end, "");
+        return;
+    };
+    let rest = &text[comma + 1..];
+    let comma_end = text.len() - rest.trim_start_matches(' ').len();
+    // the later one first: the places before it stay
+    let (first, second) = if comma >= end {
+        (comma..comma_end, start..end)
+    } else {
+        (start..end, comma..comma_end.min(start))
+    };
+    text.replace_range(first, "");
+    text.replace_range(second, "");
 }
 
 /// Leaves a figure out of the set that the open loop goes over, or takes it in, as long as the second turn is not asked
@@ -230,7 +274,9 @@ pub(crate) fn take_of_set(
     }
     let each = it.each.as_mut().ok_or_else(none)?;
     let source = text::Source::now(&open.state);
-    let (mut set, span) = set_of(&source, &program, &address).ok_or_else(none)?;
+    let list = list_of(&source, &program, &address).ok_or_else(none)?;
+    let (mut set, _) = set_of(&source, &program, &address).ok_or_else(none)?;
+    let mut edited = source.to_string();
     let is_out = !set.iter().any(|name| name == figure);
     let label = match is_out {
         true => {
@@ -241,10 +287,14 @@ pub(crate) fn take_of_set(
             let own = place(&figure.to_string());
             let at = set.iter().position(|name| place(name) > own).unwrap_or(set.len());
             set.insert(at, figure.into());
+            insert_element(&mut edited, &list, (at, figure));
             format!("take {figure} in")
         }
         false => {
-            set.retain(|name| name != figure);
+            if let Some(at) = set.iter().position(|name| name == figure) {
+                set.remove(at);
+                remove_element(&mut edited, &list, at);
+            }
             format!("leave {figure} out")
         }
     };
@@ -261,9 +311,6 @@ pub(crate) fn take_of_set(
         return Err(words::refuse(message));
     }
     each.first.clone_from(first);
-    let mut edited = source.to_string();
-    let places = span.start as usize..span.end as usize;
-    edited.replace_range(places, &format!("[{}]", set.join(", ")));
     let change = recording::retext(open, host, edited, label)?;
     keep(open, it);
     Ok(change)

@@ -970,6 +970,32 @@ fn what_is_asked_of_the_first_of_a_set_is_forgotten_where_undo_brings_another() 
 }
 
 #[test]
+fn comments_in_a_set_stay_where_it_is_changed() {
+    let mut desk = Desk::recording("Plate", &[]);
+    for at in ["10,10", "50,10", "90,70"] {
+        begin(&mut desk, "Circle");
+        enter(&mut desk, at);
+        made(enter(&mut desk, "4"));
+    }
+    desk.session.begin_each(desk.id, ((0.0, 0.0), (100.0, 100.0))).expect("three circles");
+    let noted = "in [\n        circle, // the first, by the edge\n        circle2, // by the slot\n        \
+                 circle3 // up there\n    ] {";
+    let edited = desk.text().replace("in [circle, circle2, circle3] {", noted);
+    desk.type_text(&edited);
+    let comments = ["// the first, by the edge", "// by the slot", "// up there"];
+    for left_out in ["circle2", "circle3", "circle"] {
+        for _ in ["left out", "taken in"] {
+            desk.session.take_of_set(desk.id, left_out).expect("two are left");
+            let text = desk.text();
+            assert!(comments.iter().all(|comment| text.contains(comment)), "{left_out}: {text}");
+            assert_eq!(desk.wrong(), [], "{text}");
+        }
+        let open = desk.session.steps(desk.id, None).expect("it is recorded").open;
+        assert_eq!(open[0].words, "turns: draw what is done for circle, the first of the set");
+    }
+}
+
+#[test]
 fn a_loop_runs_over_what_a_rubber_band_catches() {
     let mut desk = Desk::of("use geometry\nunit mm\n");
     desk.session.record(desk.id, "Plate").expect("a new program");
