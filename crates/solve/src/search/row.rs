@@ -215,13 +215,18 @@ fn linear(arena: &Arena, of: Cells<'_>, id: ExprId) -> Option<Affine> {
     }
 }
 
-/// Returns the fraction that a number is as it is written: 0.1 is a tenth.
+/// Returns the fraction that a number is as it is written: 0.1 is a tenth. Nothing for one of more decimal digits than
+/// a double keeps: only computing made it, and it is the number that was meant within rounding alone.
 fn fraction(x: f64) -> Option<(i64, i64)> {
+    if let Some(whole) = whole_number(x) {
+        return Some((whole, 1));
+    }
     let written = x.to_string();
-    let (whole, decimals) = written.split_once('.').unwrap_or((&written, ""));
+    let (whole, decimals) = written.split_once('.')?;
     let number: i64 = format!("{whole}{decimals}").parse().ok()?;
+    let is_written = number.abs() < 10i64.pow(f64::DIGITS);
     let per = 10i64.checked_pow(u32::try_from(decimals.len()).ok()?)?;
-    (number.abs() <= super::domain::MOST && per <= super::domain::MOST).then_some((number, per))
+    is_written.then_some((number, per))
 }
 
 /// Returns the whole number that a number is.
