@@ -47,6 +47,9 @@ enum Mode {
     Pan { last: (f64, f64) },
     /// A tool has set something where the pointer was pressed, or a construction has taken what is there.
     Tool { start: (f64, f64) },
+    /// What lies there is to have a size, once it is let go: it may be the first of two fingers. The place is on the
+    /// canvas and in the window.
+    Size { start: (f64, f64), clicked: (f64, f64) },
     /// A rubber band is drawn for a program's loop.
     Band { start: (f64, f64) },
     /// A band is drawn over what is to be selected, besides what is selected already.
@@ -223,15 +226,10 @@ impl Hand {
             self.pick(at).inspect(|path| self.lab.toggle_attacher(path));
             self.set_mode(Mode::Idle);
         } else if e.button() == 0 && self.lab.is_sizing() {
-            let picked = match self.lab.selected.with_untracked(Option::is_some) {
-                true => self.pick_beside(at),
-                false => self.pick_deeper(at),
-            };
-            let clicked = (f64::from(e.client_x()), f64::from(e.client_y()));
-            self.lab.size_picked((picked, clicked), e.shift_key());
             // what is asked for has the keyboard
             e.prevent_default();
-            self.set_mode(Mode::Idle);
+            let clicked = (f64::from(e.client_x()), f64::from(e.client_y()));
+            self.set_mode(Mode::Size { start: at, clicked });
         } else if e.button() == 0 && !self.lab.settle_size() {
             // it is said why; it is still asked
             e.prevent_default();
@@ -397,7 +395,7 @@ impl Hand {
             Mode::Idle | Mode::Tool { .. } if self.lab.drafts() => {
                 self.lab.draft_hover(&self.pointer(at));
             }
-            Mode::Tool { .. } => {}
+            Mode::Tool { .. } | Mode::Size { .. } => {}
             Mode::Idle => self.lab.hover(self.pick_deeper(at)),
             Mode::Pressed { path, start } => {
                 if distance(at, start) >= STIR {
@@ -539,6 +537,14 @@ impl Hand {
                 if distance(start, at) > PULL && self.lab.tool.with_untracked(Option::is_some) =>
             {
                 self.lab.tool_set(&self.pointer(at));
+            }
+            // Escape may have laid the tool down already.
+            Mode::Size { start, clicked } if self.lab.is_sizing() => {
+                let picked = match self.lab.selected.with_untracked(Option::is_some) {
+                    true => self.pick_beside(start),
+                    false => self.pick_deeper(start),
+                };
+                self.lab.size_picked((picked, clicked), e.shift_key());
             }
             Mode::Band { start } if distance(start, at) > PULL => self.lab.take_band(start, at),
             Mode::Band { start } if self.lab.drafts() => self.lab.draft_point(&self.pointer(start)),
