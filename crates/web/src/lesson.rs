@@ -86,17 +86,13 @@ impl Lab {
     }
 }
 
-/// The lesson that goes on, or that the document offers.
+/// Rings what a step speaks of, over the picture.
 #[component]
-pub fn Coach(
+pub fn PointedAt(
     /// The lab.
     lab: Lab,
 ) -> impl IntoView {
-    Effect::new(move |_| {
-        lab.why.track();
-        lab.follow_lesson();
-    });
-    let ring = move || {
+    move || {
         let view = lab.view.get();
         let points_at = lab.lesson.with(|lesson| lesson.as_ref().map(|l| l.points_at.clone()));
         let points_at = points_at.filter(|_| lab.dragging.with(Option::is_none))?;
@@ -108,9 +104,21 @@ pub fn Coach(
             });
             Some(rings.collect_view())
         })
-    };
+    }
+}
+
+/// The lesson that goes on, or that the document offers. It lies over the picture, and comes before the other panels
+/// for those who go by keys.
+#[component]
+pub fn Coach(
+    /// The lab.
+    lab: Lab,
+) -> impl IntoView {
+    Effect::new(move |_| {
+        lab.why.track();
+        lab.follow_lesson();
+    });
     view! {
-        {ring}
         {move || match (lab.lesson.get(), lab.lesson_offered.get()) {
             (Some(lesson), _) if lesson.at >= lesson.steps => view! { <Over lab=lab title=lesson.title /> }.into_any(),
             (Some(lesson), _) => view! { <Step lab=lab lesson=lesson /> }.into_any(),

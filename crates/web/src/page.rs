@@ -12,7 +12,7 @@ use crate::gallery::Gallery;
 use crate::history::History;
 use crate::inspector::Inspector;
 use crate::lab::{Drawer, Lab};
-use crate::lesson::Coach;
+use crate::lesson::{Coach, PointedAt};
 use crate::menu::{self, MenuView};
 use crate::palette::Palette;
 use crate::picture::Picture;
@@ -244,6 +244,7 @@ fn Document(lab: Lab) -> impl IntoView {
                 <Draft lab=lab />
                 <Conflict lab=lab />
             </div>
+            <Coach lab=lab />
             <Drawer lab=lab />
             <Splitter name="left" way=Way::Right least=160.0 most=560.0 />
             <div class="centre">
@@ -254,7 +255,7 @@ fn Document(lab: Lab) -> impl IntoView {
                     <PromptLine lab=lab />
                     <ByExample lab=lab />
                     <ClassPane lab=lab />
-                    <Coach lab=lab />
+                    <PointedAt lab=lab />
                 </div>
                 <Show when=move || lab.why.get()>
                     <Splitter name="why" way=Way::Up least=96.0 most=640.0 />

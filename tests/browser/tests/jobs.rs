@@ -128,6 +128,9 @@ async fn the_first_minute_opens_by_itself_and_comes_once() {
     visit.client.goto("about:blank").await.expect("elsewhere");
     visit.client.goto(&visit.address).await.expect("the page's address answers");
     visit.until("document.querySelector('.pulse') && document.querySelector('.coach')").await;
+    // by keys it comes before the panels and the picture
+    let first = "return document.querySelector('main button').closest('.coach') !== null";
+    assert_eq!(visit.script(first).await, true);
     visit.script("document.querySelector('.coach .bare').click()").await;
     visit.until("!document.querySelector('.coach')").await;
     visit.client.goto("about:blank").await.expect("elsewhere");
