@@ -30,12 +30,42 @@ pub struct DxfOptions {
     pub text_height: f64,
 }
 
+impl DxfOptions {
+    /// The options for a drawing: its words are as high as on a sheet of A3 on which it stands in full size, or, where
+    /// it does not fit, at the largest usual scale at which it does. What is small has words of a tenth at most.
+    ///
+    /// **Source:** ISO 5455 (scales 1, 2, 5, 10 …), ISO 3098-1 (letters of 3.5 mm).
+    pub fn of(drawing: &Drawing, millimetres_per_unit: f64) -> Self {
+        let usual = Self { millimetres_per_unit, ..Self::default() };
+        let size =
+            bounds(drawing).map_or(0.0, |b| b.width().max(b.height())) * millimetres_per_unit;
+        let least = LEAST * usual.text_height;
+        let scales = (-9..12).flat_map(|power: i32| {
+            [1.0, 2.0, 5.0].map(|step| step * base::number::pow(10.0, f64::from(power)))
+        });
+        let (mut larger, mut smaller) = (scales.clone(), scales.rev());
+        let scale = if size > SHEET {
+            larger.find(|scale| size <= SHEET * scale)
+        } else if size < least {
+            smaller.find(|scale| size >= least * scale)
+        } else {
+            None
+        };
+        let scale = scale.unwrap_or(1.0);
+        Self { text_height: usual.text_height * scale, ..usual }
+    }
+}
+
 impl Default for DxfOptions {
     fn default() -> Self {
         Self { millimetres_per_unit: 1.0, text_height: 3.5 }
     }
 }
 
+/// The length of a sheet of A3 within its border, in millimetres.
+const SHEET: f64 = 400.0;
+/// A drawing is so many times as large as its words at least.
+const LEAST: f64 = 10.0;
 /// What stands in the header for a drawing of nothing.
 const EMPTY: f64 = 1.0;
 /// A full turn less than this is a circle.
@@ -599,6 +629,28 @@ mod tests {
         let down = drawn(arc(quarter), Vertical::Down);
         assert!(down.contains("AcDbArc\n50\n270.0\n51\n0.0\n"), "{down}");
         assert!(drawn(arc(TAU), Vertical::Up).contains("\nCIRCLE\n"));
+    }
+    #[test]
+    fn words_are_as_high_as_on_a_sheet_on_which_the_drawing_stands() {
+        let height = |length: f64, millimetres| {
+            let line = Shape::Segment(Point::default(), Point { x: length, y: 0.0 });
+            let elements = vec![Element::new(line)];
+            let drawing = Drawing { elements, vertical: Vertical::Up };
+            DxfOptions::of(&drawing, millimetres).text_height
+        };
+        // full size, 1:5, 1:100 of a bridge of 30 m, 2:1 of what is 20 mm long
+        for (length, millimetres, high) in [
+            (35.0, 1.0, 3.5),
+            (400.0, 1.0, 3.5),
+            (1500.0, 1.0, 17.5),
+            (30.0, 1000.0, 350.0),
+            (20.0, 1.0, 1.75),
+        ] {
+            let found = height(length, millimetres);
+            assert!((found - high).abs() < 1e-9, "{length}: {found}, not {high}");
+        }
+        let nothing = Drawing { elements: Vec::new(), vertical: Vertical::Up };
+        assert_eq!(DxfOptions::of(&nothing, 1.0).text_height, 3.5);
     }
     #[test]
     fn lengths_are_millimetres_and_y_runs_up() {

@@ -157,6 +157,7 @@ impl Session {
         let open = self.document(id);
         let found = offers::offers(&open.state, paths);
         let (mut offers, held) = offers::told_apart(open, &beside, found);
+        offers::between::keep_alongside(&mut offers);
         offers.extend(outlines::offers(open, paths));
         (offers, held)
     }

@@ -409,7 +409,7 @@ pub(crate) fn draw(
     if formats.svg {
         outcome.svg = svg::write(&drawing, &options);
     }
-    let options = dxf::DxfOptions { millimetres_per_unit, ..dxf::DxfOptions::default() };
+    let options = dxf::DxfOptions::of(&drawing, millimetres_per_unit);
     if formats.dxf {
         let sets = tag_sets(&evaluator, &run, &mut drawing);
         let set = |tag: Tag| sets.get(tag.0 as usize).cloned().flatten();

@@ -19,6 +19,18 @@ type Place = (f64, f64);
 /// A straight thing, and whether it is turned round.
 type Side<'s> = (&'s Selected, bool);
 
+/// Has a distance of two lines keep them parallel, where nothing does yet: said of one end alone it would turn them.
+pub(crate) fn keep_alongside(offers: &mut [Offer]) {
+    let is_parallel = |offer: &&Offer| offer.label == "parallel" && offer.value.is_none();
+    let Some(parallel) = offers.iter().find(is_parallel).map(|offer| offer.members.clone()) else {
+        return;
+    };
+    let is_new = |offer: &&mut Offer| offer.label == "distance" && !offer.stands;
+    if let Some(distance) = offers.iter_mut().find(is_new) {
+        distance.members = format!("{parallel}\n{}", distance.members);
+    }
+}
+
 impl Offerer<'_> {
     /// The angle that one sees between two things and its supplement; the angle alone where one stands already, or
     /// where the things have no ends.

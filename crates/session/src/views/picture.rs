@@ -354,10 +354,8 @@ pub fn svg_at(picture: &PictureView, pixels_per_unit: f64) -> String {
 
 /// Returns a picture of a document as DXF, in millimetres.
 pub(crate) fn dxf(state: &State, picture: &PictureView) -> String {
-    let options = drawing::dxf::DxfOptions {
-        millimetres_per_unit: state.lowered.millimetres_per_unit(),
-        ..drawing::dxf::DxfOptions::default()
-    };
+    let options =
+        drawing::dxf::DxfOptions::of(&picture.drawing, state.lowered.millimetres_per_unit());
     drawing::dxf::write_in_blocks(&picture.drawing, &options, &blocks(state, picture))
 }
 

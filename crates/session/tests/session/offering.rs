@@ -558,7 +558,9 @@ fn how_far_lines_circles_and_points_are_apart_is_offered_first() {
         format!("{label}: {members}")
     };
     // what runs alongside is so far apart, what does not has an angle
-    assert_eq!(first(&["a", "e"]), "distance: constraint a.distance(to: e.p1) = {}");
+    // and is kept so
+    let kept = "distance: constraint a.parallel(to: e)\nconstraint a.distance(to: e.p1) = {}";
+    assert_eq!(first(&["a", "e"]), kept);
     assert!(first(&["a", "b"]).starts_with("angle: "), "{}", first(&["a", "b"]));
     assert_eq!(first(&["p", "a"]), "distance: constraint a.distance(to: p) = {}");
     assert_eq!(first(&["a", "c"]), "distance: constraint a.distance(to: c.center) = {}");
@@ -571,6 +573,17 @@ fn how_far_lines_circles_and_points_are_apart_is_offered_first() {
     let (one, other) = (again(&["a", "e"]), again(&["e", "a"]));
     let is_it = |offer: Offer| offer.stands && offer.members.contains("a.distance(to: e.p2)");
     assert!(one.is_some_and(is_it) && other.is_some_and(is_it));
+    let level = |line: &str| format!("constraint {line}.p1.y = {line}.p2.y\n");
+    let levels = Desk::of(&format!("{figure}{}{}", level("a"), level("e")));
+    let distance = offers(&levels, &["a", "e"]).into_iter().find(|o| o.label == "distance");
+    assert_eq!(distance.expect("offered").members, "constraint a.distance(to: e.p1) = {}");
+    let mut desk = Desk::of(&figure);
+    take(&mut desk, &["a", "e"], "distance", Some("60"));
+    let number = |of: &str| desk.number(of);
+    let sine = number("e.p2.y") - number("e.p1.y");
+    let cosine = number("e.p2.x") - number("e.p1.x");
+    let (dx, dy) = (number("a.p2.x") - number("a.p1.x"), number("a.p2.y") - number("a.p1.y"));
+    assert!((dx * sine - dy * cosine).abs() < 1e-6, "{}", desk.text());
     let mut desk = Desk::of(&figure);
     take(&mut desk, &["p", "a"], "distance", Some("30"));
     let all = told(&desk);

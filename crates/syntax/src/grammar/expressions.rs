@@ -49,6 +49,11 @@ pub(super) fn expression(p: &mut Parser<'_>) {
     operators(p, Power::Or);
 }
 
+/// An expression whose outermost operator joins no truths: a tolerance.
+pub(super) fn comparison(p: &mut Parser<'_>) {
+    operators(p, Power::Compare);
+}
+
 /// An expression whose outermost operator may not compare: the range of a domain.
 pub(super) fn range(p: &mut Parser<'_>) {
     operators(p, Power::Range);

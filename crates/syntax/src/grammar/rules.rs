@@ -1,6 +1,6 @@
 //! Constraints: rules, tolerances, methods, and what happens `when` a condition becomes true.
 
-use super::expressions::{conditional_rest, expression, path, range};
+use super::expressions::{comparison, conditional_rest, expression, path};
 use super::types::paths;
 use super::{list, mistakes, outside_brackets};
 use crate::kind::SyntaxKind::{
@@ -99,13 +99,13 @@ pub(super) fn tolerance(p: &mut Parser<'_>) {
     if p.at_word(0, "within") {
         p.start(Within);
         p.bump_keyword();
-        range(p);
+        comparison(p);
         while mistakes::joined_after_tolerance(p) {
             p.bump();
             expression(p);
             if p.at_word(0, "within") {
                 p.bump_keyword();
-                range(p);
+                comparison(p);
             }
         }
         p.finish();

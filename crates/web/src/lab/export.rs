@@ -49,9 +49,14 @@ impl Lab {
     /// Hands the user the picture as DXF, in millimetres.
     pub fn export_dxf(self) {
         let Some((name, mut picture)) = self.drawn() else { return };
-        // words are as high as they are written there
-        let height = DxfOptions::default().text_height / picture.millimetres.unwrap_or(1.0);
-        self.draw_notes(&mut picture, HEIGHT / height);
+        // words are as high as they are written there, for a drawing that has them
+        let millimetres = picture.millimetres.unwrap_or(1.0);
+        let pixels = |picture: &PictureView| {
+            HEIGHT * millimetres / DxfOptions::of(&picture.drawing, millimetres).text_height
+        };
+        let mut noted = picture.clone();
+        self.draw_notes(&mut noted, pixels(&picture));
+        self.draw_notes(&mut picture, pixels(&noted));
         if let Some(dxf) = self.ask_of_shown(|session, id| session.dxf_of(id, &picture)) {
             js::download(&format!("{name}.dxf"), &dxf);
         }
