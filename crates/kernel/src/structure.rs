@@ -132,7 +132,7 @@ impl Form {
 impl Structure {
     /// Returns the given value of a slot.
     pub fn given(&self, slot: SlotId) -> Option<&GivenTerm> {
-        self.slots[slot].given.map(|g| &self.givens[g.value])
+        self.given_in(slot).map(|(given, _)| given)
     }
     /// Returns what a thing is given by itself, the document's own merges of it left aside.
     pub fn given_apart(&self, thing: ThingId) -> Option<&GivenTerm> {

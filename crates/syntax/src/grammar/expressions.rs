@@ -268,7 +268,7 @@ fn operand(p: &mut Parser<'_>, start: Checkpoint) -> u32 {
                 p.start_at(start, IndexExpr);
                 p.finish();
             }
-            Ident if mistakes::unit_after_name(p) => {
+            Ident if mistakes::numbers::unit_after_name(p) => {
                 p.bump();
                 p.start_at(start, BinaryExpr);
                 p.finish();
@@ -294,7 +294,7 @@ fn primary(p: &mut Parser<'_>, start: Checkpoint) -> u32 {
                 p.finish();
                 return 2;
             }
-            if mistakes::implied_product(p) {
+            if mistakes::numbers::implied_product(p) {
                 let height = operators(p, Power::Sign);
                 p.start_at(start, BinaryExpr);
                 p.finish();
@@ -316,14 +316,14 @@ fn primary(p: &mut Parser<'_>, start: Checkpoint) -> u32 {
             p.finish();
             return height;
         }
-        Dot if mistakes::leading_dot(p) => {
+        Dot if mistakes::numbers::leading_dot(p) => {
             p.start(BinaryExpr);
             p.bump();
             p.bump();
             p.eat(Unit);
             p.finish();
         }
-        Ident if mistakes::unit_before_number(p) || mistakes::bare_call(p) => {
+        Ident if mistakes::numbers::unit_before_number(p) || mistakes::bare_call(p) => {
             p.start(BinaryExpr);
             p.bump();
             p.bump();

@@ -1,0 +1,171 @@
+//! Numbers and units that are written as elsewhere: `1,000`, `3,5`, `.5`, `8:30`, `2x`, `mm 3`.
+
+use super::is_keyword;
+use crate::kind::SyntaxKind::{Colon, Comma, Dot, Ident, LParen, Number, RBracket, RParen, Unit};
+use crate::parser::Parser;
+use crate::units::{follows_operand, unit_length};
+use base::Span;
+
+/// `1,000,000`, `1 000 000`
+pub(super) fn grouped_digits(p: &mut Parser<'_>) -> bool {
+    let is_group =
+        |p: &Parser<'_>, n| p.nth(n) == Number && p.word(n).len() == 3 && !p.begins_line(n);
+    let step = match p.current() {
+        Comma if p.is_adjacent(0) && p.is_adjacent(1) => 2,
+        Number => 1,
+        _ => return false,
+    };
+    let first = step - 1;
+    if !is_first_group(p) || !is_group(p, first) || step == 2 && !is_group(p, first + 2) {
+        return false;
+    }
+    let mut n = first;
+    while is_group(p, n + step) && (step == 1 || p.nth(n + 1) == Comma) {
+        n += step;
+    }
+    let at = p.pos();
+    let written = p.text_between(at - 1, at + n);
+    let number: String = written.chars().filter(|c| !matches!(c, ',' | ' ')).collect();
+    let said = (
+        "grouped-digits",
+        format!("found `{written}`, wanted one number"),
+        format!("the digits of a number stand together: write `{number}`"),
+    );
+    let span = p.span_at(at - 1).join(p.span_at(at + n));
+    p.report_mistake((at - 1, at + n), said, Some((span, number)));
+    true
+}
+
+/// Returns true behind what groups of three digits follow: a number of at most three digits and nothing else.
+fn is_first_group(p: &Parser<'_>) -> bool {
+    let is_of_digits = |word: &str| word.len() <= 3 && word.chars().all(|c| c.is_ascii_digit());
+    p.behind(1) == Number && is_of_digits(p.text_between(p.pos() - 1, p.pos() - 1))
+}
+
+/// `8:30`
+pub(super) fn time_of_day(p: &mut Parser<'_>) -> bool {
+    let is_one = p.at(Colon) && p.behind(1) == Number && p.nth(1) == Number && p.is_adjacent(1);
+    if is_one {
+        let at = p.pos();
+        let (hours, minutes) = (p.text_between(at - 1, at - 1), p.word(1));
+        let minutes = minutes.strip_prefix('0').unwrap_or(minutes);
+        let said = (
+            "expected-member",
+            format!("found `{}`, wanted a number with its unit", p.text_between(at - 1, at + 1)),
+            format!("a time is `{hours} h + {minutes} min`"),
+        );
+        p.report_mistake((at - 1, at + 1), said, None);
+    }
+    is_one
+}
+
+/// `3,5`
+pub(super) fn decimal_comma(p: &mut Parser<'_>) -> bool {
+    let is_one = p.at(Comma)
+        && p.behind(1) == Number
+        && p.nth(1) == Number
+        && p.is_adjacent(0)
+        && p.is_adjacent(1);
+    if is_one {
+        let at = p.pos();
+        let (before, after) = (p.text_between(at - 1, at - 1), p.word(1));
+        // `1.000,50`: the point stands between thousands
+        let number = format!("{}.{after}", before.replace('.', ""));
+        let is_either = is_first_group(p) && after.len() == 3 && !before.starts_with('0');
+        let hint = match is_either {
+            true => {
+                format!("write `{number}` for a decimal comma, `{before}{after}` for thousands")
+            }
+            false => format!("write `{number}`"),
+        };
+        let said =
+            ("decimal-comma", format!("found `{before},{after}`, wanted a decimal point"), hint);
+        let span = p.span_at(at - 1).join(p.span_at(at + 1));
+        let fix = (!is_either).then_some((span, number));
+        p.report_mistake((at - 1, at + 1), said, fix);
+    }
+    is_one
+}
+
+/// `.5`
+pub(in crate::grammar) fn leading_dot(p: &mut Parser<'_>) -> bool {
+    let is_one = p.at(Dot) && p.nth(1) == Number && p.is_adjacent(1);
+    if is_one {
+        let at = p.pos();
+        let number = format!("0.{}", p.word(1));
+        let said = (
+            "leading-dot",
+            format!("found `.{}`, wanted a digit before the point", p.word(1)),
+            format!("write `{number}`"),
+        );
+        let span = p.span_at(at).join(p.span_at(at + 1));
+        p.report_mistake((at, at + 1), said, Some((span, number)));
+    }
+    is_one
+}
+
+/// `x mm`
+pub(in crate::grammar) fn unit_after_name(p: &mut Parser<'_>) -> bool {
+    let is_one = p.at(Ident)
+        && !p.line_ended(0)
+        && !p.begins_line(0)
+        && !p.names_itself(1)
+        && !matches!(p.word(0), "in" | "as")
+        && matches!(p.behind(1), Ident | RParen | RBracket)
+        && unit_length(p.word(0)) == p.word(0).len();
+    if is_one {
+        let (at, unit) = (p.pos(), p.word(0));
+        let said = (
+            "unit-after-name",
+            format!("found the unit `{unit}` after a name, wanted it after a number"),
+            format!("write `* 1 {unit}`"),
+        );
+        p.report_mistake((at, at), said, Some((p.span_at(at), format!("* 1 {unit}"))));
+    }
+    is_one
+}
+
+/// `2x`, `2 (x + 1)`: a product without its operator. Returns true where one was reported.
+pub(in crate::grammar) fn implied_product(p: &mut Parser<'_>) -> bool {
+    let is_word = is_keyword(p.word(0)) || follows_operand(p.word(0));
+    let is_name = p.at(Ident)
+        && p.is_adjacent(0)
+        && !is_word
+        && p.nth(1) != Colon
+        && expr::units::meant(p.word(0)).is_empty();
+    let is_bracket = p.at(LParen) && !p.line_ended(0);
+    let is_one = p.behind(1) == Number && (is_name || is_bracket);
+    if is_one {
+        let at = p.pos();
+        let number = p.text_between(at - 1, at - 1);
+        let factor = if is_name { p.word(0) } else { "(…)" };
+        let fix = p.span_at(at).start;
+        let fix = Some((Span::new(fix, fix), " * ".into()));
+        let said = (
+            "implied-product",
+            format!("found a number before `{}`, wanted an operator between them", p.word(0)),
+            format!("write `{number} * {factor}`"),
+        );
+        p.report_mistake((at - 1, at), said, fix);
+    }
+    is_one
+}
+
+/// `mm 3`: a unit before its number. Returns true where one was reported.
+pub(in crate::grammar) fn unit_before_number(p: &mut Parser<'_>) -> bool {
+    let is_one = p.nth(1) == Number
+        && !p.begins_line(1)
+        && p.nth(2) != Unit
+        && unit_length(p.word(0)) == p.word(0).len();
+    if is_one {
+        let at = p.pos();
+        let right = format!("{} {}", p.word(1), p.word(0));
+        let said = (
+            "unit-before-number",
+            format!("found the unit `{}` before its number", p.word(0)),
+            format!("write `{right}`"),
+        );
+        p.report_mistake((at, at + 1), said, Some((p.span_at(at).join(p.span_at(at + 1)), right)));
+    }
+    is_one
+}
