@@ -67,8 +67,10 @@ pub(crate) fn warnings(state: &State) -> Vec<Diagnostic> {
 
 /// Returns what a slot is bound to: of the parts that are one, the first that is given by others.
 fn binding(structure: &Structure, thing: ThingId, slot: SlotId) -> Option<(&GivenTerm, ThingId)> {
-    let is_bound = structure.bound.contains(&slot);
-    let all = structure.merged_with(thing).into_iter().filter(|_| is_bound);
+    if !structure.bound.contains(&slot) {
+        return None;
+    }
+    let all = structure.merged_with(thing).into_iter();
     let mut given = all.filter_map(|thing| structure.given_apart_in(thing));
     given.find(|(given, _)| !matches!(given.term, Term::Number { .. } | Term::Text(_)))
 }
