@@ -211,6 +211,18 @@ fn with_unit_of_prefix(typed: &str, dimension: Dimension) -> Option<String> {
     })
 }
 
+/// Returns the unit that a person typed with a number for a thing of a class; nothing for what is no number with a unit,
+/// and for quantities that a sheet has a unit of its own for.
+pub fn unit_typed(typed: &str, class: ClassId, document: &Document) -> Option<Name> {
+    let ClassKind::Primitive(Primitive::Real(dimension)) = document.classes[class].kind else {
+        return None;
+    };
+    let in_full = with_unit_of_prefix(typed.trim(), dimension);
+    let parse = syntax::parse_expression(OWN, in_full.as_deref().unwrap_or(typed.trim()));
+    let unit = unit_of(&parse.file().expression()?)?;
+    (!is_of_the_sheet(dimension)).then_some(unit)
+}
+
 /// Why an expression is no value for what is wanted.
 enum Wrong {
     Value,

@@ -5,13 +5,13 @@
 
 use crate::connections::is_bare_path;
 use crate::lower::{Lowered, OWN};
-use crate::numbers::{without_noise, write_number};
+use crate::numbers::{unit_of, without_noise, write_number};
 use crate::paths::loose_path;
 use base::{Name, Span};
 use expr::dimension::Dimension;
 use indexmap::IndexMap;
 use kernel::quantity::{from_bare, from_si};
-use kernel::{ClassId, ClassKind, Document, Literal, Path, Primitive, Step};
+use kernel::{ClassId, ClassKind, Document, Literal, OriginId, Path, Primitive, Step};
 use std::collections::{BTreeMap, BTreeSet};
 use syntax::ast::{self, AstNode, Expr, Member};
 use syntax::edit::{self, Spot, TextEdit};
@@ -41,6 +41,37 @@ pub(crate) enum Digits<'m> {
     All,
     /// All of those with these bits; of others those that are more than rounding.
     Meant(&'m BTreeSet<u64>),
+}
+
+/// Returns the edit by which a number of some class, which a member of the document's own text gives, stands there in
+/// another unit; nothing where it does already, or where it is not written as a number.
+pub fn write_unit(
+    lowered: &Lowered,
+    given: OriginId,
+    (x, class): (f64, ClassId),
+    unit: &str,
+) -> Vec<TextEdit> {
+    let place = lowered.origins.place(given);
+    if place.file != OWN {
+        return Vec::new();
+    }
+    let document = &lowered.document;
+    let (edits, added) = (Vec::new(), IndexMap::new());
+    let writer = Writer { lowered, document, digits: Digits::All, edits, added };
+    let file = lowered.effective_parse.file();
+    let within = |e: &Expr| {
+        let span = e.span();
+        place.span.start <= span.start && span.end <= place.span.end
+    };
+    let numbers = file.syntax().descendants().filter_map(Expr::cast);
+    let mut numbers = numbers.filter(|e| matches!(e, Expr::Number(_) | Expr::Unary(_)));
+    let bits = Some((x + 0.0).to_bits());
+    let written = numbers.find(|e| within(e) && writer.read(e, Some(class)) == bits);
+    let Some(written) = written.filter(|e| unit_of(e).is_none_or(|is| *is != *unit)) else {
+        return Vec::new();
+    };
+    let text = write_number(x, writer.dimension(Some(class)), document, Some(unit));
+    in_text(lowered, vec![edit::replace(written.syntax(), &text)])
 }
 
 /// Returns the edits of the effective text that give these parts these values.

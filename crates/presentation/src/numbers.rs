@@ -38,12 +38,15 @@ pub fn meant_in(words: &str, unit: &str) -> String {
 }
 
 /// What is meant by the words of a field that begins with a value as it is shown: where they are still those, the value
-/// itself with all its digits. A bare number is one of degrees, where the value is; of a length the sheet says which.
+/// itself with all its digits. A bare number is meant in the unit of the value; of a length the sheet says which.
 pub fn exactly(typed: &str, value: &str) -> String {
-    match typed.trim() == to_read(value) {
-        true => String::from(value),
-        false if value.ends_with(" deg") => meant_in(typed, "deg"),
-        false => String::from(typed.trim()),
+    let quantity = value
+        .split_once(' ')
+        .filter(|(number, unit)| number.parse::<f64>().is_ok() && !unit.contains(' '));
+    match quantity {
+        _ if typed.trim() == to_read(value) => String::from(value),
+        Some((_, unit)) if !session::is_unit_of_sheet(unit) => meant_in(typed, unit),
+        Some(_) | None => String::from(typed.trim()),
     }
 }
 
@@ -68,6 +71,9 @@ mod tests {
         assert_eq!(exactly("252.98 mm ", value), "252.98 mm");
         assert_eq!(exactly("252", value), "252");
         assert_eq!(exactly(" 75", "59.826 deg"), "75 deg");
+        assert_eq!(exactly("4.8", "4.7 kohm"), "4.8 kohm");
+        assert_eq!(exactly("820 ohm", "4.7 kohm"), "820 ohm");
+        assert_eq!(exactly("3", "2 * r"), "3");
         assert_eq!(exactly("pi() / 3", "59.826 deg"), "pi() / 3");
     }
 

@@ -187,12 +187,10 @@ mod tests {
         let row = ConstructionRow {
             id: String::from("Axis.equidistant(first,second)"),
             class: String::from("Axis"),
-            label: String::from(
-                "Line of the points that are as far from one point as from another",
-            ),
+            label: String::from("Perpendicular bisector"),
             operands: String::from("first, second"),
             doc: String::new(),
-            also: "perpendicular bisector",
+            also: "mediator",
         };
         let drawn = (
             vec![row],

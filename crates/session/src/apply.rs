@@ -436,7 +436,11 @@ pub(crate) fn keep(
     planner.restore_latest(latest);
     let texts = &mut Texts::new(&state.lowered.document, &state.structure);
     let modes = planner.mode_changes(state.model(), &before.values, values, texts);
+    let came = differing(&state, values).next().map(|_| values.clone());
     open.step_with(label.clone(), edited.slots, (state, planner, status));
+    if let Some(step) = open.done.last_mut() {
+        step.came = came;
+    }
     let mut modes = limits::modes(&open.state, &modes);
     modes.extend(limits::sides(&before, &open.state));
     Ok(Change { modes, ..change(label, &before, &open.state) })

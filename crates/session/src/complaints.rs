@@ -11,9 +11,15 @@ pub(crate) fn of(open: &Open) -> Vec<String> {
     let (document, structure) = (&open.state.lowered.document, &open.state.structure);
     match latest_edit(open) {
         Some(step) => {
-            let (before, after) = (&step.state.values, &open.state.values);
+            let (before, after) = (&step.state.values, step.came.as_ref());
+            let after = after.unwrap_or(&open.state.values);
             let (edited, wishes) = (&*step.edited, &*step.wishes);
-            checker::check_edit(document, structure, Edit { before, after, edited, wishes })
+            let edit = Edit { before, after, edited, wishes };
+            let mut complaints = checker::check_edit(document, structure, edit);
+            if step.came.is_some() {
+                complaints.extend(checker::check_state(document, structure, open.values()));
+            }
+            complaints
         }
         None => checker::check_state(document, structure, open.values()),
     }

@@ -3,7 +3,7 @@
 use crate::host::Host;
 use crate::state::State;
 use crate::views::picture::Shown;
-use kernel::SlotId;
+use kernel::{SlotId, Values};
 use plan::{Planner, Plans};
 use std::cell::RefCell;
 use std::rc::Rc;
@@ -20,6 +20,8 @@ pub(crate) struct Step {
     pub(crate) edited: Vec<SlotId>,
     /// What the pointer wished of slots at last, where it was a drag.
     pub(crate) wishes: Vec<(SlotId, f64)>,
+    /// What an edit of values came to, where the text leaves some of it undecided.
+    pub(crate) came: Option<Values>,
 }
 
 /// An open document.
@@ -146,7 +148,7 @@ impl Open {
         self.presumed = self.presumed_in(&state);
         let state = std::mem::replace(&mut self.state, Rc::new(state));
         let status = std::mem::replace(&mut self.status, status);
-        self.done.push(Step { label, state, status, edited, wishes: Vec::new() });
+        self.done.push(Step { label, state, status, edited, wishes: Vec::new(), came: None });
         self.undone.clear();
         self.planner = planner;
     }
@@ -239,6 +241,7 @@ impl Open {
                 status: step.status.clone(),
                 edited: Vec::new(),
                 wishes: Vec::new(),
+                came: None,
             };
         }
     }

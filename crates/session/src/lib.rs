@@ -68,6 +68,7 @@ mod yielding;
 pub use families::file_names;
 pub use host::{Host, used_as};
 pub use kernel::{Command, Literal, Path, Step};
+pub use lang::is_unit_of_sheet;
 pub use lang::tables::is_name as is_table_name;
 pub use opening::Opening;
 pub use rules::rule_in_words;

@@ -200,7 +200,7 @@ impl Session {
         let target = crate::by_hand::anchored_whole(state, &path, &literal);
         let target = target.unwrap_or_else(|| (path.clone(), literal));
         match self.apply(id, &Command::Set(vec![target])) {
-            Ok(change) => Ok(change),
+            Ok(change) => Ok(self.in_unit_typed(id, &path, typed, change)),
             Err(refusal) => self.tell_anew(id, &path, typed).unwrap_or(Err(refusal)),
         }
     }

@@ -7,12 +7,13 @@
 use crate::document::{Direction, Open};
 use crate::fixes;
 use crate::host::Host;
-use crate::session::Session;
+use crate::session::{Session, thing_at};
 use crate::state::State;
 use crate::view::{Change, DocumentId, Refusal};
 use crate::{apply, by_hand, words};
 use base::{FileId, Span};
 use kernel::{Command, Literal, Path};
+use std::rc::Rc;
 use syntax::{SyntaxKind, SyntaxToken};
 
 /// Returns the unit that a sheet takes over from what is written by hand; none where the document names one, or has
@@ -121,7 +122,44 @@ impl Session {
         Some(change.map(|change| *self.with_reach(id, change)))
     }
 
-    /// The same in the pane of a class: the document that declares it takes over the unit.
+    /// Has the text say a number in the unit that it was typed in, where it stands in another: `2.2 kohm`, not
+    /// `2200 ohm`. It is of the step that has just been made.
+    pub(crate) fn in_unit_typed(
+        &mut self,
+        id: DocumentId,
+        path: &Path,
+        typed: &str,
+        change: Change,
+    ) -> Change {
+        let (open, beside) = self.beside_others(id);
+        let state = open.state.clone();
+        let given = thing_at(&state, path).and_then(|thing| {
+            let slot = state.structure.slot_of(thing)?;
+            let given = state.structure.given(slot)?;
+            let class = state.structure.things[thing].class;
+            let unit = lang::unit_typed(typed, class, &state.lowered.document)?;
+            let number = (state.values.numbers[slot], class);
+            state.lowered.is_own_given(given.origin).then_some((given.origin, number, unit))
+        });
+        let (Some((origin, number, unit)), None) = (given, &open.pane) else { return change };
+        let edits = lang::write_unit(&state.lowered, origin, number, &unit);
+        let Some(before) = open.done.last().filter(|_| !edits.is_empty()) else { return change };
+        let before = before.state.clone();
+        let latest = open.planner.take_latest();
+        let text = syntax::edit::apply(&state.text, &edits);
+        let (next, mut planner) = State::written(text, &state, &beside, open.planner.take_plans());
+        if next.values.changed(&state.values).next().is_some() || next.has_errors() {
+            open.give_up(planner);
+            open.planner.restore_latest(latest);
+            return change;
+        }
+        planner.restore_latest(latest);
+        (open.state, open.planner) = (Rc::new(next), planner);
+        let Change { edits, .. } = apply::change(change.label.clone(), &before, &open.state);
+        Change { edits, ..change }
+    }
+
+    /// Sets a value as it is typed in the pane of a class: the document that declares it takes over the unit.
     fn set_in_pane_with_unit(
         &mut self,
         pane: DocumentId,

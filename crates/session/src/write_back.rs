@@ -5,11 +5,13 @@
 //! has made; then the text is opened, and while a value differs from what the edit came to, one that does is given as
 //! well: one whose class gives it a value, else one that the edit was about, else the first. Given numbers that the
 //! edit left alone and that come to other bits, since they give way whenever the text is opened, are written as they
-//! are. Where the fewer digits do not say the same, all are written.
+//! are. Where the fewer digits do not say the same, all are written. A quantity that nothing decides and that nothing is
+//! placed by, as the voltages of a circuit without a ground, is not written: it is what opening the text gives.
 
 use crate::given_twice;
 use crate::host::Host;
 use crate::state::State;
+use crate::texts::Texts;
 use crate::tools::digits;
 use base::number::{RULE_TOLERANCE, Toward, close};
 use kernel::{
@@ -47,7 +49,7 @@ pub(crate) fn write_back(
     let kept = slots.filter(stays).map(|slot| wanted.numbers[slot]);
     let meant: BTreeSet<u64> = kept.chain(given.iter().copied()).map(f64::to_bits).collect();
     let (next, mut planner) = written(state, wanted, &edited.slots, Some(&meant), (host, plans));
-    if is_as_exact(&next, wanted, &mut planner) {
+    if is_as_exact(&next, wanted, &edited.slots, &mut planner) {
         return (next, planner);
     }
     written(state, wanted, &edited.slots, None, (host, planner.into_plans()))
@@ -55,7 +57,7 @@ pub(crate) fn write_back(
 
 /// Whether a text that was written with fewer digits says what it should: what holds as it is given, so that nothing
 /// gives way when it is opened, and values that are the same for everybody who looks at them, however small they are.
-fn is_as_exact(next: &State, wanted: &Values, planner: &mut Planner) -> bool {
+fn is_as_exact(next: &State, wanted: &Values, edited: &[SlotId], planner: &mut Planner) -> bool {
     if next.structure.slots.len() != wanted.numbers.len() {
         return false;
     }
@@ -66,9 +68,36 @@ fn is_as_exact(next: &State, wanted: &Values, planner: &mut Planner) -> bool {
     let given = eval::given_values(&next.lowered.document, &next.structure).0;
     let stands = |&slot: &SlotId| given.get(slot).same_bits(&next.values.get(slot));
     let is_given = |slot: &&SlotId| next.structure.given(**slot).is_some();
+    let mut meant = wanted.clone();
+    let (_, undecided) = decided(next, changed.clone(), edited, planner);
+    for slot in undecided {
+        meant.numbers[slot] = next.values.numbers[slot];
+    }
     changed.iter().filter(is_given).all(stands)
-        && digits::has_values(next, wanted, RULE_TOLERANCE)
+        && digits::has_values(next, &meant, RULE_TOLERANCE)
         && next.status(planner).satisfied
+}
+
+/// Parts slots whose values differ after opening: those that something decides, that the edit was about, or that
+/// something drawn may be placed by, and the others.
+fn decided(
+    next: &State,
+    differing: Vec<SlotId>,
+    edited: &[SlotId],
+    planner: &mut Planner,
+) -> (Vec<SlotId>, Vec<SlotId>) {
+    let is_quantity = |slot: &SlotId| {
+        let s = &next.structure.slots[*slot];
+        let places = [expr::Dimension::NONE, expr::Dimension::LENGTH];
+        let is_other = matches!(s.primitive, Primitive::Real(d) if !places.contains(&d));
+        is_other && s.given.is_none() && !edited.contains(slot)
+    };
+    if !differing.iter().any(is_quantity) {
+        return (differing, Vec::new());
+    }
+    let mut texts = Texts::new(&next.lowered.document, &next.structure);
+    let arbitrary = planner.arbitrary(next.model(), &next.values, &mut texts);
+    differing.into_iter().partition(|slot| !(is_quantity(slot) && arbitrary.contains(slot)))
 }
 
 /// Makes the state whose text gives these values, and its planner: numbers to the digits that are meant, or all.
@@ -105,7 +134,7 @@ fn written(
             None => lang::write_values(&state.lowered, &writes),
         };
         let text = syntax::edit::apply(&state.text, &edits);
-        let (next, planner) = State::written(text, state, host, plans);
+        let (next, mut planner) = State::written(text, state, host, plans);
         if next.structure.slots.len() != state.structure.slots.len() {
             // what was written decides how many things there are: these are others
             return (next, planner);
@@ -122,6 +151,7 @@ fn written(
         if !missing.iter().all(is_bound) {
             missing.retain(|slot| !is_bound(slot));
         }
+        let (mut missing, _) = decided(&next, missing, edited, &mut planner);
         // what is off for want of digits is not to be given: then all digits are written
         if meant.is_some() && !missing.is_empty() && !missing.iter().any(|s| edited.contains(s)) {
             return (next, planner);
@@ -198,7 +228,7 @@ pub(crate) fn settle_places(
     let apply = |edits: &[syntax::TextEdit]| syntax::edit::apply(&state.text, edits);
     let short = apply(&lang::write_rounded(&state.lowered, &writes, &BTreeSet::new()));
     let (next, mut planner) = State::written(short, &state, host, planner.into_plans());
-    if is_as_exact(&next, &state.values, &mut planner) {
+    if is_as_exact(&next, &state.values, &[], &mut planner) {
         return (next, planner);
     }
     let whole = apply(&lang::write_values(&state.lowered, &writes));

@@ -5,6 +5,7 @@ use crate::{icons, structure, words};
 use leptos::ev::KeyboardEvent;
 use leptos::html::Input;
 use leptos::prelude::*;
+use presentation::numbers::{exactly, to_read};
 use session::view::Refusal;
 
 /// Brings an element into sight within the panel that it scrolls in, if it is there. The page itself stays:
@@ -48,6 +49,7 @@ pub fn Edit(
     done: impl Fn() + Copy + Send + 'static,
 ) -> impl IntoView {
     let input = NodeRef::<Input>::new();
+    let begun = StoredValue::new(value.clone());
     let error = RwSignal::new(None::<String>);
     let over = StoredValue::new(false);
     Effect::new(move |_| {
@@ -61,7 +63,8 @@ pub fn Edit(
     });
     let accept = move || {
         let Some(field) = input.get_untracked() else { return };
-        match lab.set_typed(&path.get_untracked(), &field.value()) {
+        let typed = begun.with_value(|value| exactly(&field.value(), value));
+        match lab.set_typed(&path.get_untracked(), &typed) {
             Ok(()) => {
                 over.set_value(true);
                 done();
@@ -82,7 +85,7 @@ pub fn Edit(
     };
     view! {
         <span class="edit" on:click=|e| e.stop_propagation() on:dblclick=|e| e.stop_propagation()>
-            <input node_ref=input prop:value=value aria-label=path
+            <input node_ref=input prop:value=to_read(&value) aria-label=path
                 aria-invalid=move || error.with(Option::is_some).to_string()
                 on:keydown=key
                 on:blur=move |_| {

@@ -51,7 +51,7 @@ fn a_computed_number_that_is_set_rewrites_what_gave_way() {
 #[test]
 fn a_unit_is_kept_as_it_was_written() {
     let text = "r: Resistance =   4.7 kohm   // a usual one\nd: Length = 30\n";
-    let saved = after(text, |d| d.type_in("r", "4800 ohm").expect("r is free"));
+    let saved = after(text, |d| d.set("r", 4800.0).expect("r is free"));
     assert_eq!(saved, text.replace("4.7 kohm", "4.8 kohm"));
 }
 
@@ -250,4 +250,69 @@ fn fewer_digits_give_nothing_that_all_digits_do_not() {
     assert_eq!(desk.moment(), before);
     desk.redo();
     assert_eq!(desk.moment(), after);
+}
+
+#[test]
+fn a_value_typed_in_a_circuit_without_a_ground_gives_no_voltage_that_nothing_decides() {
+    let circuit = "use circuits
+battery: Battery { emf = 9 V }
+upper: Resistor { resistance = 1 kohm }
+lower: Resistor { resistance = 2 kohm }
+merge upper.a.node = battery.a.node
+merge lower.a.node = upper.b.node
+merge lower.b.node = battery.b.node
+";
+    let desk = &mut Desk::of(circuit);
+    let types = [
+        ("upper.resistance", "2k2", "1 kohm", "2.2 kohm"),
+        ("lower.resistance", "3.3 kohm", "= 2 kohm", "= 3.3 kohm"),
+        ("battery.emf", "12", "9 V", "12 V"),
+    ];
+    let mut text = circuit.to_owned();
+    for (path, typed, was, is) in types {
+        desk.type_in(path, typed).expect("it is free to be set");
+        text = text.replace(was, is);
+        assert_eq!(desk.text(), text);
+    }
+    // 12 V over 5.5 kohm
+    assert!((desk.number("lower.drop") - 7.2).abs() < 1e-12);
+    assert_eq!(Desk::of(&text).bits(), desk.bits(), "opening it again gives the same bits");
+    // a voltage that is typed is given
+    desk.type_in("battery.b.node.voltage", "0 V").expect("it is free to be set");
+    assert!((desk.number("battery.a.node.voltage") - 12.0).abs() < 1e-12);
+    assert!(desk.text().contains("b.node.voltage = 0 V"), "{}", desk.text());
+}
+
+#[test]
+fn a_value_typed_with_a_unit_stands_in_that_unit() {
+    let typed = |body: &str, typed: &str| {
+        let text = format!("use circuits\nr: Resistor{body}\n");
+        let saved = after(&text, |d| d.type_in("r.resistance", typed).expect("it is free"));
+        saved.lines().last().expect("it has lines").to_owned()
+    };
+    assert_eq!(typed("", "2k2"), "r: Resistor { resistance = 2.2 kohm }");
+    assert_eq!(
+        typed(" { resistance = 470 ohm }", "2.2 kohm"),
+        "r: Resistor { resistance = 2.2 kohm }"
+    );
+    assert_eq!(
+        typed(" { resistance = 4.7 kohm }", "4800 ohm"),
+        "r: Resistor { resistance = 4800 ohm }"
+    );
+    assert_eq!(
+        typed(" { resistance = 470 ohm }", "2 * 2 kohm"),
+        "r: Resistor { resistance = 4000 ohm }"
+    );
+    // one step
+    let text = "use circuits\nr: Resistor\n";
+    let desk = &mut Desk::of(text);
+    desk.type_in("r.resistance", "2k2").expect("it is free");
+    assert_eq!(
+        (desk.row("r.resistance").text, desk.row("r.resistance").unit),
+        ("2.2".into(), "kohm".into())
+    );
+    desk.undo();
+    assert_eq!(desk.text(), text);
+    desk.redo();
+    assert!(desk.text().contains("2.2 kohm"));
 }

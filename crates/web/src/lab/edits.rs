@@ -350,7 +350,7 @@ impl Lab {
         let found = self.values.with_untracked(|rows| {
             let row = rows.iter().find(|row| value.as_ref() == Some(&row.path))?;
             let unit = if row.unit.is_empty() { String::new() } else { format!(" {}", row.unit) };
-            Some(InPlace { path: row.path.clone(), value: format!("{}{unit}", row.text), at })
+            Some(InPlace { path: row.path.clone(), value: format!("{}{unit}", row.exact), at })
         });
         match found {
             Some(found) => self.editing.set(Some(found)),
