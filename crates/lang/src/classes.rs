@@ -260,7 +260,7 @@ impl Lowerer<'_> {
             let mut d = Diagnostic::error("unknown-class", place, message);
             let names = self.visible.names(file).map(Name::as_str);
             let near = self.nearest(word.text(), names);
-            if let Some(near) = near.or_else(|| called_otherwise(word.text())) {
+            if let Some(near) = called_otherwise(word.text()).or(near) {
                 d = d.meant(near);
             } else {
                 let is_list =
@@ -419,12 +419,20 @@ pub(crate) fn small_first(name: &str) -> Name {
     Name::new(&(first + letters.as_str()))
 }
 
-/// Returns the primitive class that other languages call by this name.
+/// Returns the primitive class that other languages, or people who speak of what they measure, call by this name.
 fn called_otherwise(name: &str) -> Option<&'static str> {
     match name.to_ascii_lowercase().as_str() {
         "boolean" => Some("Bool"),
-        "number" | "num" | "float" | "double" | "decimal" => Some("Real"),
-        "int" => Some("Integer"),
+        "number" | "num" | "float" | "double" | "decimal" | "percent" | "percentage" | "ratio"
+        | "fraction" | "probability" | "money" | "currency" | "price" | "strain" => Some("Real"),
+        "int" | "count" => Some("Integer"),
+        "width" | "height" | "depth" | "thickness" | "radius" | "diameter" => Some("Length"),
+        "duration" | "period" => Some("Time"),
+        "degree" | "degrees" | "radians" => Some("Angle"),
+        "heat" => Some("Energy"),
+        "flow" | "flowrate" => Some("VolumeFlow"),
+        "amountofsubstance" | "moles" => Some("Amount"),
+        "molarity" => Some("Concentration"),
         "string" | "str" => Some("Text"),
         "colour" => Some("Color"),
         _ => None,

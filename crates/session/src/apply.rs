@@ -1,12 +1,13 @@
 //! Commands applied: each gives the next state, or a refusal that changed nothing.
 
-use crate::difference::{difference, says_all_of};
+use crate::difference::{difference, label_of_text};
 use crate::document::{Direction, Open};
 use crate::drag::{self, coordinates};
 use crate::following;
 use crate::general;
 use crate::host::Host;
 use crate::limits;
+use crate::over_constants;
 use crate::parting;
 use crate::placing::place_new_parts;
 use crate::prototype;
@@ -72,6 +73,11 @@ pub(crate) fn apply_by(
         && targets.iter().any(|t| lang::of_constraint(&open.state.lowered, &t.0).is_some())
     {
         return restructure(open, host, command);
+    }
+    if let Command::Set(targets) = command
+        && let Some(change) = over_constants::set(open, host, targets)
+    {
+        return change;
     }
     if let Command::Set(targets) | Command::Move(targets) = command
         && !targets.iter().all(|(_, value)| matches!(value, Literal::Path(_)))
@@ -460,31 +466,6 @@ fn take_text(open: &mut Open, host: &dyn Host, text: &str) -> Change {
     }
     let (state, planner) = opened;
     step_to(open, label_of_text(&before, &state), state, planner)
-}
-
-/// Says what an edit of the text did, where all that it did is that things came or went: nothing else that the text
-/// says is another.
-fn label_of_text(before: &State, after: &State) -> String {
-    /// Returns the names of things that one document has and another has not, in order.
-    fn beyond(state: &State, other: &State) -> Vec<String> {
-        let [own, others] = [state, other].map(|state| {
-            let document = &state.lowered.document;
-            &document.classes[document.root].parts
-        });
-        let known: BTreeSet<&base::Name> = others.iter().map(|part| &part.name).collect();
-        let names = own.iter().map(|part| &part.name);
-        names.filter(|name| !known.contains(name)).map(ToString::to_string).collect()
-    }
-    let (gone, come) = (beyond(before, after), beyond(after, before));
-    match (gone.as_slice(), come.as_slice()) {
-        ([], [_, ..]) if says_all_of(&after.text, &before.text) => {
-            format!("add {}", words::listed(&come))
-        }
-        ([_, ..], []) if says_all_of(&before.text, &after.text) => {
-            format!("delete {}", words::listed(&gone))
-        }
-        _ => "edit text".into(),
-    }
 }
 
 fn travel(open: &mut Open, host: &dyn Host, direction: Direction) -> Result<Change, Refusal> {

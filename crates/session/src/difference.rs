@@ -5,7 +5,10 @@
 //!
 //! **Source:** Myers, "An O(ND) Difference Algorithm and Its Variations", Algorithmica 1986.
 
+use crate::state::State;
 use crate::view::TextChange;
+use crate::words;
+use std::collections::BTreeSet;
 use syntax::ast::AstNode;
 
 /// Texts that differ in more lines than this are one stretch: nobody follows so many with the eye.
@@ -39,8 +42,33 @@ pub(crate) fn difference(before: &str, after: &str) -> Vec<TextChange> {
     changes
 }
 
+/// Says what an edit of the text did, where all that it did is that things came or went: nothing else that the text
+/// says is another.
+pub(crate) fn label_of_text(before: &State, after: &State) -> String {
+    /// Returns the names of things that one document has and another has not, in order.
+    fn beyond(state: &State, other: &State) -> Vec<String> {
+        let [own, others] = [state, other].map(|state| {
+            let document = &state.lowered.document;
+            &document.classes[document.root].parts
+        });
+        let known: BTreeSet<&base::Name> = others.iter().map(|part| &part.name).collect();
+        let names = own.iter().map(|part| &part.name);
+        names.filter(|name| !known.contains(name)).map(ToString::to_string).collect()
+    }
+    let (gone, come) = (beyond(before, after), beyond(after, before));
+    match (gone.as_slice(), come.as_slice()) {
+        ([], [_, ..]) if says_all_of(&after.text, &before.text) => {
+            format!("add {}", words::listed(&come))
+        }
+        ([_, ..], []) if says_all_of(&before.text, &after.text) => {
+            format!("delete {}", words::listed(&gone))
+        }
+        _ => "edit text".into(),
+    }
+}
+
 /// Returns true for a text with every member of another, in the same order. Cost: linear in their lengths.
-pub(crate) fn says_all_of(text: &str, other: &str) -> bool {
+fn says_all_of(text: &str, other: &str) -> bool {
     let members = |text: &str| -> Vec<String> {
         let file = syntax::parse(base::FileId(0), text).file();
         file.members().map(|member| member.syntax().text().to_string().trim().into()).collect()

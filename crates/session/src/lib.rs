@@ -45,6 +45,7 @@ mod mentioning;
 mod offers;
 mod opening;
 mod outlines;
+mod over_constants;
 mod parting;
 mod placing;
 pub mod plain;

@@ -316,3 +316,30 @@ fn a_value_typed_with_a_unit_stands_in_that_unit() {
     desk.redo();
     assert!(desk.text().contains("2.2 kohm"));
 }
+
+#[test]
+fn a_value_set_over_an_expression_of_constants_takes_its_place() {
+    let text = "use constants
+class Pendulum {
+    g: Acceleration = constants.g
+    length: Length = 1 m
+    period => 2 * pi * sqrt(length / g)
+}
+here: Pendulum
+twice: Acceleration = 2 * constants.g // of two
+";
+    let desk = &mut Desk::of(text);
+    assert!((desk.number("here.period") - 2.006_409).abs() < 1e-6);
+    desk.type_in("here.g", "1.62 m/s^2").expect("it is set itself");
+    assert!((desk.number("here.period") - 4.936_537).abs() < 1e-6);
+    let moon = text.replace("here: Pendulum", "here: Pendulum { g = 1.62 m/s^2 }");
+    assert_eq!((desk.text(), desk.undo_label()), (moon.clone(), Some("set here.g".into())));
+    desk.set("twice", 3.5).expect("it is set itself");
+    assert_eq!(desk.text(), moon.replace("2 * constants.g", "3.5 m/s^2"));
+    desk.undo();
+    desk.undo();
+    assert_eq!(desk.text(), text);
+    // no constant yields
+    desk.set("here.period", 2.0).expect("the length can be another");
+    assert_eq!(desk.number("here.g"), 9.80665);
+}
