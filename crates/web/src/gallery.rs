@@ -1,7 +1,7 @@
 //! The gallery: every document as a card with its picture, its title and its first sentence.
 
 use crate::first::Invitation;
-use crate::lab::Lab;
+use crate::lab::{Lab, Opened};
 use crate::picture::thumbnail::Thumbnail;
 use crate::{actions, lesson, route, words};
 use leptos::prelude::*;
@@ -52,10 +52,22 @@ impl Card {
         Self { listed, read, is_kept: false }
     }
 
-    /// A document that is not saved yet, which is not read before it is opened.
-    fn kept(path: &str) -> Self {
+    /// A document that is not saved yet: its draft is read.
+    fn kept(lab: Lab, path: &str) -> Self {
+        let read = RwSignal::new(None::<Read>);
         let listed = Listed { path: path.into(), title: path.into(), in_gallery: false };
-        Self { listed, read: RwSignal::new(None), is_kept: true }
+        let path = String::from(path);
+        let is_seen = move || read.try_get_untracked().is_some();
+        leptos::task::spawn_local(async move {
+            if let Some(opened) = lab.draft_for_card(&path, is_seen).await {
+                let is_blank =
+                    lab.ask(|session| session.picture(opened.id)).drawing.elements.is_empty();
+                let sentence = String::from(words::KEPT_HERE);
+                let Opened { id, title, dirty, .. } = opened;
+                read.try_set(Some(Read { id, title, sentence, dirty, is_blank }));
+            }
+        });
+        Self { listed, read, is_kept: true }
     }
 
     /// Whether it has the wanted words in its title, its first sentence or its path.
@@ -109,7 +121,7 @@ pub fn Gallery(
 fn Shelves(lab: Lab, listed: Vec<Listed>, wanted: RwSignal<String>) -> impl IntoView {
     let recent = lab.recent(&listed);
     let unsaved = recent.iter().filter(|path| !listed.iter().any(|one| one.path == **path));
-    let others: Vec<Card> = unsaved.map(|path| Card::kept(path)).collect();
+    let others: Vec<Card> = unsaved.map(|path| Card::kept(lab, path)).collect();
     let all: Vec<Card> = listed.into_iter().map(|one| Card::begun(lab, one)).collect();
     let at = |path: &String| others.iter().chain(&all).find(|card| card.listed.path == *path);
     let recent: Vec<Card> = recent.iter().filter_map(at).cloned().collect();
@@ -170,7 +182,8 @@ fn CardView(lab: Lab, card: Card) -> impl IntoView {
                 on:focus=move |_| lively.set(true)
                 on:blur=move |_| lively.set(false)>
                 <div class="frame">
-                    {is_kept.then(|| view! { <span class="quiet">{words::KEPT_HERE}</span> })}
+                    {move || (is_kept && read.with(Option::is_none))
+                        .then(|| view! { <span class="quiet">{words::KEPT_HERE}</span> })}
                     {move || read.with(|read| read.as_ref().map(|read| (read.id, read.is_blank)))
                         .map(|(id, is_blank)| if is_blank {
                             view! { <span class="quiet">{words::BLANK_CARD}</span> }.into_any()

@@ -107,6 +107,17 @@ async fn the_gallery_offers_what_was_shown_last_finds_by_words_and_begins_a_docu
     visit.until("document.querySelector('.gallery [role=status]').textContent.startsWith('No document')").await;
     visit.script("document.querySelector('.begin .primary').click()").await;
     visit.until("window.__thinglab.state().path === 'untitled.thing'").await;
+    // what is drawn there and not saved is seen on the first shelf, also by the next visit
+    chord(&visit, &[], 'r').await;
+    drag(&visit, (600.0, 300.0), (800.0, 400.0)).await;
+    visit.until("window.__thinglab.state().text.includes('rectangle')").await;
+    visit.script("location.hash = '#/'").await;
+    let drawn = "[...document.querySelectorAll('section[aria-label=Recent] li')].some(li => li.textContent.includes('untitled') && li.textContent.includes('not saved yet') && li.querySelector('canvas'))";
+    visit.until(drawn).await;
+    visit.leave_and_return().await;
+    visit.until("window.__thinglab?.state().path === 'empty.thing'").await;
+    visit.script("location.hash = '#/'").await;
+    visit.until(drawn).await;
 }
 
 #[tokio::test]

@@ -1,5 +1,6 @@
 //! Documents: loading, showing, saving, and what is kept of them in the browser.
 
+use super::drafts::latest_draft;
 use super::{ABSENT, Lab, Opened, Zoom};
 use crate::dialog::Wish;
 use crate::lab::Notice;
@@ -87,6 +88,21 @@ impl Lab {
         let stored = stands(path).await.ok()?;
         let is_short = stored.text.len() <= LONG;
         if is_short { self.take_up_while(path, stored, is_seen).await.ok() } else { None }
+    }
+
+    /// The same of a document that no file has: as it is open, or what was kept of it last.
+    pub async fn draft_for_card(self, path: &str, is_seen: impl Fn() -> bool) -> Option<Opened> {
+        /// A draft has another name than its document, so that nothing uses it.
+        const OF_ITS_OWN: &str = " as a draft";
+        if let Some(opened) = self.opened.with_value(|all| all.get(path).cloned()) {
+            return Some(opened);
+        }
+        let text = latest_draft(path).filter(|text| text.len() <= LONG)?;
+        let id = self.open(&format!("{path}{OF_ITS_OWN}"), &text, &is_seen).await.ok()?;
+        let title = self.session.with_value(|session| session.title(id));
+        let title = title.trim_end_matches(OF_ITS_OWN).to_owned();
+        let (version, saved) = (String::new(), String::new());
+        Some(Opened { id, title, version, writable: true, saved, dirty: true })
     }
 
     async fn open_already(self, path: &str) -> Option<Opened> {

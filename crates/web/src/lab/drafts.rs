@@ -25,6 +25,14 @@ fn own_place(path: &str) -> String {
     place(&js::tab_name(), path)
 }
 
+/// The text of a document that this browser kept last, of whatever tab.
+pub(super) fn latest_draft(path: &str) -> Option<String> {
+    let places = theme::names().into_iter();
+    let of_it = places.filter(|name| place_of(name).is_some_and(|(_, of)| of == path));
+    let drafts = of_it.filter_map(|place| Draft::read(&theme::keep(&place)?));
+    drafts.max_by(|a, b| a.kept.total_cmp(&b.kept)).map(|draft| draft.text)
+}
+
 /// The drafts of a document that say something else than its file and are of no tab that lives, the newest first: of
 /// each tab the newer of what the browser and the server keep.
 fn left_behind(
