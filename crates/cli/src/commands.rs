@@ -7,7 +7,7 @@
 //! {path, classes}, `draw` {path, svg, undrawn, unpictured}, `fmt` {files: [{path, changed, error}]}. The shapes of their parts are
 //! those of `session::view`.
 
-use crate::documents::{self, OpenError, Opened, find, open};
+use crate::documents::{self, OpenError, Opened, find, open, open_sparingly};
 use crate::rows;
 use serde_json::{Value, json};
 use session::view::{Advice, CheckReport, DiagnosticView, Explanation, ValueRow};
@@ -257,13 +257,14 @@ pub(crate) enum Rows {
 /// # Errors
 /// If the file cannot be read.
 pub(crate) fn run(path: &Path, which: Rows, form: Form) -> Result<Report, OpenError> {
-    let mut opened = open(path)?;
+    let mut opened = open_sparingly(path)?;
     let mut words = String::new();
     let diagnostics = opened.session.text(opened.id).diagnostics;
     for d in &diagnostics {
         words.push_str(&show_diagnostic(&opened, d));
     }
     let arbitrary = opened.session.arbitrary(opened.id);
+    opened.session.forget_plans(opened.id);
     if form == Form::Words {
         // what is not read here would take more room than the document itself, where that is large
         let mut keep = |row: ValueRow| {

@@ -86,12 +86,27 @@ impl Opened {
 /// # Errors
 /// If it cannot be read as text.
 pub(crate) fn open(path: &Path) -> Result<Opened, OpenError> {
+    open_by(path, Session::open)
+}
+
+/// Opens one file to be looked at, in as little room as it takes.
+///
+/// # Errors
+/// If it cannot be read as text.
+pub(crate) fn open_sparingly(path: &Path) -> Result<Opened, OpenError> {
+    open_by(path, Session::open_sparingly)
+}
+
+fn open_by(
+    path: &Path,
+    open: impl FnOnce(&mut Session, &str, &str) -> DocumentId,
+) -> Result<Opened, OpenError> {
     let text = fs::read_to_string(path)
         .map_err(|source| OpenError::Unreadable { path: path.to_path_buf(), source })?;
     let folder = path.parent().unwrap_or(Path::new(".")).to_path_buf();
     let mut session = Session::new(Box::new(FilesBeside { folder }));
     let name = path.file_stem().map_or_else(String::new, |s| s.to_string_lossy().into_owned());
-    let id = session.open(&name, &text);
+    let id = open(&mut session, &name, &text);
     Ok(Opened { session, id, path: path.to_path_buf(), text })
 }
 

@@ -260,6 +260,15 @@ impl Planner {
         }));
         plans
     }
+    /// Forgets every plan, and what plans came to: what is asked next is planned anew. For a document that is looked at
+    /// and so large that its plans take more room than it does itself.
+    pub fn forget_plans(&mut self) {
+        self.plans.forget_all();
+        (self.alike, self.recent) = (Alike::default(), Recent::default());
+        (self.latest, self.resting) = (Latest::default(), None);
+        self.came.clear();
+        *self.runner.borrow_mut() = None;
+    }
     /// Gives plans back that another planner was tried with.
     pub fn give_plans(&mut self, mut plans: Plans) {
         let is_of_these = |kept: &Kept| Rc::ptr_eq(&kept.rules, &self.rules);

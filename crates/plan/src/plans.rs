@@ -21,7 +21,7 @@ pub struct Plans {
     /// What constraints of classes are known to say, until a planner was made.
     known: Known,
     made: IndexMap<Rc<System>, Rc<Plan>, BuildHasherDefault<Mixer>>,
-    modes: IndexMap<Conditional, Rc<Modes>, BuildHasherDefault<Mixer>>,
+    modes: IndexMap<Rc<Conditional>, Rc<Modes>, BuildHasherDefault<Mixer>>,
     puzzles: IndexMap<Conditional, (Rc<System>, Rc<Puzzle>), BuildHasherDefault<Mixer>>,
     wholes: IndexMap<Conditional, Rc<Whole>, BuildHasherDefault<Mixer>>,
     /// Plans of systems in a mode: which mode, that given numbers hold, or that rules are but tested, is
@@ -127,11 +127,17 @@ impl Plans {
         self.wholes.truncate(mark.wholes);
         self.in_modes.get_mut().truncate(mark.in_modes);
     }
+    /// Forgets all that was made, and what it came to.
+    pub(crate) fn forget_all(&mut self) {
+        let patterns = std::mem::take(&mut self.patterns);
+        *self = Self::over(Templates { patterns, known: std::mem::take(&mut self.known) });
+    }
     /// Returns a system with conditions, taken apart.
     pub(crate) fn modes(&mut self, stated: Conditional) -> Rc<Modes> {
         if let Some(modes) = self.modes.get(&stated) {
             return modes.clone();
         }
+        let stated = Rc::new(stated);
         let modes = Rc::new(Modes::new(stated.clone(), &mut self.patterns));
         self.modes.insert(stated, modes.clone());
         modes

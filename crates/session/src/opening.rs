@@ -10,6 +10,8 @@ use plan::{Planner, Plans};
 pub struct Opening {
     name: String,
     stage: Stage,
+    /// Whether plans are forgotten once they have served.
+    is_sparing: bool,
 }
 
 /// What there is of it.
@@ -34,7 +36,12 @@ impl std::fmt::Debug for Opening {
 
 impl Opening {
     pub(crate) fn of(name: &str, text: &str) -> Self {
-        Self { name: name.into(), stage: Stage::Text(text.into()) }
+        Self { name: name.into(), stage: Stage::Text(text.into()), is_sparing: false }
+    }
+
+    /// The same of a document that is looked at: what is planned to open it is forgotten once it has served.
+    pub(crate) fn sparing(name: &str, text: &str) -> Self {
+        Self { is_sparing: true, ..Self::of(name, text) }
     }
 
     /// Returns the name of the document.
@@ -67,7 +74,7 @@ impl Opening {
 
     /// Goes through the next stage, or a part of it.
     pub(crate) fn go_on(self, host: &dyn Host) -> Self {
-        let Self { name, stage } = self;
+        let Self { name, stage, is_sparing } = self;
         let stage = match stage {
             Stage::Text(text) => {
                 let lowering = Lowering::of(&text, &|name: &str| host.read(name));
@@ -83,14 +90,19 @@ impl Opening {
             Stage::Structured(of) => Stage::Planned(Box::new(of.planned(Plans::default()))),
             Stage::Planned(of) => Stage::Solved(Box::new(of.solved())),
             Stage::Solved(of) => Stage::Told(Box::new(of.told(host))),
-            Stage::Told(of) => Stage::Open(Box::new(Open::new(name.clone(), *of))),
+            Stage::Told(mut of) => {
+                if is_sparing {
+                    of.1.forget_plans();
+                }
+                Stage::Open(Box::new(Open::new(name.clone(), *of)))
+            }
             Stage::Open(open) => {
                 open.with_picture(|_| ());
                 Stage::Drawn(open)
             }
             over @ Stage::Drawn(_) => over,
         };
-        Self { name, stage }
+        Self { name, stage, is_sparing }
     }
 
     /// Goes through what is left.

@@ -55,7 +55,7 @@ impl Mode {
 /// A conditional system, taken apart.
 #[derive(Debug)]
 pub struct Modes {
-    conditional: Conditional,
+    conditional: Rc<Conditional>,
     wants: Vec<Want>,
     comparisons: Vec<Sides>,
     conditions: Vec<Formula>,
@@ -137,17 +137,17 @@ pub enum Standing {
 
 impl Modes {
     /// Takes a conditional system apart. Values play no part in it.
-    pub fn new(conditional: Conditional, patterns: &mut Patterns) -> Self {
-        let made = Self::with(conditional, Interning::Adding(patterns));
+    pub fn new(conditional: impl Into<Rc<Conditional>>, patterns: &mut Patterns) -> Self {
+        let made = Self::with(conditional.into(), Interning::Adding(patterns));
         made.expect("what is not there is added")
     }
 
     /// Takes a conditional system apart, if all that its demands say has been met.
     pub fn known(conditional: Conditional, patterns: &Patterns) -> Option<Self> {
-        Self::with(conditional, Interning::Finding(patterns))
+        Self::with(Rc::new(conditional), Interning::Finding(patterns))
     }
 
-    fn with(conditional: Conditional, patterns: Interning<'_>) -> Option<Self> {
+    fn with(conditional: Rc<Conditional>, patterns: Interning<'_>) -> Option<Self> {
         let mut making = Making::new(patterns);
         let mut wants = Vec::new();
         let system = &conditional.system;

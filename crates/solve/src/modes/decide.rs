@@ -510,7 +510,7 @@ impl Deciding<'_> {
         relations: Option<&BTreeSet<u32>>,
     ) -> Vec<Assumption> {
         let concerns = |r: u32| relations.is_none_or(|all| all.contains(&r));
-        let Conditional { guards, system, .. } = &self.modes.conditional;
+        let Conditional { guards, system, .. } = &*self.modes.conditional;
         // the bound of a condition is a relation after all others
         let own = |c: usize| (system.relations.len() + c) as u32;
         let guards = |c: usize| guards.iter().filter(move |g| g.condition as usize == c);
