@@ -8,7 +8,7 @@
 //! those of `session::view`.
 
 use crate::documents::{self, OpenError, Opened, find, open, open_sparingly};
-use crate::rows;
+use crate::rows::{self, Row};
 use serde_json::{Value, json};
 use session::view::{Advice, CheckReport, DiagnosticView, Explanation, ValueRow};
 use std::collections::BTreeSet;
@@ -266,21 +266,16 @@ pub(crate) fn run(path: &Path, which: Rows, form: Form) -> Result<Report, OpenEr
     let arbitrary = opened.session.arbitrary(opened.id);
     opened.session.forget_plans(opened.id);
     if form == Form::Words {
-        // what is not read here would take more room than the document itself, where that is large
-        let mut keep = |row: ValueRow| {
-            let is_listed = which == Rows::All || !row.is_layout;
-            is_listed.then(|| ValueRow {
-                class: String::new(),
-                exact: String::new(),
-                doc: String::new(),
-                options: Vec::new(),
-                ..row
-            })
-        };
-        let rows = opened.session.values_where(opened.id, &mut keep);
-        let listed: Vec<&ValueRow> = rows.iter().collect();
-        words.push_str(&rows::written(&listed, &|row| mark(row, &arbitrary)));
-        if listed.iter().any(|row| mark(row, &arbitrary) == '~') {
+        let mut rows: Vec<Row> = Vec::new();
+        // a row that is kept as it is would take more room than the document itself, where that is large
+        opened.session.each_value(opened.id, &mut |row: ValueRow| {
+            if which == Rows::All || !row.is_layout {
+                let mark = mark(&row, &arbitrary);
+                rows.push(Row::of(row, mark));
+            }
+        });
+        words.push_str(&rows::written(&rows));
+        if rows.iter().any(|row| row.mark == '~') {
             words.push_str("~ arbitrary: nothing decides it\n");
         }
     }

@@ -8,12 +8,33 @@ const FEWEST: usize = 3;
 /// A table that is wider is written row by row.
 const WIDEST: usize = 120;
 
-/// How a value comes about, as one letter.
-type Mark<'m> = &'m dyn Fn(&ValueRow) -> char;
+/// What is written of a value: of a large document there are as many as it has numbers.
+pub(crate) struct Row {
+    path: Box<str>,
+    /// How it comes about, as one letter.
+    pub(crate) mark: char,
+    /// The value in its unit.
+    text: Box<str>,
+    unit: Box<str>,
+    is_number: bool,
+}
+
+impl Row {
+    /// Takes of a value what is written, with its mark.
+    pub(crate) fn of(row: ValueRow, mark: char) -> Self {
+        Self {
+            path: row.shortest.into(),
+            mark,
+            text: row.text.into(),
+            unit: row.unit.into(),
+            is_number: row.number.is_some(),
+        }
+    }
+}
 
 /// What stands together.
 enum Block<'r> {
-    Rows(Vec<&'r ValueRow>),
+    Rows(Vec<&'r Row>),
     Table(Columns),
 }
 
@@ -27,23 +48,22 @@ const GAP: &str = "  ";
 struct Table<'r> {
     list: &'r str,
     columns: Vec<&'r str>,
-    lines: Vec<(&'r str, Vec<Option<&'r ValueRow>>)>,
+    lines: Vec<(&'r str, Vec<Option<&'r Row>>)>,
 }
 
 /// Writes rows: path, mark, value, numbers one below the other by their decimal points.
-pub(crate) fn written(rows: &[&ValueRow], mark: Mark<'_>) -> String {
-    let blocks = blocks(rows, mark);
+pub(crate) fn written(rows: &[Row]) -> String {
+    let blocks = blocks(&rows.iter().collect::<Vec<_>>());
     let alone =
         || blocks.iter().filter_map(|b| if let Block::Rows(rows) = b { Some(rows) } else { None });
-    let width =
-        alone().flatten().map(|r| r.shortest.chars().count()).max().unwrap_or(0).min(WIDEST);
+    let width = alone().flatten().map(|r| r.path.chars().count()).max().unwrap_or(0).min(WIDEST);
     let digits = alone().flatten().map(|r| before_point(r)).max().unwrap_or(0);
     let mut words = String::new();
     for block in &blocks {
         match block {
             Block::Rows(rows) => {
                 for row in rows {
-                    let (path, mark) = (&row.shortest, mark(row));
+                    let (path, mark) = (&row.path, row.mark);
                     let _ = writeln!(words, "{path:width$} {mark} {}", value(row, digits));
                 }
             }
@@ -53,11 +73,11 @@ pub(crate) fn written(rows: &[&ValueRow], mark: Mark<'_>) -> String {
     words
 }
 
-fn blocks<'r>(rows: &[&'r ValueRow], mark: Mark<'_>) -> Vec<Block<'r>> {
+fn blocks<'r>(rows: &[&'r Row]) -> Vec<Block<'r>> {
     let mut blocks: Vec<Block<'r>> = Vec::new();
-    let list = |row: &ValueRow| element(&row.shortest).map(|(list, ..)| list.to_string());
+    let list = |row: &Row| element(&row.path).map(|(list, ..)| list.to_string());
     for run in rows.chunk_by(|a, b| list(a) == list(b)) {
-        let columns = Table::of(run).filter(Table::is_full).map(|table| table.columns(mark));
+        let columns = Table::of(run).filter(Table::is_full).map(|table| table.columns());
         match (columns.filter(|columns| columns.width() <= WIDEST), blocks.last_mut()) {
             (Some(columns), _) => blocks.push(Block::Table(columns)),
             (None, Some(Block::Rows(rows))) => rows.extend(run),
@@ -76,11 +96,11 @@ fn element(path: &str) -> Option<(&str, &str, &str)> {
 
 impl<'r> Table<'r> {
     /// Makes a table of rows of one list.
-    fn of(rows: &[&'r ValueRow]) -> Option<Self> {
-        let (list, ..) = element(&rows.first()?.shortest)?;
+    fn of(rows: &[&'r Row]) -> Option<Self> {
+        let (list, ..) = element(&rows.first()?.path)?;
         let mut table = Self { list, columns: Vec::new(), lines: Vec::new() };
         for &row in rows {
-            let (_, name, part) = element(&row.shortest)?;
+            let (_, name, part) = element(&row.path)?;
             let at = table.columns.iter().position(|c| *c == part).unwrap_or_else(|| {
                 table.columns.push(part);
                 table.columns.len() - 1
@@ -102,22 +122,22 @@ impl<'r> Table<'r> {
 
     /// Returns true where a table says more at a glance than its rows would.
     fn is_full(&self) -> bool {
-        let is_empty = |cell: &&Option<&ValueRow>| cell.is_none();
+        let is_empty = |cell: &&Option<&Row>| cell.is_none();
         let empty: usize =
             self.lines.iter().map(|(_, cells)| cells.iter().filter(is_empty).count()).sum();
         let all = self.lines.len() * self.columns.len();
         self.lines.len() >= FEWEST && self.columns.len() > 1 && 4 * empty <= all
     }
 
-    fn columns(&self, mark: Mark<'_>) -> Columns {
+    fn columns(&self) -> Columns {
         let names: Vec<String> = self.lines.iter().map(|(name, _)| (*name).to_string()).collect();
         let mut columns = vec![aligned(self.list, &names)];
         for (at, head) in self.columns.iter().enumerate() {
             let cells = || self.lines.iter().map(move |(_, cells)| cells[at]);
             let digits = cells().flatten().map(before_point).max().unwrap_or(0);
-            let is_marked = cells().flatten().any(|row| mark(row) != ' ');
-            let cell = |row: Option<&ValueRow>| match row {
-                Some(row) if is_marked => format!("{} {}", mark(row), value(row, digits)),
+            let is_marked = cells().flatten().any(|row| row.mark != ' ');
+            let cell = |row: Option<&Row>| match row {
+                Some(row) if is_marked => format!("{} {}", row.mark, value(row, digits)),
                 Some(row) => value(row, digits),
                 None => String::new(),
             };
@@ -154,16 +174,16 @@ fn aligned(head: &str, cells: &[String]) -> Vec<String> {
 }
 
 /// Writes a value with its unit, so many letters before the decimal point of a number.
-fn value(row: &ValueRow, digits: usize) -> String {
-    let pad = if row.number.is_some() { digits.saturating_sub(before_point(row)) } else { 0 };
+fn value(row: &Row, digits: usize) -> String {
+    let pad = if row.is_number { digits.saturating_sub(before_point(row)) } else { 0 };
     let unit = if row.unit.is_empty() { String::new() } else { format!(" {}", row.unit) };
     format!("{:pad$}{}{unit}", "", row.text)
 }
 
 /// Returns how many letters of a number stand before its decimal point; none of what is no number.
-fn before_point(row: &ValueRow) -> usize {
+fn before_point(row: &Row) -> usize {
     match row.text.parse::<f64>() {
-        Ok(_) if row.number.is_some() => row.text.find(['.', 'e']).unwrap_or(row.text.len()),
+        Ok(_) if row.is_number => row.text.find(['.', 'e']).unwrap_or(row.text.len()),
         _ => 0,
     }
 }
@@ -173,23 +193,13 @@ mod tests {
     use super::*;
 
     /// A list of three things with a number and a text each.
-    fn rows(text: &str) -> Vec<ValueRow> {
-        let row = |path: String, text: &str| ValueRow {
-            shortest: path,
+    fn rows(text: &str) -> Vec<Row> {
+        let row = |path: String, text: &str| Row {
+            path: path.into(),
+            mark: ' ',
             text: text.into(),
-            path: String::new(),
-            class: String::new(),
-            unit: String::new(),
-            exact: String::new(),
-            number: None,
-            options: Vec::new(),
-            given: false,
-            is_virtual: false,
-            anchored: false,
-            is_layout: false,
-            freedom: None,
-            doc: String::new(),
-            range: None,
+            unit: "".into(),
+            is_number: false,
         };
         let each = |i: usize| [row(format!("l[{i}].n"), "1"), row(format!("l[{i}].t"), text)];
         (0..3).flat_map(each).collect()
@@ -197,11 +207,9 @@ mod tests {
 
     #[test]
     fn a_long_text_in_the_last_column_makes_no_wide_table() {
-        let wide = rows(&"x".repeat(300));
-        let lines = written(&wide.iter().collect::<Vec<_>>(), &|_| ' ');
+        let lines = written(&rows(&"x".repeat(300)));
         assert!(lines.starts_with("l[0].n"), "{lines}");
-        let narrow = rows("x");
-        let lines = written(&narrow.iter().collect::<Vec<_>>(), &|_| ' ');
+        let lines = written(&rows("x"));
         assert_eq!(lines, "l     n  t\nl[0]  1  x\nl[1]  1  x\nl[2]  1  x\n");
     }
 }

@@ -12,14 +12,10 @@ use kernel::Values;
 use std::rc::Rc;
 
 impl Session {
-    /// Returns those of the values that are to be kept, as they are to be kept.
-    pub fn values_where(
-        &self,
-        id: DocumentId,
-        keep: &mut dyn FnMut(ValueRow) -> Option<ValueRow>,
-    ) -> Vec<ValueRow> {
+    /// Tells of the values one by one, in the order of [`Session::values`].
+    pub fn each_value(&self, id: DocumentId, tell: &mut dyn FnMut(ValueRow)) {
         let open = self.document(id);
-        values::rows_where((&open.state, open.values(), &open.status), keep)
+        values::each_row((&open.state, open.values(), &open.status), tell);
     }
 }
 

@@ -29,12 +29,12 @@ pub(crate) fn rows(state: &State, values: &Values, status: &plan::Status) -> Vec
     work.rows
 }
 
-/// Returns the rows that are to be kept. Of large documents all would take more room than these themselves.
-pub(crate) fn rows_where(
+/// Tells of the rows one by one. Of large documents all would take more room than these themselves.
+pub(crate) fn each_row(
     (state, values, status): (&State, &Values, &plan::Status),
-    keep: &mut dyn FnMut(ValueRow) -> Option<ValueRow>,
-) -> Vec<ValueRow> {
-    let (mut work, mut kept) = (Work::default(), Vec::new());
+    tell: &mut dyn FnMut(ValueRow),
+) {
+    let mut work = Work::default();
     loop {
         let mut left = PORTION;
         let mut has_time = || {
@@ -42,9 +42,9 @@ pub(crate) fn rows_where(
             left > 0
         };
         let is_over = work.go_on((state, values, status), &mut has_time);
-        kept.extend(work.rows.drain(..).filter_map(&mut *keep));
+        work.rows.drain(..).for_each(&mut *tell);
         if is_over {
-            return kept;
+            return;
         }
     }
 }
