@@ -11,6 +11,7 @@ use crate::offers;
 use crate::outlines;
 use crate::session::{parse_path, thing_at};
 use crate::state::State;
+use crate::turning;
 use crate::view::{
     Affected, Annotation, BinEntry, Change, ClassItem, ClassPlan, Deed, DocumentId, Offer,
     Question, Refusal, ValueRow, ValueWithin,
@@ -199,16 +200,27 @@ impl Session {
         {
             return Err(refusal);
         }
+        let turns = value.is_some() && turning::is_angle(&offer.label);
+        let turned = |command: Command| {
+            let is_asked = !turns || open.pane.is_some() || ways_out::is_for_every(open, &command);
+            let turned = if is_asked {
+                None
+            } else {
+                turning::turned(open, &beside, &offer.members, &command)
+            };
+            turned.unwrap_or(command)
+        };
         match &offer.deed {
             Deed::Add => {
                 let command = offer.command(value);
                 let is_dimension = offer.value.is_some();
                 let anew = is_dimension.then(|| ways_out::said_anew(open, &beside, &command));
-                Ok(anew.flatten().unwrap_or(command))
+                Ok(turned(anew.flatten().unwrap_or(command)))
             }
             Deed::Rule(reference) => {
                 let command = offer.command(value);
-                Ok(ways_out::instead_of(open, &beside, reference, &command).unwrap_or(command))
+                let instead = ways_out::instead_of(open, &beside, reference, &command);
+                Ok(turned(instead.unwrap_or(command)))
             }
             Deed::Give(path) => {
                 let value = value.or(offer.value.as_deref()).unwrap_or_default();

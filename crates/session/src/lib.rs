@@ -58,6 +58,7 @@ mod sheet;
 mod state;
 mod texts;
 mod tools;
+mod turning;
 mod unlike;
 mod views;
 pub mod vocabulary;

@@ -39,6 +39,12 @@ pub(crate) fn question(open: &Open, host: &dyn Host, command: &Command) -> Optio
     contradiction(open, host, command)
 }
 
+/// Whether what is said of one thing may be meant of its whole class, which is asked.
+pub(crate) fn is_for_every(open: &Open, command: &Command) -> bool {
+    let Command::Edit { target, members } = command else { return false };
+    for_every(&open.state, target, members).is_some()
+}
+
 /// The same of what is said in a pane, where it is meant of every one. What writes the pane's own text is no way out.
 pub(crate) fn of_prototype(open: &Open, host: &dyn Host, command: &Command) -> Option<Question> {
     let mut question = contradiction(open, host, command)?;

@@ -7,6 +7,7 @@
 
 use super::{Offerer, REVERSED, Selected, in_degrees};
 use crate::document::Open;
+use crate::turning;
 use crate::view::{Deed, Offer, Refusal};
 use crate::words;
 use base::Name;
@@ -182,7 +183,7 @@ impl Offerer<'_> {
 /// Refuses an angle that is told as no angle is: none would ever hold.
 pub(crate) fn beyond(open: &Open, offer: &Offer, value: &str) -> Option<Refusal> {
     let label = offer.label.as_str();
-    if !["angle", "supplement", "direction", "ruling angle"].contains(&label) {
+    if !turning::is_angle(label) {
         return None;
     }
     let document = &open.state.lowered.document;

@@ -670,6 +670,62 @@ fn an_angle_between_two_lines_is_the_one_at_their_corner() {
 }
 
 #[test]
+fn an_angle_that_is_typed_turns_a_line_which_stays_as_long_as_it_was() {
+    // 400 long, at 2.5 deg
+    let [x, y] = [399.619289232726, 17.447754893655];
+    let lines = |more: &str| {
+        format!(
+            "use geometry\na: Line {{ p1 = (300, 0)  p2 = (0, 0) }}\n\
+             b: Line {{ p1 = (0, 0)  p2 = ({x}, {y}) }}\nmerge a.p2 = b.p1\n{more}"
+        )
+    };
+    let length = |desk: &Desk| {
+        let of = |end: &str| desk.number(&format!("a.{end}"));
+        (of("p2.x") - of("p1.x")).hypot(of("p2.y") - of("p1.y"))
+    };
+    let stays = |desk: &Desk, path: &str, at: (f64, f64)| {
+        let [x, y] = ["x", "y"].map(|part| desk.number(&format!("{path}.{part}")));
+        // written with the digits that a hand needs
+        assert!((x - at.0).hypot(y - at.1) < 1e-5, "{path}: ({x}, {y}), not {at:?}");
+    };
+    let turned = (-200.0, 200.0 * 3_f64.sqrt());
+    let mut desk = Desk::of(&lines(""));
+    take(&mut desk, &["a", "b"], "angle", Some("120 deg"));
+    assert!(desk.text().contains("constraint (-a).angle(to: b) = 120 deg\n"), "{}", desk.text());
+    stays(&desk, "a.p1", (300.0, 0.0));
+    stays(&desk, "a.p2", (0.0, 0.0));
+    stays(&desk, "b.p2", turned);
+    assert_eq!(desk.wrong(), [], "{}", desk.text());
+    // told anew, and back
+    take(&mut desk, &["a", "b"], "angle", Some("2.5 deg"));
+    stays(&desk, "b.p2", (x, y));
+    assert_eq!(desk.text().matches("angle").count(), 1, "{}", desk.text());
+    // one step
+    desk.undo();
+    stays(&desk, "b.p2", turned);
+    // the one that can: the other is held, or goes on
+    let mut held = Desk::of(&lines("anchor b.p2\nanchor b.p1\n"));
+    take(&mut held, &["a", "b"], "angle", Some("120 deg"));
+    stays(&held, "b.p2", (x, y));
+    assert!((length(&held) - 300.0).abs() < 1e-5, "{}", held.text());
+    let next = format!("c: Line {{ p1 = ({x}, {y})  p2 = (500, 90) }}\nmerge b.p2 = c.p1\n");
+    let mut chain = Desk::of(&lines(&next));
+    take(&mut chain, &["a", "b"], "angle", Some("120 deg"));
+    stays(&chain, "b.p2", (x, y));
+    stays(&chain, "c.p2", (500.0, 90.0));
+    assert!((length(&chain) - 300.0).abs() < 1e-5, "{}", chain.text());
+    // a direction, of a line that hangs by its start
+    let mut desk = Desk::of(&lines(""));
+    take(&mut desk, &["b"], "direction", Some("90 deg"));
+    stays(&desk, "a.p2", (0.0, 0.0));
+    stays(&desk, "b.p2", (0.0, 400.0));
+    // a corner whose ends are both held has an angle by its lengths alone
+    let mut both = Desk::of(&lines("anchor a.p1\nanchor b.p2\n"));
+    take(&mut both, &["a", "b"], "angle", Some("120 deg"));
+    stays(&both, "b.p2", (x, y));
+}
+
+#[test]
 fn a_dimension_that_stands_is_shown_and_edited() {
     let dimension = |desk: &Desk, paths: &[&str], label: &str| {
         let found = offers(desk, paths).into_iter().find(|offer| offer.label == label);
