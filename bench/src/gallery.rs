@@ -12,7 +12,7 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-/// How many steps a drag has: two turns, and a third of another, so that what is let go is not where it was.
+/// How many steps a drag has: two turns, and a third of another.
 const STEPS: usize = 840;
 
 /// Reads the library in a copy of the project.
@@ -89,7 +89,8 @@ fn measure(top: &Path, name: &str, text: &str, grip: Option<&str>) -> Option<Fig
         presses.push(timed(|| {
             let _ = black_box(session.press(id, &path));
         }));
-        for i in 0..STEPS {
+        // what is let go is not where it was let go before
+        for i in 0..STEPS + 7 * round {
             let to = around(i);
             let step = timed(|| {
                 black_box(session.drag(id, to));

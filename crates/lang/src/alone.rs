@@ -42,6 +42,13 @@ pub struct Alone {
 /// Reads expressions as if each were the answer of a message of a class that the document's own text declares, or of
 /// the document. Cost: a copy of the document and of its names; the text is not looked at.
 pub fn read_alone(lowered: &Lowered, class: ClassId, texts: &[String]) -> Alone {
+    let mut l = knowing(lowered);
+    let terms = texts.iter().map(|text| l.read_alone(class, text)).collect();
+    Alone { document: l.document, terms }
+}
+
+/// Returns what reads expressions over the names that a text meant.
+pub(crate) fn knowing(lowered: &Lowered) -> Lowerer<'static> {
     let mut l = Lowerer::empty(None);
     let names = Names::clone(&lowered.names);
     l.document = lowered.document.clone();
@@ -59,8 +66,7 @@ pub fn read_alone(lowered: &Lowered, class: ClassId, texts: &[String]) -> Alone 
     l.made = names.made;
     l.counted = names.counted;
     l.programs = Programs::known(names.drawing);
-    let terms = texts.iter().map(|text| l.read_alone(class, text)).collect();
-    Alone { document: l.document, terms }
+    l
 }
 
 impl Lowerer<'_> {

@@ -27,6 +27,14 @@ pub(crate) struct Added {
     givens: u32,
 }
 
+impl Added {
+    /// Where its values are among those that the document gives.
+    pub(crate) fn givens_range(self) -> Range<usize> {
+        let first = self.first_given as usize;
+        first..first + self.givens as usize
+    }
+}
+
 /// Members at the top of the text, one after the other, that say what they said.
 #[derive(Clone, Debug)]
 pub(crate) struct Run {
@@ -246,7 +254,7 @@ impl<'l> Lowerer<'l> {
 }
 
 /// Returns true for one part without a comment, all of whose values are constants.
-fn is_plain(member: &Member) -> bool {
+pub(crate) fn is_plain(member: &Member) -> bool {
     let Member::Part(part) = member else { return false };
     let value = part.value().map(|v| Value::expr(v).is_some_and(|e| is_constant(&e)));
     let values = || part.body().map(|b| values_alone(&b.members().collect::<Vec<_>>()));

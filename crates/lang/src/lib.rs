@@ -64,6 +64,7 @@ mod quotients;
 mod references;
 mod refine;
 mod restore;
+mod rewritten;
 mod rings;
 mod rules;
 mod scale;

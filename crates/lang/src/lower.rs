@@ -25,6 +25,7 @@ use crate::programs::Programs;
 use crate::references::References;
 use crate::refine::Made;
 use crate::restore::{Grain, Patch};
+use crate::rewritten::rewritten;
 use crate::rules::Mask;
 use crate::scale::Counting;
 use crate::scope::Scope;
@@ -111,7 +112,9 @@ pub fn lower_written(
     load: &dyn Fn(&str) -> Option<String>,
     before: &Lowered,
 ) -> Lowered {
-    lower_in(text, load, (Some(before), Some(counting_of(&before.document))))
+    rewritten(text, load, before).unwrap_or_else(|| {
+        lower_in(text, load, (Some(before), Some(counting_of(&before.document))))
+    })
 }
 
 /// Finds out what a text means that asks something of the document `before`, which it repeats. It counts as that does;

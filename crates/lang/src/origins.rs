@@ -33,4 +33,14 @@ impl Origins {
             None => self.rules[(u32::MAX - 1) as usize - origin.index()],
         }
     }
+    /// Says of a member that it is written elsewhere.
+    pub(crate) fn put(&mut self, origin: OriginId, place: Place) {
+        if origin.index() < self.places.len() {
+            self.places[origin] = place;
+        }
+    }
+    /// Goes through all places.
+    pub(crate) fn each(&mut self, each: impl FnMut(&mut Place)) {
+        self.places.iter_mut().map(|(_, place)| place).chain(&mut self.rules).for_each(each);
+    }
 }

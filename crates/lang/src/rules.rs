@@ -132,7 +132,7 @@ impl Lowerer<'_> {
         }
     }
 
-    fn define_value(
+    pub(crate) fn define_value(
         &mut self,
         scope: &Scope,
         prefix: Vec<Step>,

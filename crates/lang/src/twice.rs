@@ -4,9 +4,11 @@
 //! so is what a loop or a condition gives of which something else is an exception.
 
 use crate::lower::{Lowered, OWN};
-use base::Diagnostic;
+use base::{Diagnostic, Mixer};
+use indexmap::IndexMap;
 use kernel::{Given, OriginId, Path};
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
+use std::hash::BuildHasherDefault;
 use syntax::{SyntaxKind, SyntaxNode};
 
 /// The code of the warning.
@@ -21,7 +23,8 @@ impl Lowered {
         let mut said = BTreeSet::new();
         let mut warnings = Vec::new();
         for (_, class) in self.document.classes.iter() {
-            let mut latest: BTreeMap<&Path, OriginId> = BTreeMap::new();
+            let mut latest: IndexMap<&Path, OriginId, BuildHasherDefault<Mixer>> =
+                IndexMap::default();
             for given in class.givens.iter().map(|given| &**given) {
                 let Given { path, origin, .. } = given;
                 let place = self.place(*origin);

@@ -19,6 +19,7 @@ use eval::{Answer, Evaluator};
 use kernel::{Argument, BinaryOperator, ConstraintInstance, DOCUMENT, Path, Step, Term, ThingId};
 use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::PI;
+use syntax::SyntaxKind;
 use syntax::ast::{AstNode, Member};
 
 /// Of a document with more constraints of its own nothing stands on the drawing: nobody could read it.
@@ -69,8 +70,8 @@ fn on<'a>(
 
 /// The constraints of the text that give something a number, by where they end.
 fn numbers(state: &State) -> BTreeMap<u32, EqualsNumber> {
-    let file = syntax::parse(base::FileId(0), &state.text).file();
-    let said = file.members().filter_map(|member| match member {
+    let constraints = state.members(SyntaxKind::Constraint);
+    let said = constraints.filter_map(|member| match member {
         Member::Constraint(constraint) => {
             let end = u32::from(constraint.syntax().text_range().end());
             Some((end, classing::equals_number(state, &constraint)?))

@@ -25,7 +25,7 @@ use syntax::{SyntaxElement, SyntaxKind, SyntaxNode};
 pub(crate) fn items(open: &Open, paths: &[Path]) -> Vec<ClassItem> {
     let Ok(chosen) = chosen(paths) else { return Vec::new() };
     let known = known(&open.state);
-    let file = syntax::parse(base::FileId(0), &open.state.text).file();
+    let file = open.state.file();
     let mut found = Vec::new();
     for member in file.members().filter(|member| goes(member, &chosen, &known) == Ok(true)) {
         let Some(kind) = kind(&member) else { continue };

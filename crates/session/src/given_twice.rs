@@ -24,7 +24,7 @@ pub(crate) fn forgotten(before: &State, state: &State) -> Vec<TextEdit> {
     if doubles.is_empty() {
         return Vec::new();
     }
-    let file = syntax::parse(base::FileId(0), &state.text).file();
+    let file = state.file();
     let spans = |thing: &ThingId| {
         let given = structure.given_apart(*thing)?;
         Some(state.lowered.place(given.origin).span)

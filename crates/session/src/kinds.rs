@@ -32,7 +32,7 @@ pub(crate) fn kind_of(
 ) -> Result<Command, Refusal> {
     let state = &open.state;
     is_class_name(state, class)?;
-    let file = syntax::parse(base::FileId(0), &state.text).file();
+    let file = state.file();
     let name = match path.0.as_slice() {
         [Step::Part(name)] => name.to_string(),
         _ => return Err(words::refuse(format!("{path} is a part: choose the whole"))),
@@ -94,7 +94,7 @@ pub(crate) fn kind_of(
 pub(crate) fn of_every(open: &Open, host: &dyn Host, path: &Path) -> Result<Command, Refusal> {
     let state = &open.state;
     let done = restructuring(state, &Command::Delete(path.clone()))?;
-    let file = syntax::parse(base::FileId(0), &state.text).file();
+    let file = state.file();
     let known = known(state);
     let mut owner: Option<String> = None;
     let mut members: Vec<String> = Vec::new();

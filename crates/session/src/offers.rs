@@ -27,6 +27,7 @@ use kernel::{
     SlotId, Step, Term, Thing, ThingId, UnaryOperator,
 };
 use std::collections::BTreeSet;
+use syntax::SyntaxKind;
 use syntax::ast::Member;
 
 pub(crate) mod between;
@@ -288,14 +289,14 @@ impl Offerer<'_> {
     /// A number that is to hold, with what it is now, as the first of some terms says it that a constraint of the
     /// document gives a number already: there it stands. Else as the first of all says it.
     fn dimension(&self, label: &str, lefts: &[String], value: String) -> Offer {
-        let file = syntax::parse(base::FileId(0), &self.state.text).file();
         let left = |member: Member| match member {
             Member::Constraint(constraint) => {
                 classing::equals_number(self.state, &constraint).map(|said| said.left)
             }
             _ => None,
         };
-        let said: Vec<String> = file.members().filter_map(left).collect();
+        let constraints = self.state.members(SyntaxKind::Constraint);
+        let said: Vec<String> = constraints.filter_map(left).collect();
         let stands = lefts.iter().find(|left| said.contains(left));
         let left = stands.or(lefts.first()).map_or("", String::as_str);
         let members = format!("constraint {left} = {{}}");

@@ -5,7 +5,7 @@
 
 use crate::host::Host;
 use crate::texts::Texts;
-use base::Diagnostic;
+use base::{Diagnostic, FileId};
 use eval::{Evaluator, Known};
 use kernel::{OriginId, SlotId, Strength, Structure, ThingId, Value, Values};
 use lang::Lowered;
@@ -13,6 +13,7 @@ use plan::{Model, Planner, Plans, Source, Status, Surplus, Unmet};
 use solve::Level;
 use std::collections::BTreeSet;
 use std::rc::Rc;
+use syntax::{SyntaxKind, ast};
 
 /// The code for a reference that names nothing.
 const LOST: &str = "unknown-reference";
@@ -73,6 +74,17 @@ impl State {
             state.form = before.form.clone();
         }
         (state, planner)
+    }
+    /// Returns the tree of its text.
+    pub(crate) fn file(&self) -> ast::File {
+        self.lowered.files[FileId(0)].parse.file()
+    }
+    /// Returns the members at the top of its text that are of one kind.
+    pub(crate) fn members(&self, of: SyntaxKind) -> impl Iterator<Item = ast::Member> {
+        let (file, outline) = (self.file(), self.lowered.files[FileId(0)].parse.outline());
+        outline
+            .filter(move |(kind, _)| *kind == of)
+            .filter_map(move |(_, span)| file.member_at(span))
     }
     /// Returns true if another state differs from it by edits of values alone.
     pub(crate) fn has_form_of(&self, other: &Self) -> bool {

@@ -23,7 +23,7 @@ use plan::Plans;
 use std::collections::BTreeSet;
 use syntax::ast::{AstNode, Member, Merge};
 use syntax::edit::TextEdit;
-use syntax::{SyntaxElement, SyntaxNode};
+use syntax::{SyntaxElement, SyntaxKind, SyntaxNode};
 
 /// At most so many others are offered to be replaced.
 const MOST_REPLACED: usize = 4;
@@ -169,8 +169,8 @@ pub(crate) fn said_anew(open: &Open, host: &dyn Host, command: &Command) -> Opti
         return None;
     }
     let text = &open.state.text;
-    let file = syntax::parse(base::FileId(0), text).file();
-    let said = file.members().filter_map(|member| match member {
+    let constraints = open.state.members(SyntaxKind::Constraint);
+    let said = constraints.filter_map(|member| match member {
         Member::Constraint(constraint) => {
             classing::equals_number(&open.state, &constraint).filter(|said| said.left == left)
         }

@@ -212,7 +212,7 @@ impl Taken<'_> {
     /// How something that the document computes is written.
     fn definition(&self, path: &Path) -> Option<String> {
         let [Step::Part(name)] = path.0.as_slice() else { return None };
-        let file = syntax::parse(base::FileId(0), &self.state.text).file();
+        let file = self.state.file();
         let of = |member: Member| match member {
             Member::Message(message) => {
                 let named = message.name().is_some_and(|word| word.text() == name.as_str());

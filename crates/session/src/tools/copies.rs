@@ -111,7 +111,7 @@ pub(crate) fn copied(state: &State, paths: &[Path], relations: Relations) -> Res
     let is_copied = |name: &str| things.iter().any(|(copied, _)| **copied == *name);
     let said = heads(&state.text, state);
     let mut members: Vec<Copied> = Vec::new();
-    for member in syntax::parse(base::FileId(0), &state.text).file().members() {
+    for member in state.file().members() {
         let range = member.syntax().text_range();
         let span = Span::new(range.start().into(), range.end().into());
         let within = said.range(Span::new(span.start, span.start)..Span::new(span.end, span.end));

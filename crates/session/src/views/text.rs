@@ -4,6 +4,7 @@ use crate::state::State;
 use crate::view::{DiagnosticView, FixView, LabelView, TextChange, TextView, TokenView};
 use base::{Diagnostic, FileId, LineIndex, Place, Severity};
 use std::collections::BTreeMap;
+use syntax::ast::AstNode;
 use syntax::{SyntaxKind, SyntaxToken};
 
 /// Returns the source with its diagnostics.
@@ -20,7 +21,7 @@ pub(crate) fn preamble(state: &State) -> String {
 
 /// Returns the colours of the source.
 pub(crate) fn tokens(state: &State) -> Vec<TokenView> {
-    let tree = syntax::parse(FileId(0), &state.text).syntax();
+    let tree = state.file().syntax().clone();
     let tokens = tree.descendants_with_tokens().filter_map(syntax::SyntaxElement::into_token);
     tokens.filter_map(|t| token(&t)).collect()
 }

@@ -16,7 +16,7 @@ use presentation::annotations::Note;
 use presentation::band::{Take, banded};
 use presentation::paths::covers;
 use presentation::pick::{pick, pick_word};
-use session::view::{Caught, PictureView, Pointer};
+use session::view::{Caught, Grip, PictureView, Pointer};
 use std::time::Duration;
 
 /// How near a grip the pointer must be, in pixels: a mouse's, a finger's.
@@ -493,20 +493,21 @@ impl Hand {
         let is_single = self.lab.also.with_untracked(Vec::is_empty);
         self.lab.picture.with_untracked(|picture| {
             let is_place = picture.grips.iter().any(|grip| grip.path == dragged);
+            if !is_place || alt || !is_single {
+                return Vec::new();
+            }
+            // few are near: only of these it is looked up where they were
+            let far = |grip: &Grip| distance((grip.x, grip.y), (x, y));
             let mut near: Vec<(f64, Caught)> = { &picture.grips }
                 .iter()
-                .filter(|grip| grip.path != dragged && is_place && !alt && is_single)
+                .filter(|grip| far(grip) <= reach && grip.path != dragged)
                 .filter(|grip| {
                     self.state.with_value(|state| {
                         let was = state.rest.iter().find(|(path, _)| *path == grip.path);
                         was.is_none_or(|(_, was)| distance(*was, (grip.x, grip.y)) <= pixel)
                     })
                 })
-                .map(|g| {
-                    let caught = Caught { at: (g.x, g.y), word: g.path.clone() };
-                    (distance((g.x, g.y), (x, y)), caught)
-                })
-                .filter(|(far, _)| *far <= reach)
+                .map(|g| (far(g), Caught { at: (g.x, g.y), word: g.path.clone() }))
                 .collect();
             near.sort_by(|a, b| a.0.total_cmp(&b.0));
             near.into_iter().map(|(_, caught)| caught).collect()
