@@ -35,7 +35,9 @@ pub(crate) fn apply(
     host: &dyn Host,
     command: &Command,
 ) -> Result<Change, Refusal> {
-    apply_by(open, host, command, Mover::Lab)
+    let change = apply_by(open, host, command, Mover::Lab)?;
+    crate::drafting::settle(open);
+    Ok(change)
 }
 
 /// Applies a command as a hand gives it: a handle that is moved is dragged.

@@ -39,6 +39,7 @@ pub mod view;
 mod visit;
 mod visiting;
 
+pub(crate) use blocks::settle;
 pub(crate) use catalogue::serving;
 pub(crate) use dialogue::Dialogue;
 pub(crate) use recording::{retext, span_recorded};

@@ -136,7 +136,12 @@ fn list_beside(lab: Lab) {
 
 /// A button for each of what could be used.
 #[component]
-fn Uses(names: Memo<Vec<String>>, take: impl Fn(String) + Copy + Send + 'static) -> impl IntoView {
+pub fn Uses(
+    /// What could be used.
+    names: Memo<Vec<String>>,
+    /// What is done with a name.
+    take: impl Fn(String) + Copy + Send + 'static,
+) -> impl IntoView {
     view! {
         <p class="choices">
             <For each=move || names.get() key=Clone::clone let(name)>

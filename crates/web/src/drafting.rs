@@ -31,6 +31,10 @@ pub struct Drafting {
     pub typed: RwSignal<String>,
     /// What the pointer finds for it, or why nothing.
     pub finds: RwSignal<Option<String>>,
+    /// Where the pointer of the construction was last.
+    pub pointer: StoredValue<Option<Pointer>>,
+    /// The measure that the latest pick added to what is typed.
+    pub picked: StoredValue<Option<String>>,
     /// Whether the calculator is open.
     pub calculator: RwSignal<bool>,
     /// What the calculator keeps.
@@ -54,6 +58,8 @@ impl Default for Drafting {
             prompt: RwSignal::new(None),
             typed: RwSignal::new(String::new()),
             finds: RwSignal::new(None),
+            pointer: StoredValue::new(None),
+            picked: StoredValue::new(None),
             calculator: RwSignal::new(false),
             memory: RwSignal::new(None),
             banding: RwSignal::new(false),
@@ -97,6 +103,7 @@ impl Lab {
                 self.notice.set(None);
                 self.select(None);
                 self.fits.set_value(false);
+                self.drafting.pointer.set_value(None);
                 self.show_prompt(Some(prompt));
             }
             Some(Err(refusal)) => self.notice.set(Some(Notice::Refused(refusal))),
@@ -105,11 +112,16 @@ impl Lab {
     }
 
     fn show_prompt(self, prompt: Option<Prompt>) {
-        let typed = match prompt.as_ref().and_then(|p| p.insert.clone()) {
-            Some(measure) => self.drafting.typed.get_untracked() + &measure,
-            None => String::new(),
-        };
+        let measure = prompt.as_ref().and_then(|p| p.insert.clone());
+        let typed = measure.as_ref().map_or(String::new(), |measure| {
+            let typed = self.drafting.typed.get_untracked();
+            // two measures in a row are no expression: the later pick takes the place of the one before
+            let before = self.drafting.picked.get_value();
+            let kept = before.as_deref().and_then(|before| typed.strip_suffix(before));
+            format!("{}{measure}", kept.unwrap_or(&typed))
+        });
         self.show_prompt_with(prompt, typed);
+        self.drafting.picked.set_value(measure);
     }
 
     fn show_prompt_with(self, prompt: Option<Prompt>, typed: String) {
@@ -129,8 +141,7 @@ impl Lab {
         self.drafting.prompt.set(prompt);
         if is_asked {
             // what is asked about is lit at once
-            let nowhere = Pointer { reach: -1.0, ..Pointer::default() };
-            self.draft_hover(&nowhere);
+            self.draft_hover(&Self::nowhere());
             self.drafting.finds.set(None);
         }
     }
@@ -158,6 +169,7 @@ impl Lab {
         let typed = self.drafting.typed.get_untracked();
         let hover = self.tell(|session, id| session.hover(id, pointer, &typed));
         let Some(hover) = hover else { return };
+        self.drafting.pointer.set_value((pointer.reach >= 0.0).then(|| pointer.clone()));
         self.show_made(hover.ghost);
         let finds = match (hover.finds, hover.why) {
             (Some(finds), Some(why)) => Some(format!("{finds}: {why}")),
@@ -220,10 +232,29 @@ impl Lab {
         self.hover_again();
     }
 
+    /// Shows what would be done where the pointer was last, and gives the keyboard back to the field.
     fn hover_again(self) {
-        if let Some(at) = self.cursor.get_untracked() {
-            self.draft_hover(&self.pointer_at(at, 12.0, false));
+        self.draft_typed();
+        if !js::coarse() {
+            keyboard::focus(OPERAND);
         }
+    }
+
+    /// Shows what would come of what is typed so far, or of what the pointer finds.
+    fn draft_typed(self) {
+        match self.drafting.pointer.get_value() {
+            Some(pointer) => self.draft_hover(&pointer),
+            None if self.drafting.typed.with_untracked(|typed| typed.trim().is_empty()) => {
+                self.drafting.finds.set(None);
+                self.show_made(drawing::Drawing::default());
+            }
+            None => self.draft_hover(&Self::nowhere()),
+        }
+    }
+
+    /// A pointer that finds nothing.
+    fn nowhere() -> Pointer {
+        Pointer { reach: -1.0, ..Pointer::default() }
     }
 
     /// A parameter's name is wanted where a value or a figure goes: at once where nothing is typed yet.
@@ -242,6 +273,7 @@ impl Lab {
             return;
         }
         self.drafting.typed.update(|typed| typed.push_str(name));
+        self.draft_typed();
         if is_bare && !is_condition && !self.drafting.calculator.get_untracked() {
             self.draft_enter();
         }
@@ -264,6 +296,7 @@ impl Lab {
                 let unit = change.unit.clone();
                 self.settle(Some(Ok(*change)));
                 self.drafting.calculator.set(false);
+                self.drafting.pointer.set_value(None);
                 self.show_prompt(next);
                 self.drafting.turned.update(|n| *n += 1);
                 let said = if text.is_empty() { name } else { format!("{name}: {text}") };
@@ -309,6 +342,14 @@ impl Lab {
         self.drafting.calculator.set(false);
         self.drafting.banding.set(false);
         self.show_waiting();
+    }
+
+    /// Gives up the construction that waits, and those that wait for its outcome.
+    pub fn end_constructions(self) {
+        let waits = |prompt: &Option<Prompt>| prompt.as_ref().is_some_and(|p| !p.tool.is_empty());
+        while self.drafting.prompt.with_untracked(waits) {
+            self.draft_end();
+        }
     }
 
     fn draw_guides(self, are_guides: bool) {

@@ -31,8 +31,14 @@ pub fn Rail(
 #[component]
 fn Button(lab: Lab, action: &'static Action) -> impl IntoView {
     let why = Memo::new(move |_| (action.enabled)(lab).err());
-    let held = Memo::new(move |_| match lab.tool.get() {
-        Some(class) => action.id == format!("tool-{}", class.to_lowercase()),
+    let is_of = move |class: &str| action.id == format!("tool-{}", class.to_lowercase());
+    let drawn = move || {
+        lab.drafting
+            .prompt
+            .with(|p| p.as_ref().map(|p| p.tool.clone()).filter(|tool| !tool.is_empty()))
+    };
+    let held = Memo::new(move |_| match lab.tool.get().or_else(drawn) {
+        Some(tool) => is_of(tool.strip_suffix(BY_CORNERS).unwrap_or(&tool)),
         None if lab.annotated.sizing.get() != Sizing::Off => action.id == "dimension",
         None => action.id == "select",
     });
@@ -55,6 +61,9 @@ fn Button(lab: Lab, action: &'static Action) -> impl IntoView {
 
 /// The rail.
 const RAIL: &str = ".rail";
+
+/// What a rectangle is drawn by as a step: from corner to corner, as without a program.
+const BY_CORNERS: &str = ".between(first,second)";
 
 /// How far an arrow key moves the pointer of the keyboard, in pixels.
 const STEP: f64 = 10.0;
@@ -91,8 +100,7 @@ impl Lab {
             self.ask_of_shown(|session, id| session.recorded(id).map(String::from)).flatten();
         let Some(program) = recorded else { return false };
         let all = self.ask_of_shown(session::Session::constructions).unwrap_or_default();
-        // a rectangle is drawn from corner to corner, as without a program
-        let by_corners = format!("{class}.between(first,second)");
+        let by_corners = format!("{class}{BY_CORNERS}");
         let tool =
             [by_corners.as_str(), class].into_iter().find(|id| all.iter().any(|row| row.id == *id));
         if let Some(tool) = tool {

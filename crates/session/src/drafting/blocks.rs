@@ -6,9 +6,11 @@ use super::view::{OpenBlock, OpenKind, Prompt, Wants};
 use super::{Around, Home, Recording, recording, text};
 use crate::document::Open;
 use crate::host::Host;
+use crate::state::State;
 use crate::view::{Change, Refusal};
 use crate::words;
 use base::Name;
+use eval::Answer;
 use syntax::ast::Value;
 
 /// A block that is open.
@@ -64,18 +66,37 @@ impl Recording {
         self.before = steps.iter().any(|step| step.segment == before).then_some(before);
     }
 
+    /// Leaves turns that are no longer come to for the last that is.
+    fn keep_turns(&mut self, state: &State) {
+        for at in 0..self.blocks.len() {
+            let Block { around, kind: Kind::Visited, .. } = &self.blocks[at] else { continue };
+            let (Some(turn), Some(name)) = (around.turn, around.name.clone()) else { continue };
+            let way = self.blocks[..at].iter().map(|block| block.around.clone()).collect();
+            let (program, example) = (self.program.clone(), self.example.clone());
+            let outside = Home::Program { program, example, way, before: None };
+            let path = outside.path().then(kernel::Step::Part(name));
+            if let Ok(Answer::List(turns)) = state.evaluator(&state.values).at(&path) {
+                let last = turns.len().saturating_sub(1) as u32;
+                self.blocks[at].around.turn = Some(turn.min(last));
+            }
+        }
+    }
+
     /// The block that is demonstrated now.
     pub(crate) fn innermost(&self) -> Option<&Block> {
         self.blocks.last()
     }
 }
 
-/// Makes what is recorded agree with the text, which undo may have changed.
+/// Makes what is recorded agree with the text and the values, which undo may have changed.
 pub(crate) fn settle(open: &mut Open) {
     let state = open.state.clone();
     if let Some(recording) = &mut open.recording {
         match text::program(&text::Source::now(&state), &recording.program) {
-            Some(_) => recording.prune(&text::Source::now(&state)),
+            Some(_) => {
+                recording.prune(&text::Source::now(&state));
+                recording.keep_turns(&state);
+            }
             None => open.recording = None,
         }
     }

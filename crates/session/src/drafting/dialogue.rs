@@ -1,6 +1,6 @@
 //! A construction that waits for its operands, and what a pointer finds for the one that is wanted.
 
-use super::catalogue::{Slot, SlotKind, Tool};
+use super::catalogue::{Call, Slot, SlotKind, Tool};
 use super::scene::{self, Found};
 use super::view::{Hover, Prompt, Wants};
 use super::{Home, edges, measure, older, outcome, parameters, typed};
@@ -78,6 +78,20 @@ impl Dialogue {
     /// The slot that waits.
     pub(crate) fn slot(&self) -> Option<&Slot> {
         self.tool.slots.get(self.filled.len())
+    }
+
+    /// Whether it waits for what a construction makes. Where nothing is given yet, one that has made something waits for
+    /// nothing, and a copy is meant for itself.
+    pub(crate) fn waits_for(&self, state: &State, tool: &Tool) -> bool {
+        let Some(slot) = self.slot() else { return false };
+        let is_given = !self.filled.is_empty();
+        if matches!(tool.call, Call::Message(_)) && tool.class.is_empty() {
+            // a copy is of the class of what it is of
+            return is_given && matches!(slot.kind, SlotKind::Point | SlotKind::Curve);
+        }
+        let made = state.lowered.document.class_named(&tool.class);
+        let fits = made.is_some_and(|made| slot.takes(state, made));
+        fits && slot.kind != SlotKind::Value && (self.is_begun || is_given)
     }
 
     /// What it says.
@@ -209,6 +223,11 @@ impl Dialogue {
     /// what goes on from the copy may want one.
     fn whole<'f>(&self, state: &State, all: &'f [Found], pointer: &Pointer) -> Option<&'f Found> {
         let slot = self.slot().filter(|slot| slot.kind == SlotKind::Set)?;
+        if let Some(Goal::Operand(goal)) = &self.goal
+            && goal.slot().is_some_and(|slot| slot.kind == SlotKind::Point)
+        {
+            return None;
+        }
         let of = |is_place: bool| {
             let some: Vec<&Found> = all.iter().filter(|f| f.is_place == is_place).collect();
             nearest(state, slot, some, pointer)
@@ -243,7 +262,10 @@ impl Dialogue {
         if slot.kind == SlotKind::Edges && typed.trim().is_empty() {
             return self.hover_edges(state, home, &operand.text);
         }
-        let finds = Some(operand.text.clone());
+        let finds = Some(match (slot.kind, typed.trim().is_empty()) {
+            (SlotKind::Value, false) => with_worth(state, home, typed.trim()),
+            _ => operand.text.clone(),
+        });
         let lit = match (slot.kind, typed.trim().is_empty()) {
             (SlotKind::Curve | SlotKind::Set | SlotKind::Point, true) => {
                 let mut lit = scene::drawing_of(state, home, &operand.text);
@@ -259,7 +281,7 @@ impl Dialogue {
         }
         let mut operands = self.filled.clone();
         operands.push(operand);
-        let given = (&self.tool, &operands[..], Some(pointer.at), self.turned);
+        let given = (&self.tool, &operands[..], self.pointer, self.turned);
         match outcome::choose(state, home, given) {
             Ok(chosen) => {
                 let mut ghost = chosen.drawing;
@@ -300,6 +322,16 @@ impl Dialogue {
     }
 }
 
+/// A value that is typed, with what it comes to where that says more.
+fn with_worth(state: &State, home: &Home, typed: &str) -> String {
+    match outcome::worth(state, home, typed) {
+        Ok(outcome::Worth::Number(number)) if !typed::is_number(typed) => {
+            format!("{typed} = {number}")
+        }
+        _ => typed.into(),
+    }
+}
+
 /// Returns the nearest figure that fits a slot, a point before what runs through it.
 pub(crate) fn nearest<'f>(
     state: &State,
@@ -317,5 +349,13 @@ pub(crate) fn nearest<'f>(
         }
         SlotKind::Point | SlotKind::Set => slot.takes(state, f.class),
     };
-    scene::nearest(all.into_iter().filter(fits), pointer)
+    let fitting: Vec<&Found> = all.into_iter().filter(fits).collect();
+    let near = scene::nearest(fitting.iter().copied(), pointer)?;
+    if *slot.class != *"Planar" {
+        return Some(near);
+    }
+    // an outline and what is made of it have edges in common: the newest is meant
+    let away = |found: &Found| found.curve.distance(pointer.at);
+    let least = away(near) + pointer.reach * 1e-6;
+    fitting.into_iter().rev().find(|found| away(found) <= least)
 }

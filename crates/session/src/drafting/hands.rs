@@ -52,16 +52,6 @@ pub(super) fn prompt(open: &Open) -> Option<Prompt> {
     }
 }
 
-/// Whether what a construction makes can be an operand that waits.
-fn fits_slot(state: &State, tool: &Tool, waiting: &Dialogue) -> bool {
-    let document = &state.lowered.document;
-    let made = document.class_named(&tool.class);
-    waiting.slot().zip(made).is_some_and(|(slot, made)| {
-        let wanted = slot.classes().filter_map(|class| document.class_named(class));
-        slot.kind != SlotKind::Value && { wanted }.any(|wanted| document.is_a(made, wanted))
-    })
-}
-
 /// Gives edges that were picked, once they are a contour; until then more are wanted.
 fn give_edges(
     open: &mut Open,
@@ -276,7 +266,7 @@ impl Session {
         }
         let is_guide = open.dialogue.as_ref().is_some_and(|d| d.is_guide && d.goal.is_none());
         let goal = match open.dialogue.take() {
-            Some(waiting) if waiting.is_begun && fits_slot(&open.state, &found, &waiting) => {
+            Some(waiting) if waiting.waits_for(&open.state, &found) => {
                 Some(Goal::Operand(Box::new(waiting)))
             }
             Some(_) => None,
@@ -311,7 +301,10 @@ impl Session {
         let level = open.picking.level;
         match &mut open.dialogue {
             Some(dialogue) => {
-                dialogue.pointer = Some(pointer.at);
+                // one that reaches nothing is nowhere: what is typed is shown as it would be made
+                if pointer.reach >= 0.0 {
+                    dialogue.pointer = Some(pointer.at);
+                }
                 dialogue.hover(&state, &home, (pointer, level, typed))
             }
             None => {

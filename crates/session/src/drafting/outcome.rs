@@ -5,7 +5,7 @@
 
 use super::catalogue::{Call, Slot, SlotKind, Tool};
 use super::dialogue::Operand;
-use super::scene::Curve;
+use super::scene::{Curve, elements_of};
 use super::{Home, text};
 use crate::state::State;
 use crate::view::Refusal;
@@ -53,7 +53,7 @@ pub(crate) fn choose(
         };
         let curve = Curve::of(evaluator, &answer);
         let away = curve.map_or(0.0, |c| picks.iter().map(|&p| c.distance(p)).sum());
-        let elements = evaluator.elements(&answer);
+        let elements = elements_of(evaluator, &answer);
         let drawing = drawing::Drawing { elements, ..drawing::Drawing::default() };
         let chosen = Chosen { text: texts[i].clone(), drawing, curve };
         match all.iter_mut().find(|(_, _, other)| other.curve == curve) {

@@ -346,6 +346,11 @@ pub(super) fn as_typed(place: &str, before: &str) -> Option<String> {
     }
 }
 
+/// So many of something, in words.
+fn counted(number: usize, what: &str) -> String {
+    format!("{number} {what}{}", if number == 1 { "" } else { "s" })
+}
+
 fn value_words<'a>(state: &'a State, evaluator: &Evaluator<'a>, answer: &Answer<'a>) -> String {
     let at =
         |place: &str| Some(Curve::of(evaluator, &evaluator.of_part(answer, place).ok()?)?.words());
@@ -360,23 +365,17 @@ fn value_words<'a>(state: &'a State, evaluator: &Evaluator<'a>, answer: &Answer<
     }
     match answer {
         Answer::Number(..) => values::in_words(&state.lowered.document, answer).unwrap_or_default(),
-        Answer::List(items) => {
-            let are_turns = items.iter().all(|item| matches!(item, Answer::Context(_)));
-            match (items.len(), are_turns) {
-                (1, true) => "1 turn".into(),
-                (1, false) => "1 figure".into(),
-                (n, true) => format!("{n} turns"),
-                (n, false) => format!("{n} figures"),
-            }
-        }
-        Answer::Context(context) => format!("{} figures", context.result().count()),
+        Answer::List(items) => match items.iter().all(|item| matches!(item, Answer::Context(_))) {
+            true => counted(items.len(), "turn"),
+            false => counted(items.len(), "figure"),
+        },
+        Answer::Context(context) => counted(context.result().count(), "figure"),
         other => match evaluator.outline_of(other).map_or(0, |edges| edges.len()) {
             0 => evaluator.text_of(other),
             edges => {
                 let area = evaluator.of_part(answer, "area").ok();
                 let area = area.and_then(|area| values::in_words(&state.lowered.document, &area));
-                let edges = if edges == 1 { "1 edge".into() } else { format!("{edges} edges") };
-                format!("{edges}, area {}", area.unwrap_or_default())
+                format!("{}, area {}", counted(edges, "edge"), area.unwrap_or_default())
             }
         },
     }

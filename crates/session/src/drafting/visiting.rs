@@ -68,6 +68,7 @@ impl Session {
             return Ok(Change::default());
         }
         let change = recording::retext(open, &beside, edited, "own values".into())?;
+        blocks::settle(open);
         Ok(*self.with_reach(id, change))
     }
 

@@ -81,6 +81,9 @@ fn a_copy_of_a_small_circle_is_one_of_the_circle_not_of_its_centre() {
     // both are within reach
     point(&mut desk, 46.5, 0.0);
     enter(&mut desk, "0,0");
+    // all of the further ones are seen before
+    let ghost = desk.session.hover(desk.id, &pointer(0.0, 80.0), "6").ghost;
+    assert_eq!(ghost.elements.len(), 5);
     let pattern = made(enter(&mut desk, "n"));
     assert_eq!(pattern, "polar pattern: circle, about (0, 0), count n; n is a count now");
     assert!(desk.text().contains("=> circle.turned("), "{}", desk.text());
@@ -563,6 +566,68 @@ fn a_ghost_shows_what_will_be_drawn() {
     assert_eq!(desk.text(), CORNER);
 }
 
+#[test]
+fn operands_that_are_given_wait_while_another_construction_supplies_the_next() {
+    let mut desk = Desk::recording("Part", &[]);
+    for (tool, at) in [("Axis.horizontal(y)", "0"), ("Axis.vertical(x)", "0")] {
+        begin(&mut desk, tool);
+        made(enter(&mut desk, at));
+    }
+    begin(&mut desk, "Line");
+    enter(&mut desk, "5,5");
+    made(enter(&mut desk, "9,5"));
+    // it goes on, and has its first end again
+    enter(&mut desk, "50,50");
+    begin(&mut desk, "Point.intersection(first,second)");
+    enter(&mut desk, "axis");
+    let text = made(enter(&mut desk, "axis2"));
+    assert_eq!(text, "Line(Point(50, 50), Point.intersection(axis, axis2))");
+    // without any operand it has made what it should
+    begin(&mut desk, "Point.middle(first,second)");
+    enter(&mut desk, "line.p1");
+    assert_eq!(made(enter(&mut desk, "line.p2")), "Point.middle(line.p1, line.p2)");
+    // so may a copy
+    begin(&mut desk, "Line");
+    enter(&mut desk, "line.p1");
+    begin(&mut desk, "Point:turned");
+    point(&mut desk, 9.0, 5.0);
+    enter(&mut desk, "line.p1");
+    let text = made(enter(&mut desk, "90"));
+    assert_eq!(text, "Line(line.p1, line.p2.turned(about: line.p1, by: 90 deg))");
+    assert_eq!(value(&desk, "part.line3"), "(5, 5) to (5, 9)");
+}
+
+#[test]
+fn the_newest_of_outlines_with_a_common_edge_is_meant() {
+    let mut desk = Desk::of(
+        "use contours
+plate => Contour.box(of: Rectangle(Point(0, 0), 100, 60))
+left: Circle { center = (20, 30)  radius = 8 }
+right: Circle { center = (80, 30)  radius = 8 }
+",
+    );
+    begin(&mut desk, "Region.difference(first,second)");
+    for (x, text) in
+        [(28.0, "Region.difference(plate, left)"), (72.0, "Region.difference(region, right)")]
+    {
+        point(&mut desk, 50.0, 0.0);
+        assert_eq!(made(point(&mut desk, x, 30.0)), text);
+    }
+}
+
+#[test]
+fn what_is_typed_is_shown_with_what_it_comes_to() {
+    let mut desk = Desk::recording("Nut", &[("s", "16")]);
+    begin(&mut desk, "Circle");
+    enter(&mut desk, "0,0");
+    let nowhere = Pointer { reach: -1.0, ..Pointer::default() };
+    let hover = desk.session.hover(desk.id, &nowhere, "s / (2 * cos(30 deg))");
+    assert_eq!(hover.finds.as_deref(), Some("s / (2 * cos(30 deg)) = 9.2376 mm"));
+    assert_eq!((hover.ghost.elements.len(), hover.why), (1, None));
+    let hover = desk.session.hover(desk.id, &nowhere, "8");
+    assert_eq!(hover.finds.as_deref(), Some("8"));
+}
+
 fn parameter(name: &str, example: &str, prompt: &str) -> NewParameter {
     NewParameter {
         name: name.into(),
@@ -825,6 +890,40 @@ fn a_wrong_step_is_found_by_what_it_drew_and_replaced() {
 }
 
 #[test]
+fn a_visit_leaves_a_turn_that_is_no_longer_come_to() {
+    let mut desk = wrong_rings();
+    desk.session.visit(desk.id, &Go::UntilPicked(pointer(-20.0, 124.85))).expect("it lies there");
+    let told = |desk: &Desk| {
+        let rows = desk.session.steps(desk.id, None).expect("it is recorded").rows;
+        rows.into_iter().find(|row| row.path == "column").and_then(|row| row.value)
+    };
+    assert_eq!(told(&desk).as_deref(), Some("turn 3 of 6"));
+    // the second circle's radius of 20 is less
+    let by = [("least".to_string(), "25".to_string())];
+    desk.session.visit_by(desk.id, &by).expect("it is a value");
+    assert_eq!(told(&desk).as_deref(), Some("turn 2 of 2"));
+    let view = desk.session.steps(desk.id, None).expect("it is recorded");
+    assert_eq!(view.at.as_deref(), Some("column.circle"));
+    // the lines, both of the first turn's circles
+    let drawn = desk.session.drawn_so_far(desk.id).expect("it is visited");
+    assert_eq!(drawn.elements.len(), 2 + 2);
+}
+
+#[test]
+fn what_undo_takes_back_is_recorded_no_longer() {
+    let mut desk = Desk::recording("Ring", &[]);
+    desk.session.begin_loop(desk.id, "").expect("it is written");
+    desk.undo();
+    let view = desk.session.steps(desk.id, None).expect("it is recorded");
+    assert!(view.open.is_empty());
+    desk.undo();
+    assert_eq!(
+        (desk.session.recorded(desk.id), desk.session.recorded_example(desk.id)),
+        (None, None)
+    );
+}
+
+#[test]
 fn a_visit_goes_step_by_step_and_what_is_drawn_is_inserted() {
     let mut desk = wrong_rings();
     let at = |desk: &Desk| desk.session.steps(desk.id, None).expect("recorded").at;
@@ -963,7 +1062,7 @@ fn what_is_asked_of_the_first_of_a_set_is_forgotten_where_undo_brings_another() 
     assert_eq!(asked(&desk).expect("it is asked").first, "circle2.center");
     desk.undo();
     let stale = desk.session.enter(desk.id, "element").expect_err("circle is the first now");
-    assert_eq!(stale.message, "nothing is asked");
+    assert_eq!(stale.message, "nothing that is typed is waited for");
     assert!(asked(&desk).is_none());
     let open = desk.session.steps(desk.id, None).expect("it is recorded").open;
     assert_eq!(open[0].words, "turns: draw what is done for circle, the first of the set");

@@ -378,6 +378,7 @@ pub const ACTIONS: &[Action] = &[
         keys: &["V"],
         enabled: |lab| document(lab).map(drop),
         run: |lab| {
+            lab.end_constructions();
             lab.drop_tool();
             focus("#picture");
         },

@@ -72,7 +72,10 @@ pub fn PromptLine(
                     <input node_ref=field name="operand" autocomplete="off" aria-label=words::OPERAND
                         placeholder=words::OPERAND
                         prop:value=move || drafting.typed.get()
-                        on:input=move |e| drafting.typed.set(event_target_value(&e))
+                        on:input=move |e| {
+                            drafting.typed.set(event_target_value(&e));
+                            lab.draft_typed();
+                        }
                         on:keydown=key />
                 </Show>
                 <Parameters lab=lab />

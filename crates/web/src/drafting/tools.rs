@@ -1,11 +1,14 @@
 //! Every construction in scope, by the class of what it makes.
 
 use super::once_painted;
+use crate::bin_panel::Uses;
 use crate::lab::Lab;
 use crate::{keyboard, words};
 use leptos::prelude::*;
 use presentation::find::has_words;
 use session::drafting::view::ConstructionRow;
+use session::view::BinEntry;
+use std::collections::BTreeSet;
 
 /// The list of all constructions.
 const LIST: &str = ".drawing .shelves";
@@ -29,6 +32,17 @@ pub fn Constructions(
         let fits = |row: &ConstructionRow| says(row, row.also, &wanted);
         all.with(|all| all.iter().flatten().filter(|row| fits(row)).cloned().collect::<Vec<_>>())
     });
+    // what is looked for may be drawn by a library that is not used yet
+    let offered = Memo::new(move |_| {
+        let wanted = wanted.get();
+        let has = |entry: &BinEntry| has_words(&[&*entry.class, &*entry.doc].join(" "), &wanted);
+        let all = match wanted.trim().is_empty() {
+            true => Vec::new(),
+            false => lab.in_unused_libraries(),
+        };
+        let found = all.into_iter().filter(has).map(|entry| entry.library);
+        found.collect::<BTreeSet<_>>().into_iter().collect::<Vec<_>>()
+    });
     // Enter begins this one
     let best = Memo::new(move |_| {
         let wanted = wanted.get().trim().to_lowercase();
@@ -36,9 +50,10 @@ pub fn Constructions(
             true => 0,
             false if row.label.to_lowercase().starts_with(&wanted) => 1,
             false if row.also.contains(&wanted) => 2,
-            // its own words count more than others for it
-            false if says(row, "", &wanted) => 3,
-            false => 4,
+            // what it is called counts more than what is said of it, and that more than other words for it
+            false if has_words(&row.label, &wanted) => 3,
+            false if says(row, "", &wanted) => 4,
+            false => 5,
         };
         let first =
             found.with(|rows| rows.iter().min_by_key(|row| rank(row)).map(|r| r.id.clone()));
@@ -84,17 +99,28 @@ pub fn Constructions(
         <input type="search" name="construction" placeholder=words::FILTER aria-label=words::FILTER_CONSTRUCTIONS
             title=words::FILTER_HELP
             prop:value=move || wanted.get()
-            on:input=move |e| wanted.set(event_target_value(&e)) on:keydown=key />
+            on:input=move |e| {
+                wanted.set(event_target_value(&e));
+                lab.read_libraries();
+            }
+            on:keydown=key />
         <Show when=move || all.with(Option::is_some) && found.with(Vec::is_empty)>
             <p class="quiet">{words::NO_CONSTRUCTION}</p>
+        </Show>
+        <Show when=move || !offered.with(Vec::is_empty)>
+            <h3>{words::NOT_USED_YET}</h3>
+            <Uses names=offered take=move |name: String| { lab.use_library(&name); } />
         </Show>
         <div class="shelves" on:keydown=|e| keyboard::go_in(LIST, &e)>{shelves}</div>
     }
 }
 
-/// Whether a construction's words, with other words for it, have all that are wanted.
+/// Whether a construction's words, with other words for it, have all that are wanted; `at` and `of` tell nothing.
 fn says(row: &ConstructionRow, also: &str, wanted: &str) -> bool {
-    has_words(&[&row.label, &row.id, &row.operands, &row.doc, also].join(" "), wanted)
+    let words = wanted.split_whitespace();
+    let telling: Vec<&str> = words.filter(|word| word.chars().count() > 2).collect();
+    let wanted = if telling.is_empty() { wanted.into() } else { telling.join(" ") };
+    has_words(&[&row.label, &row.id, &row.operands, &row.doc, also].join(" "), &wanted)
 }
 
 #[component]
