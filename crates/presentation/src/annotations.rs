@@ -511,9 +511,22 @@ pub fn paint(list: &mut DisplayList, notes: &[Note], view: &View, mark: impl Fn(
     }
 }
 
+/// How short a dimension is, in pixels, that its number would cover with what it is of.
+const SHORT: f64 = 64.0;
+
+/// Where the number of a short dimension stands on the screen: beyond its end; nothing for longer ones.
+#[must_use]
+pub fn beyond([from, to]: [Pixels; 2]) -> Option<Pixels> {
+    let (x, y) = (to.0 - from.0, to.1 - from.1);
+    let length = hypot(x, y);
+    // as far as half of its number is wide, or high
+    let aside = |along: f64, half: f64| along / length * (half + 8.0);
+    (length > 0.0 && length < SHORT).then(|| (to.0 + aside(x, 36.0), to.1 + aside(y, 11.0)))
+}
+
 #[cfg(test)]
 mod tests {
-    use super::{Moved, Note, at, notes, shift};
+    use super::{Moved, Note, at, beyond, notes, shift};
     use crate::sheet::View;
     use base::number::hypot;
     use drawing::{Drawing, Element, Layer, Point, Shape, Style, Tag};
@@ -728,6 +741,14 @@ mod tests {
         let all = notes(&[width, below], &picture, &view, &Moved::new());
         // the box lies between 80 and 200 on the screen
         assert!(!(80.0..=200.0).contains(&all[0].at.1), "{:?}", all[0].at);
+    }
+
+    #[test]
+    fn the_number_of_a_short_dimension_leaves_what_it_is_of_in_sight() {
+        assert_eq!(beyond([(100.0, 50.0), (120.0, 50.0)]), Some((164.0, 50.0)));
+        assert_eq!(beyond([(100.0, 50.0), (100.0, 30.0)]), Some((100.0, 11.0)));
+        assert_eq!(beyond([(100.0, 50.0), (200.0, 50.0)]), None);
+        assert_eq!(beyond([(100.0, 50.0), (100.0, 50.0)]), None);
     }
 
     #[test]

@@ -5,14 +5,17 @@
 //! All offsets are UTF-8 byte offsets into the editor's text.
 
 use js_sys::{Array, Function, Object, Uint8Array, Uint32Array};
-use leptos::prelude::{request_animation_frame, set_timeout};
+use leptos::prelude::{document, request_animation_frame, set_timeout};
 use std::time::Duration;
 use wasm_bindgen::JsValue;
 use wasm_bindgen::prelude::wasm_bindgen;
 
-/// Does something once the page has been painted as it stands now.
+/// Does something once the page has been painted as it stands now; in a tab that nobody sees, which is not painted, soon.
 pub fn after_painting(run: impl FnOnce() + 'static) {
-    request_animation_frame(move || set_timeout(run, Duration::ZERO));
+    match document().hidden() {
+        true => set_timeout(run, Duration::ZERO),
+        false => request_animation_frame(move || set_timeout(run, Duration::ZERO)),
+    }
 }
 
 #[wasm_bindgen(raw_module = "./host.js")]

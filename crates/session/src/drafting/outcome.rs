@@ -220,6 +220,10 @@ fn reader(state: &State, home: &Home) -> Result<(ClassId, ThingId), Refusal> {
 /// Says from the program what is said in the blocks that are open: their steps are `column[0].ring` there.
 fn from_outside(state: &State, home: &Home, texts: &[String]) -> Vec<String> {
     let Home::Program { way, .. } = home else { return texts.to_vec() };
+    // in the program itself names are as they are outside of blocks
+    if way.iter().all(|around| around.name.is_none()) {
+        return texts.to_vec();
+    }
     let levels = text::visible(&text::Source::now(state), home);
     // from the innermost, whose names hide those of the blocks around it
     let mut prefixes = vec![String::new()];

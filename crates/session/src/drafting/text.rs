@@ -424,37 +424,39 @@ pub(crate) fn words_in(text: &Source, program_name: &str) -> BTreeSet<String> {
     let Some(program) = program(text, program_name) else { return BTreeSet::new() };
     // what is asked or noted in words is no name
     let tokens = program.syntax().descendants_with_tokens().filter_map(SyntaxElement::into_token);
-    let all: String = tokens
-        .map(|token| match token.kind() {
+    let mut all = String::new();
+    for token in tokens {
+        all.push_str(match token.kind() {
             SyntaxKind::LineComment
             | SyntaxKind::DocComment
             | SyntaxKind::BlockComment
             | SyntaxKind::Text
             | SyntaxKind::TextOpen
             | SyntaxKind::TextMiddle
-            | SyntaxKind::TextClose => " ".to_string(),
-            _ => token.text().to_string(),
-        })
-        .collect();
+            | SyntaxKind::TextClose => " ",
+            _ => token.text(),
+        });
+    }
+    let parameters = parameters_in(&all);
     let is_word = |c: char| c.is_alphanumeric() || c == '_';
     let mut found = BTreeSet::new();
     let mut at = 0;
     while let Some(start) = all[at..].find(is_word).map(|i| at + i) {
         let end = all[start..].find(|c| !is_word(c)).map_or(all.len(), |i| start + i);
         let is_label = all[end..].trim_start().starts_with(':');
-        if !is_label || is_parameter(&all, start) {
-            found.insert(all[start..end].to_string());
+        let word = &all[start..end];
+        if (!is_label || parameters.contains(&start)) && !found.contains(word) {
+            found.insert(word.to_string());
         }
         at = end;
     }
     found
 }
 
-/// Whether a word stands in the list of parameters of a program: that is the first bracket of its text.
-fn is_parameter(program: &str, at: usize) -> bool {
+/// Where the parameters of a program stand: the first bracket of its text.
+fn parameters_in(program: &str) -> std::ops::Range<usize> {
     let open = program.find('(').unwrap_or(program.len());
-    let brace = program.find('{').unwrap_or(program.len());
-    (open..brace).contains(&at)
+    open..program.find('{').unwrap_or(program.len())
 }
 
 /// Returns a text with a parameter added to a program.

@@ -6,6 +6,7 @@ use crate::words;
 use drawing::Point;
 use leptos::html::Input;
 use leptos::prelude::*;
+use presentation::annotations::beyond;
 use session::Session;
 use session::drafting::view::StepOperand;
 
@@ -83,7 +84,12 @@ fn Number(lab: Lab, of: Of, nth: usize, number: StepOperand) -> impl IntoView {
     let is_typed = RwSignal::new(false);
     let field = NodeRef::<Input>::new();
     let at = number.at.unwrap_or_default();
-    let place = move || lab.view.get().screen_from_sheet(Point { x: at.0, y: at.1 });
+    let along = number.along;
+    let place = move || {
+        let view = lab.view.get();
+        let on_screen = |(x, y)| view.screen_from_sheet(Point { x, y });
+        along.map(|ends| ends.map(on_screen)).and_then(beyond).unwrap_or_else(|| on_screen(at))
+    };
     let label = format!("{} {}", number.slot, number.value.clone().unwrap_or_default());
     let slot = number.slot.clone();
     let says = StoredValue::new(number.says.clone());
