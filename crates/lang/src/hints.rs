@@ -354,6 +354,9 @@ impl Lowerer<'_> {
         if (left, right) == (&Kind::Picture, &Kind::Picture) {
             d = d.hint("`picture(a, b)` draws both");
         }
+        if let Some(number) = self.fraction_within(place, (left, right)) {
+            d = d.hint(format!("a unit belongs to the number before it alone: write `{number}`"));
+        }
         let is_plain = |k: &Kind| *k == Kind::PLAIN;
         if matches!((left, right), (Kind::Number(_), Kind::Number(_)))
             && is_plain(left) != is_plain(right)
@@ -368,6 +371,22 @@ impl Lowerer<'_> {
             });
         }
         self.report(d);
+    }
+
+    /// Returns what a side of a comparison that measures something else was meant to be: `1/4 in`.
+    fn fraction_within(&self, place: Place, kinds: (&Kind, &Kind)) -> Option<String> {
+        let (Kind::Number(Some(left)), Kind::Number(Some(right))) = kinds else { return None };
+        let text = self.files[place.file].text.get(place.span.range())?;
+        let Expr::Binary(compared) =
+            syntax::parse_expression(place.file, text).file().expression()?
+        else {
+            return None;
+        };
+        let fraction = |side: Option<Expr>, wanted: Dimension| match side? {
+            Expr::Binary(quotient) => fraction_of_unit(&quotient, wanted),
+            _ => None,
+        };
+        fraction(compared.right(), *left).or_else(|| fraction(compared.left(), *right))
     }
 
     /// Reports a part that is called like a message; an element of a list stands in square brackets.
