@@ -11,7 +11,7 @@ use presentation::paint::{DisplayList, Mark};
 use presentation::paths::covers;
 use presentation::sheet::View;
 use session::Session;
-use session::view::{Annotation, Offer, PictureView};
+use session::view::{Annotation, Offer, PictureView, RowKind};
 
 /// Of more annotations than this only those of the selection are shown.
 const MOST: usize = 60;
@@ -279,9 +279,34 @@ impl Lab {
         true
     }
 
+    /// The next thing, or the one before, between which and what a size is asked of there is one, as long as nothing is
+    /// typed.
+    pub fn size_beside(self, from: Option<&str>, is_forth: bool) -> Option<String> {
+        let [one] = &self.selection_untracked()[..] else { return None };
+        if self.annotated.typed.with_value(Option::is_some) {
+            return None;
+        }
+        let own = session::parse_path(one)?;
+        let has_size = |path: &String| {
+            let both = [own.clone(), session::parse_path(path)?];
+            let offers = self.ask_of_shown(|session, id| session.offers(id, &both))?;
+            offers.iter().any(|offer| offer.value.is_some()).then(|| path.clone())
+        };
+        self.list();
+        let all: Vec<String> = self.structure.with_untracked(|rows| {
+            let things = rows.iter().filter(|row| row.kind == RowKind::Part);
+            things.map(|row| row.path.clone()).filter(|path| !covers(one, path)).collect()
+        });
+        let at = from.and_then(|from| all.iter().position(|path| path == from));
+        match is_forth {
+            true => all[at.map_or(0, |at| at + 1)..].iter().find_map(has_size),
+            false => all[..at.unwrap_or(all.len())].iter().rev().find_map(has_size),
+        }
+    }
+
     /// What was clicked at a place of the window is given a size, alone or with what was clicked before and not answered;
     /// with Shift another thing may follow. Of a dimension that stands there another value is typed; a sign is no thing.
-    pub fn size_picked(self, (path, at): (Option<String>, (f64, f64)), goes_on: bool) {
+    pub fn size_picked(self, (path, at): (Option<String>, Option<(f64, f64)>), goes_on: bool) {
         let asks = self.asks_size();
         let is_open = asks && self.annotated.typed.with_value(Option::is_none);
         let again = path.as_ref().is_some_and(|path| self.selection_untracked().contains(path));
@@ -303,7 +328,7 @@ impl Lab {
             self.select_all(&before);
         }
         let ask = |offer: Offer| {
-            self.annotated.clicked.set_value(Some(at));
+            self.annotated.clicked.set_value(at);
             self.take_offer(&offer);
         };
         let is_said = |all: &Vec<Annotation>| all.iter().any(|one| one.path == path);

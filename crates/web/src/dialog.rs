@@ -89,7 +89,13 @@ fn Open(lab: Lab, wish: Wish) -> impl IntoView {
     // what only follows is told to do so
     let follows = matches!(&wish, Wish::Dimension(Offer { deed: Deed::Rule(_), .. }));
     let wish = StoredValue::new(wish);
-    let foreseen = RwSignal::new(follows.then(|| String::from(words::ONLY_FOLLOWS)));
+    // by keys a size is asked for between two things, as by a click on another
+    let other: StoredValue<Option<String>> = StoredValue::new(None);
+    // by keys alone nothing else says so
+    let is_keyed = is_size && clicked.is_none() && lab.size_beside(None, true).is_some();
+    let said = [(follows, words::ONLY_FOLLOWS), (is_keyed, words::SIZE_BESIDE)];
+    let said = said.into_iter().find_map(|(is_so, says)| is_so.then(|| String::from(says)));
+    let foreseen = RwSignal::new(said);
     let typing = StoredValue::new(0_u32);
     let look = move || {
         let Some(typed) = input.get_untracked().map(|input| input.value()) else { return };
@@ -125,9 +131,19 @@ fn Open(lab: Lab, wish: Wish) -> impl IntoView {
         };
         set_timeout(later, Duration::from_millis(200));
     };
-    on_cleanup(move || lab.foresee_command(None));
+    on_cleanup(move || {
+        lab.foresee_command(None);
+        if other.try_get_value().flatten().is_some() {
+            lab.hover(None);
+        }
+    });
     let accept = move |e: SubmitEvent| {
         e.prevent_default();
+        if let Some(other) = other.get_value()
+            && lab.annotated.typed.with_value(Option::is_none)
+        {
+            return lab.size_picked((Some(other), None), false);
+        }
         let Some(typed) = input.get_untracked().map(|input| input.value()) else { return };
         match wish.get_value() {
             Wish::SaveAs => leptos::task::spawn_local(async move {
@@ -166,8 +182,19 @@ fn Open(lab: Lab, wish: Wish) -> impl IntoView {
     };
     let key = move |e: KeyboardEvent| {
         e.stop_propagation();
-        if e.key() == "Escape" {
-            end();
+        match e.key().as_str() {
+            "Escape" => end(),
+            arrow @ ("ArrowDown" | "ArrowUp") if is_size => {
+                let from = other.get_value();
+                let next = lab.size_beside(from.as_deref(), arrow == "ArrowDown");
+                if let Some(next) = next {
+                    e.prevent_default();
+                    foreseen.set(Some(words::size_to(&next)));
+                    lab.hover(Some(next.clone()));
+                    other.set_value(Some(next));
+                }
+            }
+            _ => {}
         }
     };
     // a size is in nobody's way: whoever goes elsewhere has given it

@@ -1,7 +1,7 @@
 //! The gallery: every document as a card with its picture, its title and its first sentence.
 
 use crate::first::Invitation;
-use crate::lab::{Lab, Opened};
+use crate::lab::Lab;
 use crate::picture::thumbnail::Thumbnail;
 use crate::{actions, lesson, route, words};
 use leptos::prelude::*;
@@ -18,6 +18,14 @@ struct Read {
     sentence: String,
     dirty: bool,
     is_blank: bool,
+}
+
+impl Read {
+    fn of(lab: Lab, id: DocumentId, title: String, dirty: bool) -> Self {
+        let doc = lab.ask(|session| session.preamble(id));
+        let is_blank = lab.ask(|session| session.picture(id)).drawing.elements.is_empty();
+        Self { id, sentence: first_sentence(&doc, &title), title, dirty, is_blank }
+    }
 }
 
 /// A document that is offered. What is read of it serves each shelf on which it stands.
@@ -37,36 +45,23 @@ impl Card {
         let is_seen = move || read.try_get_untracked().is_some();
         leptos::task::spawn_local(async move {
             if let Some(opened) = lab.load_for_card(&path, is_seen).await {
-                let doc = lab.ask(|session| session.preamble(opened.id));
-                let is_blank =
-                    lab.ask(|session| session.picture(opened.id)).drawing.elements.is_empty();
-                read.try_set(Some(Read {
-                    id: opened.id,
-                    sentence: first_sentence(&doc, &opened.title),
-                    title: opened.title,
-                    dirty: opened.dirty,
-                    is_blank,
-                }));
+                read.try_set(Some(Read::of(lab, opened.id, opened.title, opened.dirty)));
             }
         });
         Self { listed, read, is_kept: false }
     }
 
-    /// A document that is not saved yet: its draft is read.
+    /// A document that is not saved yet: what is kept of it is read.
     fn kept(lab: Lab, path: &str) -> Self {
         let read = RwSignal::new(None::<Read>);
-        let listed = Listed { path: path.into(), title: path.into(), in_gallery: false };
-        let path = String::from(path);
+        let name = String::from(path);
         let is_seen = move || read.try_get_untracked().is_some();
         leptos::task::spawn_local(async move {
-            if let Some(opened) = lab.draft_for_card(&path, is_seen).await {
-                let is_blank =
-                    lab.ask(|session| session.picture(opened.id)).drawing.elements.is_empty();
-                let sentence = String::from(words::KEPT_HERE);
-                let Opened { id, title, dirty, .. } = opened;
-                read.try_set(Some(Read { id, title, sentence, dirty, is_blank }));
+            if let Some(id) = lab.load_kept_for_card(&name, is_seen).await {
+                read.try_set(Some(Read::of(lab, id, name, false)));
             }
         });
+        let listed = Listed { path: path.into(), title: path.into(), in_gallery: false };
         Self { listed, read, is_kept: true }
     }
 
@@ -195,6 +190,8 @@ fn CardView(lab: Lab, card: Card) -> impl IntoView {
                     {move || read.with(|read| read.as_ref().is_some_and(|r| r.dirty))
                         .then(|| view! { <span class="dirty" title=words::NOT_SAVED>"•"</span> })}</h3>
                 <p>{move || read.with(|read| read.as_ref().map(|read| read.sentence.clone()))}</p>
+                {move || (is_kept && read.with(Option::is_some))
+                    .then(|| view! { <p class="quiet">{words::KEPT_HERE}</p> })}
                 <p class="path">{listed.path.clone()}</p>
             </a>
         </li>

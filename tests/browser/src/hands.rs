@@ -2,7 +2,7 @@
 
 use crate::Visit;
 use fantoccini::actions::{
-    InputSource, KeyAction, KeyActions, MOUSE_BUTTON_LEFT, MouseActions, PointerAction,
+    Actions, InputSource, KeyAction, KeyActions, MOUSE_BUTTON_LEFT, MouseActions, PointerAction,
     TouchActions,
 };
 use serde_json::Value;
@@ -449,6 +449,31 @@ pub async fn touch_twice(visit: &Visit, (x, y): (f64, f64)) {
             .then(PointerAction::Pause { duration: Duration::from_millis(40) });
     }
     visit.client.perform_actions(actions).await.expect("the finger touches twice");
+}
+
+/// Pinches the sheet with two fingers that come down one after the other.
+///
+/// # Panics
+/// Where the browser refuses.
+pub async fn pinch(visit: &Visit, at: [(f64, f64); 2]) {
+    let finger = |name: &str, (x, y): (f64, f64), (wait, way): (u64, f64)| {
+        let to = |x: f64| PointerAction::MoveTo {
+            duration: Some(Duration::from_millis(60)),
+            x: x.round(),
+            y: y.round(),
+        };
+        TouchActions::new(name.into())
+            .then(to(x))
+            .then(PointerAction::Pause { duration: Duration::from_millis(wait) })
+            .then(PointerAction::Down { button: MOUSE_BUTTON_LEFT })
+            .then(PointerAction::Pause { duration: Duration::from_millis(60 - wait) })
+            .then(to(x + 20.0 * way))
+            .then(to(x + 40.0 * way))
+            .then(PointerAction::Up { button: MOUSE_BUTTON_LEFT })
+    };
+    let both =
+        Actions::from(finger("finger", at[0], (0, -1.0))).and(finger("other", at[1], (30, 1.0)));
+    visit.client.perform_actions(both).await.expect("two fingers pinch");
 }
 
 /// Drags what lies at a place in the window to another, with a finger.

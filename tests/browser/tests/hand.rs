@@ -3,7 +3,7 @@
 
 use browser::Visit;
 use browser::hands::{
-    begin, chord, drag, grip, key, keys, middle, point, select, show, state, text_of, touch,
+    begin, chord, drag, grip, key, keys, middle, pinch, point, select, show, state, text_of, touch,
 };
 use fantoccini::actions::{
     InputSource, KeyAction, KeyActions, MOUSE_BUTTON_LEFT, MOUSE_BUTTON_RIGHT,
@@ -486,6 +486,11 @@ async fn a_rhombus_is_made_by_touch_alone() {
     let corners = [at(0.2, 0.3), at(0.7, 0.2), at(0.85, 0.55), at(0.25, 0.65)];
     let line = middle(&visit, "[data-action=tool-line]").await;
     touch(&visit, &[line]).await;
+    // a pinch draws nothing, with a tool in the hand as well
+    let (seen, drawn) = (state(&visit).await["view"].clone(), text_of(&state(&visit).await));
+    pinch(&visit, [at(0.4, 0.4), at(0.6, 0.45)]).await;
+    let after = state(&visit).await;
+    assert!(after["view"] != seen && text_of(&after) == drawn, "{after}");
     touch(&visit, &corners).await;
     touch(&visit, &corners[..1]).await;
     visit.until("window.__thinglab.state().text.includes('line4')").await;

@@ -161,6 +161,15 @@ async fn dimensions_stand_on_the_drawing_and_are_typed_anew_there() {
     };
     click(&visit, bottom).await;
     visit.until(&asks("Value of the length")).await;
+    // the other one by keys
+    chord(&visit, &[], key::DOWN).await;
+    visit.until("document.querySelector('.asking .quiet')?.innerText.endsWith('line2')").await;
+    chord(&visit, &[], key::ENTER).await;
+    visit.until(&asks("Value of the angle")).await;
+    chord(&visit, &[], key::ESCAPE).await;
+    visit.until("!document.getElementById('asked')").await;
+    click(&visit, bottom).await;
+    visit.until(&asks("Value of the length")).await;
     click(&visit, side).await;
     visit.until(&asks("Value of the angle")).await;
     chord(&visit, &[], key::ESCAPE).await;

@@ -1,6 +1,5 @@
 //! Documents: loading, showing, saving, and what is kept of them in the browser.
 
-use super::drafts::latest_draft;
 use super::{ABSENT, Lab, Opened, Zoom};
 use crate::dialog::Wish;
 use crate::lab::Notice;
@@ -90,19 +89,24 @@ impl Lab {
         if is_short { self.take_up_while(path, stored, is_seen).await.ok() } else { None }
     }
 
-    /// The same of a document that no file has: as it is open, or what was kept of it last.
-    pub async fn draft_for_card(self, path: &str, is_seen: impl Fn() -> bool) -> Option<Opened> {
-        /// A draft has another name than its document, so that nothing uses it.
-        const OF_ITS_OWN: &str = " as a draft";
+    /// Opens what is kept of a document that no file has, for a card of the gallery, as long as somebody looks at it;
+    /// nothing where that takes long.
+    pub async fn load_kept_for_card(
+        self,
+        path: &str,
+        is_seen: impl Fn() -> bool,
+    ) -> Option<DocumentId> {
         if let Some(opened) = self.opened.with_value(|all| all.get(path).cloned()) {
-            return Some(opened);
+            return Some(opened.id);
         }
-        let text = latest_draft(path).filter(|text| text.len() <= LONG)?;
-        let id = self.open(&format!("{path}{OF_ITS_OWN}"), &text, &is_seen).await.ok()?;
-        let title = self.session.with_value(|session| session.title(id));
-        let title = title.trim_end_matches(OF_ITS_OWN).to_owned();
-        let (version, saved) = (String::new(), String::new());
-        Some(Opened { id, title, version, writable: true, saved, dirty: true })
+        let text = self.latest_draft(path).await.filter(|text| text.len() <= LONG)?;
+        // nothing uses it by this name, and it is no document that is open
+        let name = format!("{path}?");
+        let mut id = self.open(&name, &text, &is_seen).await.ok()?;
+        while self.fetch_used().await {
+            id = self.open(&name, &text, &is_seen).await.ok()?;
+        }
+        Some(id)
     }
 
     async fn open_already(self, path: &str) -> Option<Opened> {

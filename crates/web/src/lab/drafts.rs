@@ -25,14 +25,6 @@ fn own_place(path: &str) -> String {
     place(&js::tab_name(), path)
 }
 
-/// The text of a document that this browser kept last, of whatever tab.
-pub(super) fn latest_draft(path: &str) -> Option<String> {
-    let places = theme::names().into_iter();
-    let of_it = places.filter(|name| place_of(name).is_some_and(|(_, of)| of == path));
-    let drafts = of_it.filter_map(|place| Draft::read(&theme::keep(&place)?));
-    drafts.max_by(|a, b| a.kept.total_cmp(&b.kept)).map(|draft| draft.text)
-}
-
 /// The drafts of a document that say something else than its file and are of no tab that lives, the newest first: of
 /// each tab the newer of what the browser and the server keep.
 fn left_behind(
@@ -83,6 +75,15 @@ impl Lab {
             let found = left_behind(self, (of.0, &of.1), &live, on_disk);
             self.draft.set(found.into_iter().next());
         });
+    }
+
+    /// The newest text that is kept of a document, of whichever tab.
+    pub(super) async fn latest_draft(self, path: &str) -> Option<String> {
+        let is_it = |name: &String| place_of(name).is_some_and(|(_, of)| of == path);
+        let here = theme::names().into_iter().filter(is_it).filter_map(|name| theme::keep(&name));
+        let on_disk = self.drafts_on_disk(path).await.into_iter().map(|(_, kept)| kept);
+        let all = here.chain(on_disk).filter_map(|kept| Draft::read(&kept));
+        all.max_by(|a, b| a.kept.total_cmp(&b.kept)).map(|draft| draft.text)
     }
 
     /// Keeps a text of the shown document, or no text any more where that is what is saved.

@@ -47,6 +47,9 @@ enum Mode {
     Pan { last: (f64, f64) },
     /// A tool has set something where the pointer was pressed, or a construction has taken what is there.
     Tool { start: (f64, f64) },
+    /// A finger with a tool, or for a construction: nothing is set until it moves or is let go, as it may be the first
+    /// of two.
+    Finger { start: (f64, f64) },
     /// What lies there is to have a size, once it is let go: it may be the first of two fingers. The place is on the
     /// canvas and in the window.
     Size { start: (f64, f64), clicked: (f64, f64) },
@@ -213,6 +216,12 @@ impl Hand {
             self.lab.visit_picked(&self.pointer(at));
             e.prevent_default();
             self.set_mode(Mode::Idle);
+        } else if e.button() == 0 && self.has_tool() && e.pointer_type() == "touch" {
+            if self.lab.drafts() {
+                // The keyboard stays with what is typed.
+                e.prevent_default();
+            }
+            self.set_mode(Mode::Finger { start: at });
         } else if e.button() == 0 && self.lab.drafts() {
             self.lab.draft_point(&self.pointer(at));
             // The keyboard stays with what is typed.
@@ -261,6 +270,21 @@ impl Hand {
                 (None, None) => Mode::Select { start: at, besides: self.lab.selection_untracked() },
             });
         }
+    }
+
+    /// Whether a press sets something: by a tool, or for a construction.
+    fn has_tool(self) -> bool {
+        self.lab.drafts() || self.lab.tool.with_untracked(Option::is_some)
+    }
+
+    /// Sets what a finger was to set that came down at a place; returns what it does from there on.
+    fn set_by_finger(self, start: (f64, f64)) -> Mode {
+        if !self.lab.drafts() {
+            self.lab.tool_set(&self.pointer(start));
+            return Mode::Tool { start };
+        }
+        self.lab.draft_point(&self.pointer(start));
+        if self.lab.wants_another_pick() { Mode::Tool { start } } else { Mode::Idle }
     }
 
     /// Opens the editor of what was clicked twice: of the value that a word shows, or of the thing's own.
@@ -396,6 +420,14 @@ impl Hand {
                 self.lab.draft_hover(&self.pointer(at));
             }
             Mode::Tool { .. } | Mode::Size { .. } => {}
+            // Escape may have laid the tool down already.
+            Mode::Finger { start } if distance(at, start) > PULL && self.has_tool() => {
+                let mode = self.set_by_finger(start);
+                self.set_mode(mode);
+                self.state.update_value(|state| state.latest = Some(at));
+                self.frame();
+            }
+            Mode::Finger { .. } => {}
             Mode::Idle => self.lab.hover(self.pick_deeper(at)),
             Mode::Pressed { path, start } => {
                 if distance(at, start) >= STIR {
@@ -539,13 +571,14 @@ impl Hand {
             {
                 self.lab.tool_set(&self.pointer(at));
             }
+            Mode::Finger { start } if self.has_tool() => drop(self.set_by_finger(start)),
             // Escape may have laid the tool down already.
             Mode::Size { start, clicked } if self.lab.is_sizing() => {
                 let picked = match self.lab.selected.with_untracked(Option::is_some) {
                     true => self.pick_beside(start),
                     false => self.pick_deeper(start),
                 };
-                self.lab.size_picked((picked, clicked), e.shift_key());
+                self.lab.size_picked((picked, Some(clicked)), e.shift_key());
             }
             Mode::Band { start } if distance(start, at) > PULL => self.lab.take_band(start, at),
             Mode::Band { start } if self.lab.drafts() => self.lab.draft_point(&self.pointer(start)),

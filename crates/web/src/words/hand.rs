@@ -15,6 +15,14 @@ pub const ONLY_READ: &str = "Only read it";
 /// What that does.
 pub const ONLY_READ_HELP: &str =
     "A reference dimension: it shows the value in parentheses and sets nothing";
+/// Says how a size is asked for between two things, by keys.
+pub const SIZE_BESIDE: &str = "↓ or ↑: a size between this and another thing.";
+
+/// Says between what a size would be asked for.
+pub fn size_to(path: &str) -> String {
+    format!("Enter: the size between this and {path}")
+}
+
 /// What is said of a dimension that only reads, where another value is asked for.
 pub const ONLY_FOLLOWS: &str = "It only follows what it measures. With Done, or Enter, it rules: what is free there has to yield.";
 /// What is touched next is selected besides.
