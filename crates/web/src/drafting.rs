@@ -180,8 +180,17 @@ impl Lab {
 
     /// Gives what is under the pointer.
     pub fn draft_point(self, pointer: &Pointer) {
+        let is_bare = self.drafting.typed.with_untracked(String::is_empty);
         let turn = self.tell(|session, id| session.point(id, pointer));
+        let is_number = |prompt: &Prompt| {
+            prompt.insert.as_ref().is_some_and(|measure| measure.parse::<f64>().is_ok())
+        };
+        let is_place = matches!(&turn, Some(Ok(Turn::Wants(prompt))) if is_number(prompt));
         self.take_turn(turn);
+        // a free place says all of how high, or how far to the right
+        if is_bare && is_place && !self.drafting.calculator.get_untracked() {
+            self.draft_enter();
+        }
     }
 
     /// Whether a construction has its first operand and wants another that is picked.
@@ -234,7 +243,10 @@ impl Lab {
 
     /// Shows what would be done where the pointer was last, and gives the keyboard back to the field.
     fn hover_again(self) {
-        self.draft_typed();
+        match self.drafting.pointer.get_value() {
+            Some(pointer) => self.draft_hover(&pointer),
+            None => self.draft_typed(),
+        }
         if !js::coarse() {
             keyboard::focus(OPERAND);
         }
@@ -242,6 +254,13 @@ impl Lab {
 
     /// Shows what would come of what is typed so far, or of what the pointer finds.
     fn draft_typed(self) {
+        let is_drawn =
+            self.drafting.prompt.with_untracked(|p| p.as_ref().is_some_and(|p| !p.tool.is_empty()));
+        if !is_drawn {
+            // what is typed of an answer or a condition is none of what the pointer finds
+            self.drafting.finds.set(None);
+            return;
+        }
         match self.drafting.pointer.get_value() {
             Some(pointer) => self.draft_hover(&pointer),
             None if self.drafting.typed.with_untracked(|typed| typed.trim().is_empty()) => {

@@ -57,11 +57,10 @@ async fn first_ring(visit: &Visit) {
         define(visit, name, example).await;
     }
     press(visit, "[data-construction='Axis.horizontal(y)']").await;
+    // a click on a free place is all of how high
     pick(visit, 200.0, 0.0).await;
-    enter(visit, "").await;
     press(visit, "[data-construction='Axis.vertical(x)']").await;
     pick(visit, 0.0, 200.0).await;
-    enter(visit, "").await;
     press(visit, "[data-draft='repeat']").await;
     press(visit, "[data-construction='Circle.tangent(first,second,radius)']").await;
     pick(visit, -40.0, 0.0).await;
