@@ -206,6 +206,8 @@ pub(crate) enum SlotKind {
     Set,
     /// Lines and arcs that hang together.
     Edges,
+    /// Points, or any places of the sheet, as many as are given.
+    Places,
 }
 
 /// Labels that need no writing: the place of the operand tells.
@@ -219,6 +221,7 @@ impl Slot {
         };
         let kind = match found.kind {
             ClassKind::Composite if is_list && *found.name == *"Curve" => SlotKind::Edges,
+            ClassKind::Composite if is_list && *found.name == *"Point" => SlotKind::Places,
             ClassKind::Composite if *found.name == *"Point" => SlotKind::Point,
             ClassKind::Composite => SlotKind::Curve,
             _ => SlotKind::Value,
@@ -363,7 +366,7 @@ pub(crate) fn tools(state: &State, home: &Home) -> Vec<Tool> {
             continue;
         }
         let is_program = document.program(id).is_some();
-        let is_drawn = compound::is_drawn(document, id);
+        let is_drawn = compound::is_drawn(document, id) || compound::is_of_places(document, id);
         if is_program && !served.contains(&id) || is_drawn && !matches!(home, Home::Document) {
             let is_placed = is_program && matches!(home, Home::Document);
             let mut tool = constructor(document, id, is_program);
@@ -579,7 +582,8 @@ fn value(document: &Document) -> Option<Tool> {
 fn constructor(document: &Document, id: ClassId, is_program: bool) -> Option<Tool> {
     let class = &document.classes[id];
     let name = class.name.to_string();
-    let is_by_place = matches!(name.as_str(), "Point" | "Line" | "Axis" | "Arc" | "ClockwiseArc");
+    let is_by_place = compound::is_of_places(document, id)
+        || matches!(name.as_str(), "Point" | "Line" | "Axis" | "Arc" | "ClockwiseArc");
     let is_plain = is_by_place || name == "Circle" || compound::of(document, id).is_some();
     if !is_program && !is_plain {
         return None;

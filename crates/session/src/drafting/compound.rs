@@ -1,7 +1,8 @@
 //! Figures that are made of others: a rectangle of its sides. Its sides and corners are picked like lines and points, and
 //! a pick of a side may mean the whole.
 
-use kernel::{ClassId, Document};
+use base::Name;
+use kernel::{ClassId, ClassKind, Document, PartRef};
 
 /// What a figure that is made of others is picked by.
 #[derive(Debug)]
@@ -42,6 +43,16 @@ pub(crate) fn of(document: &Document, class: ClassId) -> Option<&'static Compoun
         document.class_named(of.class).is_some_and(|known| document.is_a(class, known))
     };
     ALL.iter().find(is_it)
+}
+
+/// Whether things of a class are drawn through places, as many as there are: a spline.
+pub(crate) fn is_of_places(document: &Document, class: ClassId) -> bool {
+    let is_places = |field: &PartRef| match document.classes[document.field_class(*field)].kind {
+        ClassKind::List(element) => *document.classes[element].name == *"Point",
+        _ => false,
+    };
+    let is_drawn = || document.find_message(class, &Name::new("picture"), None).is_some();
+    matches!(document.layout(class).as_slice(), [field] if is_places(field)) && is_drawn()
 }
 
 /// Whether things of a class are drawn as figures: it is one, or made of others.

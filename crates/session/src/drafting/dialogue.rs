@@ -46,7 +46,7 @@ pub(crate) struct Dialogue {
     pub(crate) replaces: Option<String>,
     /// How often another solution was asked for than the nearest.
     pub(crate) turned: usize,
-    /// The edges that were picked so far, where such are wanted.
+    /// The edges or places that were picked so far, where such are wanted.
     pub(crate) edges: Vec<String>,
 }
 
@@ -113,6 +113,11 @@ impl Dialogue {
                         .to_string(),
                     1 => "1 edge; pick the next, Enter ends it".to_string(),
                     n => format!("{n} edges; pick the next, Enter ends it"),
+                },
+                SlotKind::Places => match self.edges.len() {
+                    0 => "pick places one after the other, or type `x,y`, `@dx,dy`".to_string(),
+                    1 => "1 place; pick or type the next, Enter ends it".to_string(),
+                    n => format!("{n} places; pick or type the next, Enter ends it"),
                 },
                 SlotKind::Value if *slot.class == *"Bool" => "type `yes` or `no`".to_string(),
                 SlotKind::Value if *slot.class == *"Text" => "type the words".to_string(),
@@ -198,7 +203,9 @@ impl Dialogue {
                 SlotKind::Curve if *slot.class == *"Planar" => found.at_level(level, false),
                 // where a rectangle is wanted, any side of it is meant as all of it
                 SlotKind::Curve if !slot.takes(state, found.class) => found.at_level(0, true),
-                SlotKind::Point | SlotKind::Curve | SlotKind::Edges => found.text.clone(),
+                SlotKind::Point | SlotKind::Curve | SlotKind::Edges | SlotKind::Places => {
+                    found.text.clone()
+                }
             };
             return Ok(Operand::new(text, Some(pointer.at)));
         }
@@ -209,7 +216,9 @@ impl Dialogue {
             )));
         }
         match (slot.kind, slot.name.as_str()) {
-            (SlotKind::Point, _) => Ok(Operand::new(typed::place(pointer), Some(pointer.at))),
+            (SlotKind::Point | SlotKind::Places, _) => {
+                Ok(Operand::new(typed::place(pointer), Some(pointer.at)))
+            }
             (SlotKind::Value, "x" | "y") => {
                 Ok(Operand::new(typed::coordinate(pointer, &slot.name), Some(pointer.at)))
             }
@@ -267,7 +276,7 @@ impl Dialogue {
             _ => operand.text.clone(),
         });
         let lit = match (slot.kind, typed.trim().is_empty()) {
-            (SlotKind::Curve | SlotKind::Set | SlotKind::Point, true) => {
+            (SlotKind::Curve | SlotKind::Set | SlotKind::Point | SlotKind::Places, true) => {
                 let mut lit = scene::drawing_of(state, home, &operand.text);
                 let found = scene::scene(state, home);
                 let found = found.iter().find(|found| found.text == operand.text);
@@ -280,7 +289,17 @@ impl Dialogue {
             return Hover { finds, ghost: lit, why: None };
         }
         let mut operands = self.filled.clone();
-        operands.push(operand);
+        operands.push(match slot.kind {
+            // one place is not yet a curve
+            SlotKind::Places if self.edges.is_empty() => {
+                return Hover { finds, ghost: lit, why: None };
+            }
+            SlotKind::Places => {
+                let all = self.edges.iter().chain([&operand.text]);
+                Operand::new(listed(all.map(String::as_str)), None)
+            }
+            _ => operand,
+        });
         let given = (&self.tool, &operands[..], self.pointer, self.turned);
         match outcome::choose(state, home, given) {
             Ok(chosen) => {
@@ -304,7 +323,19 @@ impl Dialogue {
     }
 }
 
+/// Writes texts as one list.
+pub(crate) fn listed<'t>(texts: impl Iterator<Item = &'t str>) -> String {
+    format!("[{}]", texts.collect::<Vec<_>>().join(", "))
+}
+
 impl Dialogue {
+    /// Takes one more place; says what is wanted then.
+    pub(crate) fn with_place(&mut self, place: String) -> Prompt {
+        self.last_point = Some(place.clone());
+        self.edges.push(place);
+        self.prompt()
+    }
+
     /// The edges that are picked with one more, and what goes on from them.
     pub(crate) fn with_edge(&self, state: &State, home: &Home, edge: &str) -> Vec<String> {
         let mut picked = self.edges.clone();
@@ -347,7 +378,7 @@ pub(crate) fn nearest<'f>(
         SlotKind::Curve => {
             slot.takes(state, f.class) || f.side_of.is_some_and(|c| slot.takes(state, c))
         }
-        SlotKind::Point | SlotKind::Set => slot.takes(state, f.class),
+        SlotKind::Point | SlotKind::Places | SlotKind::Set => slot.takes(state, f.class),
     };
     let fitting: Vec<&Found> = all.into_iter().filter(fits).collect();
     let near = scene::nearest(fitting.iter().copied(), pointer)?;

@@ -134,14 +134,14 @@ pub(crate) fn by_origin(
         |found: &Found| document.class_named(if found.side?.bulge == 0.0 { "Line" } else { "Arc" });
     let fits = |found: &&Found| match slot.kind {
         SlotKind::Curve => class_of(found).is_some_and(|class| slot.takes(state, class)),
-        SlotKind::Point => found.corner_at(pointer).is_some(),
+        SlotKind::Point | SlotKind::Places => found.corner_at(pointer).is_some(),
         SlotKind::Edges | SlotKind::Set | SlotKind::Value => false,
     };
     // what was drawn last lies above
     let found =
         scene::nearest(all.iter().rev().filter(|f| f.side.is_some()).filter(fits), pointer)?;
     let corner = match slot.kind {
-        SlotKind::Point => found.corner_at(pointer),
+        SlotKind::Point | SlotKind::Places => found.corner_at(pointer),
         _ => None,
     };
     let none = || {

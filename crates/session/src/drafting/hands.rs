@@ -1,7 +1,7 @@
 //! Drafting at the boundary: what the page asks of a session.
 
 use super::catalogue::{Call, SlotKind, Tool};
-use super::dialogue::{Dialogue, Goal, Operand};
+use super::dialogue::{self, Dialogue, Goal, Operand};
 use super::view::{
     Computed, ConstructionRow, Ends, Hover, MeasureKind, OlderUse, Prompt, Turn, Wants,
 };
@@ -60,7 +60,13 @@ fn give_edges(
 ) -> Result<Turn, Refusal> {
     let none = || words::refuse("no construction waits".into());
     let (state, home) = (open.state.clone(), home(open));
-    let operand = Operand::new(edges::written(&state, &home, &edges), at);
+    let are_places = { open.dialogue.as_ref().and_then(Dialogue::slot) }
+        .is_some_and(|slot| slot.kind == SlotKind::Places);
+    let text = match are_places {
+        true => dialogue::listed(edges.iter().map(String::as_str)),
+        false => edges::written(&state, &home, &edges),
+    };
+    let operand = Operand::new(text, at);
     let before = open.dialogue.clone();
     give(open, host, operand).or_else(|refused| {
         open.dialogue = before;
@@ -659,6 +665,9 @@ fn pointed(open: &mut Open, host: &dyn Host, pointer: &Pointer) -> Result<Turn, 
             return Ok(Turn::Wants(Prompt { insert, ..dialogue.prompt() }));
         }
         dialogue.pointer = None;
+        if dialogue.slot().is_some_and(|slot| slot.kind == SlotKind::Places) {
+            return Ok(Turn::Wants(dialogue.with_place(operand.text)));
+        }
         if dialogue.slot().is_some_and(|slot| slot.kind == SlotKind::Edges) {
             let edges = dialogue.with_edge(&state, &home, &operand.text);
             return give_edges(open, host, (edges, operand.at));
@@ -724,6 +733,9 @@ fn entered(open: &mut Open, host: &dyn Host, typed: &str) -> Result<Turn, Refusa
         };
         let again = |open: &mut Open| {
             outcome::fits(&open.state, &home, (&text, &wanted))?;
+            if let (SlotKind::Places, Some(dialogue)) = (wanted.kind, &mut open.dialogue) {
+                return Ok(Turn::Wants(dialogue.with_place(text.clone())));
+            }
             if let Some(asks) = &wanted.asks {
                 asks.allows(&open.state, &home, (&wanted.name, &text))?;
             }

@@ -38,6 +38,7 @@ const ALSO: &[(&str, &str)] = &[
     ("Line.tangent", "tangent"),
     ("Rectangle", "rectangle box square rect"),
     ("TurnedRectangle", "rectangle box rotated three points slanted"),
+    ("Spline", "smooth curve freehand interpolation"),
     ("RegularPolygon", "polygon hexagon triangle pentagon"),
     ("Point.dividing", "ratio division section"),
     ("Point.intersection", "intersect crossing meet orthocenter"),

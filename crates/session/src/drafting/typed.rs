@@ -54,7 +54,7 @@ pub(crate) fn operand(slot: &Slot, typed: &str, last: Option<&str>) -> Result<St
         SlotKind::Value if *slot.class == *"Angle" && is_number(typed) => format!("{typed} deg"),
         SlotKind::Value => typed.into(),
         // before any point was given, one goes from where the axes cross
-        SlotKind::Point => at(typed, last.unwrap_or("Point(0, 0)"))?,
+        SlotKind::Point | SlotKind::Places => at(typed, last.unwrap_or("Point(0, 0)"))?,
     })
 }
 
@@ -66,7 +66,7 @@ fn instead_of_a_place(slot: &Slot) -> Option<&'static str> {
         }
         SlotKind::Value if *slot.class == *"Text" => None,
         SlotKind::Value => Some("a value, whose tenths stand after a point: 3.4"),
-        SlotKind::Point => None,
+        SlotKind::Point | SlotKind::Places => None,
     }
 }
 

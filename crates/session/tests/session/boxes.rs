@@ -1,7 +1,8 @@
-//! Rectangles and regular polygons as steps: drawn from corner to corner, picked by their sides and corners, copied whole.
+//! Rectangles, regular polygons and splines as steps: drawn from corner to corner and through places, picked by their
+//! sides and corners, copied whole.
 
 use crate::desk::Desk;
-use session::drafting::view::{Ends, Turn};
+use session::drafting::view::{Ends, NewParameter, Turn};
 use session::view::Pointer;
 
 fn begin(desk: &mut Desk, tool: &str) {
@@ -280,4 +281,37 @@ fn a_radius_of_more_than_half_the_shorter_side_rounds_no_corner() {
     let outline = text(enter(&mut desk, "15"));
     assert_eq!(outline, "Contour.rounded(of: rectangle, radius: 15)");
     assert_eq!(desk.wrong(), [], "{}", desk.text());
+}
+
+#[test]
+fn a_spline_is_drawn_through_places_that_are_picked_and_typed() {
+    let mut desk = Desk::of("use drafting\n");
+    desk.session.record(desk.id, "Wave").expect("a new program");
+    let width =
+        NewParameter { name: "width".into(), example: "60".into(), ..NewParameter::default() };
+    desk.session.define_parameter(desk.id, &width).expect("it is new");
+    begin(&mut desk, "Point");
+    text(enter(&mut desk, "0,0"));
+    begin(&mut desk, "Spline");
+    assert!(desk.session.enter(desk.id, "").is_err(), "there is no place yet");
+    pick(&mut desk, 0.0, 0.0);
+    enter(&mut desk, "@width / 2, 20");
+    let ghost = desk.session.hover(desk.id, &Pointer { at: (50.0, 5.0), ..Pointer::default() }, "");
+    assert_eq!((ghost.ghost.elements.len(), ghost.why), (1, None));
+    enter(&mut desk, "width, 10");
+    // what was given last is taken back
+    desk.session.back(desk.id);
+    enter(&mut desk, "width, 0");
+    let drawn = text(enter(&mut desk, ""));
+    assert_eq!(
+        drawn,
+        "Spline([point, Point(point.x + (width / 2), point.y + 20), Point(width, 0)])"
+    );
+    assert!(desk.text().contains("    spline = Spline([point, "), "{}", desk.text());
+    // what draws it is one step, and follows its operands
+    desk.session
+        .set_parameters(desk.id, "wave", &[("width".into(), "80".into())])
+        .expect("a value");
+    assert_eq!(value(&desk, "wave.spline.finish"), "(80, 0)");
+    assert_eq!(desk.wrong(), []);
 }
