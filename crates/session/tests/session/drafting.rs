@@ -1217,6 +1217,22 @@ fn a_plate_is_perforated_by_a_loop_in_a_loop() {
     assert_eq!(desk.wrong(), [], "{}", desk.text());
     assert_eq!(value(&desk, "plate.grid"), "5 turns");
     assert_eq!(value(&desk, "plate.grid[4].row[7].circle"), "centre (60, 36), radius 2.5");
+    // the third hole of the second row is picked: its rows and numbers are those of both turns
+    let rim = Pointer { reach: 0.5, ..pointer(22.5, 12.0) };
+    desk.session.visit(desk.id, &Go::UntilPicked(rim)).expect("it lies there");
+    let rows = desk.session.steps(desk.id, None).expect("it is recorded").rows;
+    let told: Vec<_> = rows.into_iter().filter_map(|row| Some((row.path, row.value?))).collect();
+    let wanted = [
+        ("grid", "turn 2 of 5"),
+        ("grid.row", "turn 3 of 8"),
+        ("grid.row.circle", "centre (20, 12), radius 2.5"),
+    ];
+    assert_eq!(told, wanted.map(|(path, value)| (path.to_string(), value.to_string())));
+    let operands = desk.session.step_operands(desk.id, "plate", "grid.row.circle");
+    let radius = operands.into_iter().find(|operand| operand.slot == "radius").expect("it has one");
+    assert_eq!(radius.along.expect("it is seen")[0], (20.0, 12.0));
+    let drawn = desk.session.drawn_so_far(desk.id).expect("it is visited");
+    assert_eq!(drawn.elements.len(), 8 + 2);
 }
 
 #[test]
