@@ -291,8 +291,11 @@ pub(crate) fn take_of_set(
             format!("take {figure} in")
         }
         false => {
-            if let Some(at) = set.iter().position(|name| name == figure) {
+            // wherever it stands
+            while let Some(at) = set.iter().position(|name| name == figure) {
                 set.remove(at);
+                let now = text::Source::of(edited.clone());
+                let list = list_of(&now, &program, &address).ok_or_else(none)?;
                 remove_element(&mut edited, &list, at);
             }
             format!("leave {figure} out")

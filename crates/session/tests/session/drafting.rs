@@ -1095,6 +1095,23 @@ fn comments_in_a_set_stay_where_it_is_changed() {
 }
 
 #[test]
+fn a_figure_that_stands_twice_in_a_set_is_left_out_wherever_it_stands() {
+    let mut desk = Desk::recording("Plate", &[]);
+    for at in ["10,10", "50,10"] {
+        begin(&mut desk, "Circle");
+        enter(&mut desk, at);
+        made(enter(&mut desk, "4"));
+    }
+    desk.session.begin_each(desk.id, ((0.0, 0.0), (100.0, 100.0))).expect("two circles");
+    let twice = "in [circle, circle2, circle2] {";
+    desk.type_text(&desk.text().replace("in [circle, circle2] {", twice));
+    assert!(desk.text().contains(twice), "{}", desk.text());
+    desk.session.take_of_set(desk.id, "circle2").expect("one is left");
+    assert!(desk.text().contains("in [circle] {"), "{}", desk.text());
+    assert_eq!(desk.wrong(), []);
+}
+
+#[test]
 fn a_loop_runs_over_what_a_rubber_band_catches() {
     let mut desk = Desk::of("use geometry\nunit mm\n");
     desk.session.record(desk.id, "Plate").expect("a new program");
