@@ -79,3 +79,4 @@ pub use tools::copies::{Clip, Relations};
 pub use view::DocumentId;
 pub use views::listing::Listing;
 pub use views::picture::{readable, roomy, svg_at};
+pub use views::status::GAVE_WAY;

@@ -8,6 +8,8 @@ use kernel::{SlotId, Values};
 use plan::Source;
 use solve::Level;
 
+/// What a note of numbers that gave way begins with: where warnings are told, each is one, `given-yields`.
+pub const GAVE_WAY: &str = "given values gave way";
 /// How many numbers that gave way are named.
 const MOST_NAMED: usize = 3;
 
@@ -71,7 +73,7 @@ fn yielded(state: &State) -> Option<String> {
         0 => String::new(),
         n => format!(", and {n} more"),
     };
-    (!named.is_empty()).then(|| format!("given values gave way: {}{more}", named.join(", ")))
+    (!named.is_empty()).then(|| format!("{GAVE_WAY}: {}{more}", named.join(", ")))
 }
 
 fn unmet(open: &Open, u: &plan::Unmet) -> Option<Unmet> {
