@@ -9,8 +9,9 @@
 
 use crate::documents::{self, OpenError, Opened, find, open, open_sparingly};
 use crate::rows::{self, Row};
+use presentation::annotations::{self, Moved};
 use serde_json::{Value, json};
-use session::view::{Advice, CheckReport, DiagnosticView, Explanation, ValueRow};
+use session::view::{Advice, CheckReport, DiagnosticView, Explanation, PictureView, ValueRow};
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -440,13 +441,46 @@ fn write_advice(words: &mut String, advice: &[Advice]) {
     }
 }
 
+/// Whether what constraints say stands on a drawing: dimensions, signs of relations.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Dimensions {
+    Shown,
+    LeftOut,
+}
+
+/// A document as SVG, and as DXF.
+fn drawn(opened: &Opened, dimensions: Dimensions) -> [String; 2] {
+    let (session, id) = (&opened.session, opened.id);
+    let said = match dimensions {
+        Dimensions::Shown => session.annotations(id),
+        Dimensions::LeftOut => Vec::new(),
+    };
+    if said.is_empty() {
+        return [session.svg(id), session.dxf(id)];
+    }
+    let picture = session.picture(id);
+    let with_said = |picture: &mut PictureView, pixels| {
+        annotations::draw(picture, &said, &Moved::default(), pixels);
+    };
+    let (mut shown, mut dxf) = (picture.clone(), picture);
+    let pixels = session::roomy(&shown);
+    with_said(&mut shown, pixels);
+    annotations::draw_for_dxf(&mut dxf, with_said);
+    [session::svg_at(&shown, pixels), session.dxf_of(id, &dxf)]
+}
+
 /// Draws a document as SVG, into a file or onto standard output; as DXF into a file of that kind.
 ///
 /// # Errors
 /// If the file cannot be read or written.
-pub(crate) fn draw(path: &Path, output: Option<&Path>, form: Form) -> Result<Report, OpenError> {
+pub(crate) fn draw(
+    path: &Path,
+    output: Option<&Path>,
+    dimensions: Dimensions,
+    form: Form,
+) -> Result<Report, OpenError> {
     let opened = open(path)?;
-    let svg = opened.session.svg(opened.id);
+    let [svg, dxf] = drawn(&opened, dimensions);
     let undrawn = opened.session.undrawn(opened.id);
     let is_whole = undrawn.is_empty();
     let unpictured = opened.session.unpictured(opened.id);
@@ -455,7 +489,7 @@ pub(crate) fn draw(path: &Path, output: Option<&Path>, form: Form) -> Result<Rep
     let why: String =
         undrawn.iter().map(|why| format!("something is not drawn: {why}\n")).collect();
     let is_dxf = output.and_then(Path::extension).is_some_and(|e| e.eq_ignore_ascii_case("dxf"));
-    let svg = if is_dxf { opened.session.dxf(opened.id) } else { svg };
+    let svg = if is_dxf { dxf } else { svg };
     let Some(output) = output else {
         // what is printed is to be an SVG or nothing
         let words = if is_whole { svg } else { why };

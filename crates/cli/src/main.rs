@@ -87,6 +87,9 @@ enum Command {
         /// Where to write; standard output without it.
         #[arg(short, long)]
         output: Option<PathBuf>,
+        /// With what constraints say: dimensions, and signs of relations.
+        #[arg(long)]
+        dimensions: bool,
     },
     /// Draws every row of a table with a program, each at scale, with an index of all.
     Family(family::Arguments),
@@ -133,7 +136,13 @@ fn main() -> ExitCode {
         Command::Explain { file, path } => commands::explain(file, path.as_deref(), form),
         Command::Recognise { file, parts } => commands::recognise(file, parts, form),
         Command::Analyse { file } => commands::analyse(file, form),
-        Command::Draw { file, output } => commands::draw(file, output.as_deref(), form),
+        Command::Draw { file, output, dimensions } => {
+            let dimensions = match dimensions {
+                true => commands::Dimensions::Shown,
+                false => commands::Dimensions::LeftOut,
+            };
+            commands::draw(file, output.as_deref(), dimensions, form)
+        }
         Command::Family(arguments) => family::run(arguments, form),
         Command::Plot(arguments) => plot::run(arguments, form),
         Command::Import { file, output } => import::run(file, output.as_deref(), form),

@@ -154,6 +154,20 @@ fn a_drawing_fits_whatever_the_units_and_says_what_it_lacks() {
 }
 
 #[test]
+fn what_constraints_say_is_drawn_where_it_is_asked_for() {
+    let text = "use geometry\nunit mm\nl: Line { p1 = (0, 0)  p2 = (45, 0) }\n\
+                constraint l.length = 45 mm\n";
+    let words = |svg: &str| svg.lines().filter(|line| line.contains("45 mm")).count();
+    assert_eq!(words(&printed("draw-without", text, "draw", &[])), 0);
+    assert_eq!(words(&printed("draw-dimensions", text, "draw", &["--dimensions"])), 1);
+    let dxf = std::env::temp_dir().join("thinglab-draw-dimensions.dxf");
+    let to = ["--dimensions", "-o", dxf.to_str().expect("a plain path")];
+    assert!(asked("draw-dimensions-dxf", text, "draw", &to).status.success());
+    let written = std::fs::read_to_string(dxf).expect("it is written");
+    assert!(written.contains("DIMENSIONS") && written.contains("45 mm"), "{written}");
+}
+
+#[test]
 fn what_has_no_place_is_drawn_apart() {
     let svg = printed("draw-unplaced", DIVIDER, "draw", &[]);
     // what the words of the three things stand at

@@ -6,7 +6,7 @@
 
 mod drawn;
 
-pub use drawn::{elements, scaled};
+pub use drawn::{draw, draw_for_dxf, elements, scaled};
 
 use crate::paint::{DisplayList, Mark, note};
 use crate::sheet::View;

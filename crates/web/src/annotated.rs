@@ -124,11 +124,9 @@ impl Lab {
     pub fn draw_notes(self, picture: &mut PictureView, pixels: f64) {
         let Annotated { all, moved, .. } = self.annotated;
         let shown = untrack(|| all.with(|all| self.marked.with(|marked| seen(all, marked))));
-        let view = View { scale: pixels, vertical: picture.drawing.vertical, ..View::default() };
         let times = pixels / self.view.with_untracked(|view| view.scale);
         let moved = moved.with_untracked(|moved| annotations::scaled(moved, times));
-        let notes = annotations::notes(&shown, picture, &view, &moved);
-        picture.drawing.elements.extend(annotations::elements(&notes, &view));
+        annotations::draw(picture, &shown, &moved, pixels);
     }
 
     /// Whether anything is said on the drawing.

@@ -3,9 +3,11 @@
 //! In: notes where they stand. Out: elements on the sheet. No paper lies under words there, so that their own lines are
 //! broken where they stand.
 
-use super::{HEIGHT, Moved, Note, Pixels, half};
+use super::{HEIGHT, Moved, Note, Pixels, half, notes};
 use crate::sheet::View;
+use drawing::dxf::DxfOptions;
 use drawing::{Anchoring, Color, Element, Layer, Placement, Shape, Style, Tag};
+use session::view::{Annotation, PictureView};
 
 /// The layer of the sheet that annotations are on.
 const LAYER: &str = "DIMENSIONS";
@@ -18,6 +20,25 @@ const NOBODY: Tag = Tag(u32::MAX);
 pub fn scaled(moved: &Moved, times: f64) -> Moved {
     let far = |(key, (x, y)): (&String, &Pixels)| (key.clone(), (times * x, times * y));
     moved.iter().map(far).collect()
+}
+
+/// Adds to a picture what is said on it, where a unit of the sheet has so many pixels.
+pub fn draw(picture: &mut PictureView, said: &[Annotation], moved: &Moved, pixels: f64) {
+    let view = View { scale: pixels, vertical: picture.drawing.vertical, ..View::default() };
+    let notes = notes(said, picture, &view, moved);
+    picture.drawing.elements.extend(elements(&notes, &view));
+}
+
+/// Adds what is said on a picture that is written as DXF, where words are as high as they are written there: `draw` adds
+/// it where a unit has so many pixels. What is said may make the drawing larger, and its words with it.
+pub fn draw_for_dxf(picture: &mut PictureView, draw: impl Fn(&mut PictureView, f64)) {
+    let millimetres = picture.millimetres.unwrap_or(1.0);
+    let pixels = |picture: &PictureView| {
+        HEIGHT * millimetres / DxfOptions::of(&picture.drawing, millimetres).text_height
+    };
+    let mut noted = picture.clone();
+    draw(&mut noted, pixels(picture));
+    draw(picture, pixels(&noted));
 }
 
 /// Returns notes as elements of the sheet; what does not hold is as conspicuous there.

@@ -3,9 +3,8 @@
 use super::{ABSENT, Lab, Notice};
 use crate::server::Stored;
 use crate::{js, route, words};
-use drawing::dxf::DxfOptions;
 use leptos::prelude::*;
-use presentation::annotations::HEIGHT;
+use presentation::annotations::draw_for_dxf;
 use presentation::sheet::printed_true;
 use presentation::table::csv;
 use session::Session;
@@ -49,14 +48,7 @@ impl Lab {
     /// Hands the user the picture as DXF, in millimetres.
     pub fn export_dxf(self) {
         let Some((name, mut picture)) = self.drawn() else { return };
-        // words are as high as they are written there, for a drawing that has them
-        let millimetres = picture.millimetres.unwrap_or(1.0);
-        let pixels = |picture: &PictureView| {
-            HEIGHT * millimetres / DxfOptions::of(&picture.drawing, millimetres).text_height
-        };
-        let mut noted = picture.clone();
-        self.draw_notes(&mut noted, pixels(&picture));
-        self.draw_notes(&mut picture, pixels(&noted));
+        draw_for_dxf(&mut picture, |picture, pixels| self.draw_notes(picture, pixels));
         if let Some(dxf) = self.ask_of_shown(|session, id| session.dxf_of(id, &picture)) {
             js::download(&format!("{name}.dxf"), &dxf);
         }
