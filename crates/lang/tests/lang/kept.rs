@@ -1,7 +1,8 @@
 //! What an edit leaves as it was is kept, and means what lowering anew says.
 
 use base::Dice;
-use lang::{Lowered, lower};
+use lang::{Lowered, lower, lower_written};
+use std::rc::Rc;
 
 const CLASSES: &str = "class Widget { left: Real = 1  bottom: Real = 2  top: Real
     constraint top = left + bottom }
@@ -215,4 +216,103 @@ fn a_used_text_that_was_edited_says_what_it_says_now() {
         assert!(before.diagnostics.is_empty(), "{:?}", before.diagnostics);
         assert!(as_anew(text, &|_| Some(is.into()), Some(&before)).1, "{is}");
     }
+}
+
+/// A document with all that may stand around given numbers.
+const NUMBERS: &str = r#"use some
+class Widget { left: Real = 1  bottom: Real = 2  top: Real
+    constraint top = left + bottom }
+w: Widget { left = 5  bottom = 7 }
+x: Real = 3
+/// said
+u: Widget { left = 2 }
+wide: Length = 30 mm
+p: Box { corner.left = 4  size = (3, -8) }
+constraint x < 90
+few: List of 2 Real = [1, 2]
+z: Widget { left = x }
+v: Widget
+merge v.left = w.left
+q: Box { size = (1, 2) }
+// a word between
+k: Integer in 0..9 = 4
+check "it is so" {
+    set x to 4
+    expect w.left = 5
+}
+lesson "a step" {
+    say "more"
+    task w.left = 6
+    set w.left to 6
+}
+"#;
+/// What it uses.
+const SOME: &str = "class Pair { x: Real  y: Real }
+class Box { corner: Corner  size: Size }
+class Corner { left: Real = 1 }
+class Size is Pair { }
+";
+
+fn some(name: &str) -> Option<String> {
+    (name == "some").then(|| SOME.to_string())
+}
+
+/// Whether nothing was declared anew: what a class gives is the very same.
+fn takes_over(now: &Lowered, before: &Lowered) -> bool {
+    let given = |l: &Lowered| {
+        let class = l.document.class_named("Widget")?;
+        l.document.classes[class].givens.first().cloned()
+    };
+    matches!((given(now), given(before)), (Some(a), Some(b)) if Rc::ptr_eq(&a, &b))
+}
+
+#[test]
+fn numbers_written_anew_mean_what_lowering_the_text_gives() {
+    let first = lower(NUMBERS, &some, None);
+    assert_eq!(first.diagnostics, []);
+    let told = |l: &Lowered| format!("{}{:#?}{:?}", told(l), l.lessons, l.files);
+    let mut dice = Dice::new(7);
+    let (mut text, mut before, mut taken) = (NUMBERS.to_string(), first, 0);
+    for _ in 0..300 {
+        // some number is another, longer or shorter
+        let numbers: Vec<_> = text.match_indices(|c: char| c.is_ascii_digit()).collect();
+        let (at, _) = numbers[dice.below(numbers.len())];
+        let mut other = text.clone();
+        other.replace_range(at..=at, ["0", "7", "12.5", "-3", "5 mm"][dice.below(5)]);
+        let anew = lower(&other, &some, None);
+        if !anew.diagnostics.is_empty() || anew.document.scale != before.document.scale {
+            continue;
+        }
+        let now = lower_written(&other, &some, &before);
+        if takes_over(&now, &before) {
+            assert_eq!(told(&now), told(&anew), "{other}");
+            taken += 1;
+        }
+        (text, before) = (other, now);
+    }
+    assert!(taken > 60, "{taken} times");
+}
+
+#[test]
+fn what_is_more_than_a_number_is_lowered_anew() {
+    let before = lower(NUMBERS, &some, None);
+    let is_taken_over = |text: &str, load: &dyn Fn(&str) -> Option<String>| {
+        takes_over(&lower_written(text, load, &before), &before)
+    };
+    let others = [
+        ("x: Real = 3", "x: Real = 3 + u.left"),
+        ("x: Real = 3", "y: Real = 3"),
+        ("x: Real = 3", "x: Integer = 3"),
+        ("x: Real = 3", "x: Real"),
+        ("bottom = 7 }", "top = 7 }"),
+        ("constraint x < 90", "constraint x < 80"),
+        ("v: Widget", "v: Widget { left = 1 }"),
+    ];
+    for (from, to) in others {
+        let text = NUMBERS.replacen(from, to, 1);
+        assert!(!is_taken_over(&text, &some), "{text}");
+    }
+    let text = NUMBERS.replace("= 3\n", "= 4\n");
+    let changed = |name: &str| some(name).map(|text| format!("{text}// more\n"));
+    assert!(is_taken_over(&text, &some) && !is_taken_over(&text, &changed));
 }
