@@ -169,11 +169,11 @@ impl Lowerer<'_> {
         let range = added.givens_range();
         let old = &before.document.classes[before.document.root].givens[range.clone()];
         let are_same = new.len() == old.len() && new.iter().zip(old).all(|(a, b)| a.path == b.path);
-        let mut told = |given: Rc<Given>| {
+        let told = |given: Rc<Given>| {
             let unit = self.document.units.remove(&given.origin);
             (Given::clone(&given), self.origins.place(given.origin), unit)
         };
-        let givens = new.into_iter().map(&mut told).collect();
+        let givens = new.into_iter().map(told).collect();
         are_same.then_some(Anew { first: range.start, givens })
     }
 }

@@ -9,7 +9,6 @@ use presentation::marks::Marked;
 use presentation::numbers::exactly;
 use presentation::paint::{DisplayList, Mark};
 use presentation::paths::covers;
-use presentation::sheet::View;
 use session::Session;
 use session::view::{Annotation, Offer, PictureView, RowKind};
 

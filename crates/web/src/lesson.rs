@@ -122,16 +122,42 @@ pub fn Coach(
         {move || match (lab.lesson.get(), lab.lesson_offered.get()) {
             (Some(lesson), _) if lesson.at >= lesson.steps => view! { <Over lab=lab title=lesson.title /> }.into_any(),
             (Some(lesson), _) => view! { <Step lab=lab lesson=lesson /> }.into_any(),
-            (None, Some(title)) => view! {
-                <div class="coach" role="note">
-                    <p>{words::lesson_offered(&title)}</p>
-                    <button class="primary" on:click=move |_| to_work(lab, Lab::begin_lesson)>{words::LESSON_BEGIN}</button>
-                    <button class="bare" on:click=move |_| to_work(lab, |lab| lab.lesson_offered.set(None))>{words::FIRST_SKIP}</button>
-                </div>
-            }.into_any(),
+            (None, Some(title)) => view! { <Offered lab=lab title=title /> }.into_any(),
             (None, None) => ().into_any(),
         }}
     }
+}
+
+/// The lesson that a document offers.
+#[component]
+fn Offered(lab: Lab, title: String) -> impl IntoView {
+    let card = NodeRef::<Div>::new();
+    Effect::new(move |_| {
+        make_room(lab, card, move || lab.lesson_offered.with_untracked(Option::is_some));
+    });
+    let skip = |lab: Lab| {
+        lab.lesson_offered.set(None);
+        lab.card.set(0.0);
+    };
+    view! {
+        <div class="coach" role="note" node_ref=card>
+            <p>{words::lesson_offered(&title)}</p>
+            <button class="primary" on:click=move |_| to_work(lab, Lab::begin_lesson)>{words::LESSON_BEGIN}</button>
+            <button class="bare" on:click=move |_| to_work(lab, skip)>{words::FIRST_SKIP}</button>
+        </div>
+    }
+}
+
+/// Has the picture leave room for a card that lies over it, as long as that is there.
+fn make_room(lab: Lab, card: NodeRef<Div>, is_there: impl Fn() -> bool + 'static) {
+    let Some(card) = card.get() else { return };
+    // it has its size once it is laid out
+    request_animation_frame(move || {
+        let reaches = f64::from(card.offset_top() + card.offset_height());
+        if is_there() && lab.card.get_untracked() < reaches {
+            lab.card.set(reaches);
+        }
+    });
 }
 
 /// Does what a button of the card says, which may be gone then: whoever pressed it by a key is at the picture.
@@ -160,15 +186,8 @@ fn Step(lab: Lab, lesson: LessonView) -> impl IntoView {
     let card = NodeRef::<Div>::new();
     Effect::new(move |_| {
         hinted.track();
-        let Some(card) = card.get() else { return };
-        // it has its size once it is laid out
-        request_animation_frame(move || {
-            let reaches = f64::from(card.offset_top() + card.offset_height());
-            let goes_on = lab.lesson.with_untracked(Option::is_some);
-            if goes_on && lab.card.get_untracked() < reaches {
-                lab.card.set(reaches);
-            }
-        });
+        let goes_on = move || lab.lesson.with_untracked(Option::is_some);
+        make_room(lab, card, goes_on);
     });
     let hints = StoredValue::new(hints);
     let missing = StoredValue::new(missing);

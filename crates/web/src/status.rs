@@ -78,10 +78,16 @@ pub fn StatusLine(
         let held = drag.get().or_else(swept).or_else(wanted).or_else(|| said.get());
         held.or_else(|| hint.get()).or_else(idle)
     });
+    // until then it is presumed to be as much as before
+    let counting = Memo::new(move |_| {
+        lab.jobs.going.with(|going| going.as_ref().is_some_and(|g| g.kind == Kind::Freedom))
+    });
+    let explain = move || if counting.get() { words::COUNTING } else { words::EXPLAIN };
     view! {
-        <footer class="status" class:wrong=move || !holds.get() class:doubtful=doubtful>
+        <footer class="status" class:wrong=move || !holds.get() class:doubtful=doubtful
+            class:counting=counting>
             <button class="verdict" aria-expanded=move || lab.why.get().to_string()
-                aria-controls="why" title=words::EXPLAIN
+                aria-controls="why" title=explain
                 on:click=move |_| lab.why.update(|why| *why = !*why)>
                 {move || if holds.get() && !doubtful.get() { icons::holds() } else { icons::warning() }}
                 <span role="status" aria-label=words::STATUS>{sentence}</span>

@@ -72,3 +72,6 @@ pub fn place_one(class: &str) -> String {
 pub fn first_of_several(path: &str, class: &str) -> String {
     format!("the first: {path}, {class}")
 }
+/// The line of the status while it is counted how much is free.
+pub const COUNTING: &str =
+    "How much is free is being counted; until then it is as much as before. Why is it so?";
