@@ -363,6 +363,9 @@ fn value_words<'a>(state: &'a State, evaluator: &Evaluator<'a>, answer: &Answer<
     if let Some(curve) = Curve::of(evaluator, answer) {
         return curve.words();
     }
+    if let Some(places) = places_of(state, evaluator, answer) {
+        return counted(places, "place");
+    }
     match answer {
         Answer::Number(..) => values::in_words(&state.lowered.document, answer).unwrap_or_default(),
         Answer::List(items) => match items.iter().all(|item| matches!(item, Answer::Context(_))) {
@@ -378,6 +381,21 @@ fn value_words<'a>(state: &'a State, evaluator: &Evaluator<'a>, answer: &Answer<
                 format!("{}, area {}", counted(edges, "edge"), area.unwrap_or_default())
             }
         },
+    }
+}
+
+/// Through how many places something is drawn, where it is.
+fn places_of<'a>(
+    state: &'a State,
+    evaluator: &Evaluator<'a>,
+    answer: &Answer<'a>,
+) -> Option<usize> {
+    let document = &state.lowered.document;
+    let class = evaluator.class_of(answer).filter(|&c| compound::is_of_places(document, c))?;
+    let part = document.field_name(*document.layout(class).first()?);
+    match evaluator.of_part(answer, part).ok()? {
+        Answer::List(places) => Some(places.len()),
+        _ => None,
     }
 }
 

@@ -9,6 +9,7 @@ use super::{
 use crate::session::Session;
 use crate::view::{Change, DocumentId, Refusal};
 use crate::words;
+use eval::Answer;
 
 impl Session {
     /// Goes somewhere in the program that is recorded: what is drawn then is inserted there.
@@ -148,10 +149,21 @@ impl Session {
         self.document(id).recording.as_ref().map(|recording| recording.example.as_str())
     }
 
-    /// Returns the names of the parameters of what is recorded.
-    pub fn parameters(&self, id: DocumentId) -> Vec<String> {
+    /// Returns the names of the parameters of what is recorded that may be a value: numbers, truth values, words, options.
+    pub fn value_parameters(&self, id: DocumentId) -> Vec<String> {
         let open = self.document(id);
-        scene::parameters(&open.state, &home(open)).map(ToString::to_string).collect()
+        let (home, evaluator) = (home(open), open.state.evaluator(open.values()));
+        let path = home.path();
+        let example = kernel::Path(path.0.into_iter().take(1).collect());
+        let is_value = |name: &&base::Name| {
+            let answer = evaluator.at(&example.then(kernel::Step::Part((*name).clone())));
+            matches!(
+                answer,
+                Ok(Answer::Number(..) | Answer::Bool(_) | Answer::Text(_) | Answer::Option(..))
+            )
+        };
+        let names = scene::parameters(&open.state, &home).filter(is_value);
+        names.map(ToString::to_string).collect()
     }
 
     /// Goes to a step, and lets what is drawn next take its place: it keeps its name, and what speaks of it.

@@ -313,5 +313,7 @@ fn a_spline_is_drawn_through_places_that_are_picked_and_typed() {
         .set_parameters(desk.id, "wave", &[("width".into(), "80".into())])
         .expect("a value");
     assert_eq!(value(&desk, "wave.spline.finish"), "(80, 0)");
+    assert_eq!(value(&desk, "wave.spline"), "3 places");
+    assert_eq!(desk.session.value_parameters(desk.id), ["width"]);
     assert_eq!(desk.wrong(), []);
 }

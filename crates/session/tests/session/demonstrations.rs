@@ -298,7 +298,8 @@ fn a_construction_that_gives_an_operand_is_kept_only_if_that_is_said() {
 fn a_figure_that_is_a_parameter_is_in_sight_and_picked() {
     let mut desk = Desk::recording("Third", &[("from", "0,0"), ("to", "270,0")]);
     assert_eq!(desk.session.guides(desk.id).elements.len(), 2);
-    assert_eq!(desk.session.parameters(desk.id), ["from", "to"]);
+    // neither is offered where a number is wanted
+    assert_eq!(desk.session.value_parameters(desk.id), [""; 0]);
     // the pointer is nearer to the other end when the ratio is typed
     let third = draw(
         &mut desk,

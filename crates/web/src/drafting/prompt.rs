@@ -129,7 +129,7 @@ fn Parameters(lab: Lab) -> impl IntoView {
     let parameters = Memo::new(move |_| {
         lab.drafting.turned.track();
         let is_value = lab.drafting.prompt.with(|p| p.as_ref().is_some_and(|p| p.is_value));
-        let names = || lab.ask_of_shown(session::Session::parameters).unwrap_or_default();
+        let names = || lab.ask_of_shown(session::Session::value_parameters).unwrap_or_default();
         if is_value { names() } else { Vec::new() }
     });
     let choices = Memo::new(move |_| {
