@@ -681,12 +681,12 @@ fn an_angle_that_is_typed_turns_a_line_which_stays_as_long_as_it_was() {
     };
     let length = |desk: &Desk| {
         let of = |end: &str| desk.number(&format!("a.{end}"));
-        (of("p2.x") - of("p1.x")).hypot(of("p2.y") - of("p1.y"))
+        base::number::hypot(of("p2.x") - of("p1.x"), of("p2.y") - of("p1.y"))
     };
     let stays = |desk: &Desk, path: &str, at: (f64, f64)| {
         let [x, y] = ["x", "y"].map(|part| desk.number(&format!("{path}.{part}")));
         // written with the digits that a hand needs
-        assert!((x - at.0).hypot(y - at.1) < 1e-5, "{path}: ({x}, {y}), not {at:?}");
+        assert!(base::number::hypot(x - at.0, y - at.1) < 1e-5, "{path}: ({x}, {y}), not {at:?}");
     };
     let turned = (-200.0, 200.0 * 3_f64.sqrt());
     let mut desk = Desk::of(&lines(""));
