@@ -15,6 +15,8 @@ pub struct Customary {
     masses: Vec<&'static str>,
     lengths: Vec<&'static str>,
     time: Name,
+    /// True if it writes volts, amperes or watts: then its powers and energies are in watts and joules.
+    is_electric: bool,
 }
 
 /// A unit of a system, with the units of force, mass and length that it is made of; empty for none.
@@ -100,16 +102,21 @@ impl Customary {
             masses: Vec::new(),
             lengths: Vec::new(),
             time: Name::new("s"),
+            is_electric: false,
         };
         let mut tells = false;
         let mut times: Vec<&str> = Vec::new();
         for word in words {
             let Some(factor) = system.factors.iter().find(|f| f.spelling == *word) else {
-                let Dimension([length, mass, ..]) = units::unit(word)?.dimension;
-                if length != 0 || mass != 0 {
+                let dimension = units::unit(word)?.dimension;
+                let Dimension([length, mass, ..]) = dimension;
+                // volts, amperes and watts are everybody's
+                let is_electric = crate::composed::is_electric(word);
+                found.is_electric |= is_electric;
+                if !is_electric && (length != 0 || mass != 0) {
                     return None;
                 }
-                if units::unit(word)?.dimension == Dimension::TIME && !times.contains(word) {
+                if dimension == Dimension::TIME && !times.contains(word) {
                     times.push(word);
                 }
                 continue;
@@ -149,7 +156,9 @@ impl Customary {
         size: impl Fn(&str) -> f64,
     ) -> Option<String> {
         let Dimension([length, mass, time, others @ ..]) = dimension;
-        if others.iter().any(|&power| power != 0) || length == 0 && mass == 0 {
+        let is_energy = matches!(dimension, Dimension::ENERGY | Dimension::POWER) && !is_torque;
+        let is_other = others.iter().any(|&power| power != 0) || length == 0 && mass == 0;
+        if is_other || self.is_electric && is_energy {
             return None;
         }
         let cost = |powers: [i8; 3]| powers.iter().map(|p| p.unsigned_abs()).sum::<u8>();
@@ -172,8 +181,7 @@ impl Customary {
         let spell = |heavy: &str, long: &str| {
             let mut factors = vec![(heavy, power), (long, length), (self.time.as_str(), time)];
             // an energy is told from a torque by the order of its factors; so is a power
-            let is_energy = matches!(dimension, Dimension::ENERGY | Dimension::POWER);
-            if is_energy && !is_torque {
+            if is_energy {
                 factors.swap(0, 1);
             }
             joined(&factors)

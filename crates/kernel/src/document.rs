@@ -43,6 +43,8 @@ pub struct Document {
     pub usual: BTreeMap<(Dimension, Option<Name>), Usual>,
     /// The system of units in which the text counts, where that is not SI.
     pub customary: Option<crate::Customary>,
+    /// Quotients of the units that the text writes, by what they measure ([`crate::quotients`]).
+    pub quotients: BTreeMap<Dimension, Vec<Name>>,
     /// The units of given numbers as they are written, by where that is; bare numbers have none.
     pub units: BTreeMap<OriginId, Name>,
 }

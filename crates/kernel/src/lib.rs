@@ -15,6 +15,7 @@ pub mod builtin;
 pub mod check;
 pub mod class;
 pub mod command;
+mod composed;
 mod customary;
 pub mod document;
 mod instantiate;
@@ -31,6 +32,7 @@ pub use class::{
     Method, Parameter, Part, Primitive, Setting, Stay, Strength, Superclass, Switch, form,
 };
 pub use command::{Command, Literal};
+pub use composed::quotients;
 pub use customary::Customary;
 pub use document::{Document, PartRef, PartRole, Side, SideWay, Usual, Vertical, Voices};
 pub use instantiate::{Fault, FaultKind, MOST_THINGS, faults_of, instantiate, instantiate_again};

@@ -32,6 +32,9 @@ const MOST_READABLE: f64 = 1e6;
 /// Other numbers do not read well in the unit in which they were written.
 const READABLE: std::ops::Range<f64> = 1e-3..MOST_READABLE;
 
+/// A smaller number does not read well in a quotient of the units that the text writes.
+const LEAST_OF_QUOTIENT: f64 = 0.1;
+
 /// What is known of a number beside its value.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub struct Quantity<'a> {
@@ -171,6 +174,13 @@ fn spelling_of_text(x: f64, quantity: Quantity<'_>, document: &Document) -> Stri
     }
     let sort = || sort_in(document, class, dimension).unwrap_or_default();
     let is_made = dimension != Dimension::LENGTH && !is_bare(written);
+    if let Some(quotients) = document.quotients.get(&dimension).filter(|_| is_made) {
+        let readable = LEAST_OF_QUOTIENT..MOST_READABLE;
+        let fits = |s: &&Name| size(s) == 0.0 || readable.contains(&size(s));
+        if let Some(spelling) = quotients.iter().find(fits) {
+            return spelling.to_string();
+        }
+    }
     if let Some(customary) = document.customary.as_ref().filter(|_| is_made)
         && let Some(spelling) = customary.spelling(dimension, sort() == "Torque", size)
     {

@@ -161,6 +161,7 @@ fn counting_of(document: &Document) -> Counting {
         writes_lengths: document.writes_lengths,
         usual: document.usual.clone(),
         customary: document.customary.clone(),
+        quotients: document.quotients.clone(),
     }
 }
 
@@ -340,6 +341,7 @@ impl<'l> Lowerer<'l> {
                 writes_lengths: false,
                 usual: BTreeMap::new(),
                 customary: None,
+                quotients: BTreeMap::new(),
                 units: BTreeMap::new(),
             },
             visible: Visible::default(),

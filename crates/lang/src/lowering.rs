@@ -117,6 +117,7 @@ impl Lowerer<'_> {
         self.document.writes_lengths = counting.writes_lengths;
         self.document.usual = counting.usual;
         self.document.customary = counting.customary;
+        self.document.quotients = counting.quotients;
         let scale = self.document.scale;
         // what was read in other units is read anew
         self.before = self.before.filter(|before| before.document.scale == scale);

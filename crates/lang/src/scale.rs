@@ -9,7 +9,7 @@ use expr::dimension::Dimension;
 use kernel::builtin::{FUNCTIONS, NUMBER_MESSAGES, find};
 use kernel::quantity::{is_of_si, is_of_the_sheet, sharing};
 use kernel::{Customary, Quantity, Scale, Usual};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use syntax::ast::{
     Arg, Assign, AstNode, Expr, FieldExpr, Member, NumberExpr, Param, Part, Type, UnitLine, Value,
     Word,
@@ -44,6 +44,8 @@ pub(crate) struct Counting {
     pub(crate) usual: BTreeMap<(Dimension, Option<Name>), Usual>,
     /// The system of its units, where that is not SI.
     pub(crate) customary: Option<Customary>,
+    /// Quotients of its units.
+    pub(crate) quotients: BTreeMap<Dimension, Vec<Name>>,
 }
 
 /// Returns how a text counts that uses others; the scale is that of the text `before` where it is near.
@@ -67,13 +69,15 @@ pub(crate) fn of<'a>(
         && (any(is_of_the_sheet)
             || stated.iter().chain(&read).any(joins_a_length) && !has_bare_places(parse, &stated));
     let usual = usual(parse, &stated);
-    let customary = Customary::of(written_units(parse, &stated).iter().map(|unit| &**unit));
+    let written = written_units(parse, &stated);
+    let customary = Customary::of(written.iter().map(|unit| &**unit));
+    let quotients = kernel::quotients(&written);
     let keeps_length = has_unit || !any(|d| d == Dimension::LENGTH);
     let all = quantities.into_iter().chain(read.iter().filter_map(quantity)).collect();
     let best = best(all, keeps_length);
     let is_near = |scale: &Scale| scale.0.iter().zip(best.0).all(|(a, b)| a.abs_diff(b) <= NEAR);
     let before = before.filter(|scale| *scale != Scale::default()).filter(is_near);
-    Counting { scale: before.unwrap_or(best), writes_lengths, usual, customary }
+    Counting { scale: before.unwrap_or(best), writes_lengths, usual, customary, quotients }
 }
 
 /// Returns the units that a text writes for each sort of quantity; none for those that it writes in one of SI with a
@@ -131,7 +135,9 @@ fn usual(parse: &Parse, stated: &[NumberExpr]) -> BTreeMap<(Dimension, Option<Na
 fn written_units(parse: &Parse, stated: &[NumberExpr]) -> Vec<Name> {
     let told = stated.iter().filter(|n| !is_nothing(n)).filter_map(NumberExpr::unit);
     let sheet = parse.syntax().children().find_map(UnitLine::cast).map(|line| line.unit());
-    told.map(|unit| unit.text().into()).chain(sheet.map(|unit| Name::new(&unit))).collect()
+    let all = told.map(|unit| Name::new(unit.text())).chain(sheet.map(|unit| Name::new(&unit)));
+    let mut known = BTreeSet::new();
+    all.filter(|unit| known.insert(unit.clone())).collect()
 }
 
 fn is_nothing(number: &NumberExpr) -> bool {

@@ -52,6 +52,7 @@ impl Build {
             writes_lengths: false,
             usual: std::collections::BTreeMap::new(),
             customary: None,
+            quotients: std::collections::BTreeMap::new(),
             units: std::collections::BTreeMap::new(),
         };
         let mut b = Self {

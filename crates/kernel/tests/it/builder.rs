@@ -81,6 +81,7 @@ impl Builder {
             writes_lengths: false,
             usual: std::collections::BTreeMap::new(),
             customary: None,
+            quotients: std::collections::BTreeMap::new(),
             units: std::collections::BTreeMap::new(),
         }
     }

@@ -33,7 +33,10 @@ fn products_are_in_the_units_of_their_factors() {
         assert_eq!(found.as_deref(), Some(wanted), "{text:?}");
     }
     assert_eq!(shown(&["lbf", "ft", "mm"], 1.0, Dimension::AREA, false), None);
-    assert_eq!(shown(&["lbf", "V"], 1.0, Dimension::FORCE, false), None, "a volt is of SI");
+    let with_volts = ["lbf", "ft", "V", "A"];
+    let torque = shown(&with_volts, 10.0, Dimension::ENERGY, true);
+    assert_eq!(torque.as_deref(), Some("lbf*ft"), "a volt is everybody's");
+    assert_eq!(shown(&with_volts, 24.0, Dimension::POWER, false), None, "amperes make watts");
     assert_eq!(shown(&["lbf"], 1.0, Dimension::AREA, false), None, "no length is written");
     assert_eq!(shown(&["BTU", "ft", "h"], 1.0, Dimension::POWER, false), None, "heat is no work");
     assert_eq!(shown(&["ft"], 1.0, Dimension::TEMPERATURE, false), None);

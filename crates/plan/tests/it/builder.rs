@@ -49,6 +49,7 @@ impl Builder {
             writes_lengths: false,
             usual: std::collections::BTreeMap::new(),
             customary: None,
+            quotients: std::collections::BTreeMap::new(),
             units: std::collections::BTreeMap::new(),
         };
         let mut builder = Self { document };
