@@ -2,7 +2,7 @@
 //!
 //! In: a state. Out: for every line of the document that gives a value which does not count, where another part's
 //! does. What a class gives its things yields without a word: that is what a default is for. Where both are anchored
-//! neither yields, and the merge is an error.
+//! neither yields, and the merge is an error, of a class too.
 
 use crate::state::State;
 use crate::words::show_thing;
@@ -42,7 +42,7 @@ pub(crate) fn warnings(state: &State) -> Vec<Diagnostic> {
         let given = structure.given_in(slot).or_else(|| binding(structure, thing, slot));
         let (Some(given), Some(own)) = (given, structure.given_apart_in(thing)) else { continue };
         let is_own = |(term, _): (&GivenTerm, ThingId)| state.lowered.is_own_given(term.origin);
-        if given.0.origin == own.0.origin || !is_own(own) || !is_own(given) {
+        if given.0.origin == own.0.origin || is_own(own) != is_own(given) {
             continue;
         }
         let value = |(given, me): (&GivenTerm, ThingId)| value(state, &given.term, me);
@@ -52,6 +52,11 @@ pub(crate) fn warnings(state: &State) -> Vec<Diagnostic> {
         }
         let giver = |t: &ThingId| structure.given_apart_in(*t) == Some(given);
         let Some(by) = structure.merged_with(thing).into_iter().find(giver) else { continue };
+        let holds = is_anchored(thing) && is_anchored(by);
+        // a default yields, if it is not anchored in its class
+        if !holds && !is_own(own) {
+            continue;
+        }
         let (given, own) = (given.0, own.0);
         let place = state.lowered.place(own.origin);
         let (_, line) = lines.entry((place.span.start, place.span.end)).or_insert_with(|| {
@@ -59,7 +64,7 @@ pub(crate) fn warnings(state: &State) -> Vec<Diagnostic> {
             let counts = state.lowered.place(given.origin);
             (place, Line { parts, counts, values: Vec::new(), holds: false })
         });
-        line.holds |= is_anchored(thing) && is_anchored(by);
+        line.holds |= holds;
         line.values.push((slot, [was, is]));
     }
     lines.into_values().map(|(place, line)| warning(state, place, &line)).collect()
@@ -75,19 +80,23 @@ fn binding(structure: &Structure, thing: ThingId, slot: SlotId) -> Option<(&Give
     given.find(|(given, _)| !matches!(given.term, Term::Number { .. } | Term::Text(_)))
 }
 
-/// Returns where the document's own text says that a part is one with another, or what has the part is.
+/// Returns where the classes of what has a part say that it is one with another, or what has it is.
 ///
-/// Cost: a look at every merge of the document itself.
+/// Cost: a look at every merge of these classes.
 fn merged_at(state: &State, thing: ThingId, other: ThingId) -> Option<Place> {
     let (structure, document) = (&state.structure, &state.lowered.document);
     let all: Vec<ThingId> = around(structure, thing).chain(around(structure, other)).collect();
-    let merges = document.classes[document.root].merges.iter();
-    let mut found = merges.filter(|merge| {
-        let things = merge.paths.iter().filter_map(|p| structure.follow(kernel::DOCUMENT, p).ok());
-        let named = things.filter(|t| all.contains(t) || all.contains(&structure.merged[*t]));
-        named.count() > 1
+    let hosts = around(structure, thing);
+    let mut merges = hosts.flat_map(|host| {
+        let class = structure.things[host].class;
+        document.classes[class].merges.iter().map(move |merge| (host, merge))
     });
-    found.next().map(|merge| state.lowered.place(merge.origin))
+    let found = merges.find(|(host, merge)| {
+        let things = merge.paths.iter().filter_map(|p| structure.follow(*host, p).ok());
+        let within = |t: &ThingId| all.contains(t) || all.contains(&structure.merged[*t]);
+        things.filter(within).count() > 1
+    });
+    found.map(|(_, merge)| state.lowered.place(merge.origin))
 }
 
 /// Returns a thing and all that it is in: lists too, which own no part by its name.
