@@ -154,6 +154,7 @@ fn what_nests_overflows_no_stack() {
             lines(30, deep_lists) + "class C30 { x: Real }\nc: C0\n",
             Error("too-deep"),
         ),
+        ("lists of lists", format!("x: {}Real\n", "List of 2 ".repeat(500)), Error("too-deep")),
         ("brackets", format!("a: Real = {}\n", around(150, "(", "1", ")")), Holds),
         (
             "too many brackets",

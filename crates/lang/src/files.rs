@@ -245,6 +245,9 @@ fn names_of_parts(parse: &Parse) -> BTreeSet<String> {
 /// Returns the word after a number that was to be its unit, where that is what a diagnostic is at.
 pub(crate) fn word_for_unit(parse: &Parse, diagnostic: &Diagnostic) -> Option<SyntaxToken> {
     let span = diagnostic.place.span;
+    if diagnostic.code == "too-deep" {
+        return None;
+    }
     let word = syntax::token_from(&parse.syntax(), span.start)?;
     if syntax::span_of_token(&word) != span {
         return None;
