@@ -126,35 +126,72 @@ impl Diagnostic {
 ///
 /// Near enough: at most a third of the longer word's letters differ; of a single letter only the case.
 pub fn nearest<'a>(found: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
-    candidates
-        .into_iter()
-        .map(|c| (edit_distance(found, c), c))
-        .filter(|(d, c)| d * 3 <= found.chars().count().max(c.chars().count()).max(3))
-        .filter(|(d, c)| *d < found.chars().count() || c.eq_ignore_ascii_case(found))
-        .min_by_key(|(d, _)| *d)
-        .map(|(_, c)| c)
+    let found_letters: Vec<char> = found.chars().collect();
+    let (mut letters, mut rows) = (Vec::new(), [Vec::new(), Vec::new(), Vec::new()]);
+    let mut best: Option<(usize, &str)> = None;
+    for candidate in candidates {
+        letters.clear();
+        letters.extend(candidate.chars());
+        let mut most = found_letters.len().max(letters.len()).max(3) / 3;
+        if !candidate.eq_ignore_ascii_case(found) {
+            most = most.min(found_letters.len().saturating_sub(1));
+        }
+        // the first of those that are equally near
+        if let Some((least, _)) = best {
+            most = most.min(least.saturating_sub(1));
+        }
+        let is_better = |d: usize| best.is_none_or(|(least, _)| d < least);
+        let distance = edit_distance(&found_letters, &letters, most, &mut rows);
+        if let Some(d) = distance.filter(|d| is_better(*d)) {
+            best = Some((d, candidate));
+        }
+    }
+    best.map(|(_, candidate)| candidate)
 }
 
-/// Counts the letters to insert, delete, replace or swap with their neighbour to get from `a` to `b`.
-fn edit_distance(a: &str, b: &str) -> usize {
-    let (a, b): (Vec<char>, Vec<char>) = (a.chars().collect(), b.chars().collect());
-    let mut rows = vec![vec![0; b.len() + 1]; a.len() + 1];
+/// Counts the letters to insert, delete, replace or swap with their neighbour to get from `a` to `b`; None if there are
+/// more than `most`.
+///
+/// Cost: the length times `most`. Only what is so near to the diagonal is counted.
+fn edit_distance(
+    a: &[char],
+    b: &[char],
+    most: usize,
+    [before, last, row]: &mut [Vec<usize>; 3],
+) -> Option<usize> {
+    if a.len().abs_diff(b.len()) > most {
+        return None;
+    }
+    let far = most + 1;
+    for r in [&mut *before, &mut *last, &mut *row] {
+        r.clear();
+        r.resize(b.len() + 1, far);
+    }
     for i in 0..=a.len() {
-        for j in 0..=b.len() {
-            rows[i][j] = if i == 0 || j == 0 {
+        let (from, to) = (i.saturating_sub(most), b.len().min(i + most));
+        row.fill(far);
+        let mut least = far;
+        for j in from..=to {
+            row[j] = if i == 0 || j == 0 {
                 i + j
             } else {
                 let change = usize::from(a[i - 1] != b[j - 1]);
-                let mut best =
-                    (rows[i - 1][j] + 1).min(rows[i][j - 1] + 1).min(rows[i - 1][j - 1] + change);
+                let mut best = (last[j] + 1).min(row[j - 1] + 1).min(last[j - 1] + change);
                 if i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1] {
-                    best = best.min(rows[i - 2][j - 2] + 1);
+                    best = best.min(before[j - 2] + 1);
                 }
                 best
             };
+            least = least.min(row[j]);
         }
+        // a swap reaches over one row
+        if least > most && last.iter().all(|&d| d > most) {
+            return None;
+        }
+        std::mem::swap(before, last);
+        std::mem::swap(last, row);
     }
-    rows[a.len()][b.len()]
+    Some(last[b.len()]).filter(|d| *d <= most)
 }
 
 #[cfg(test)]
@@ -164,6 +201,15 @@ mod tests {
     #[test]
     fn a_swapped_letter_is_near() {
         assert_eq!(nearest("cetner", ["corner", "center", "width"]), Some("center"));
+    }
+    #[test]
+    fn of_several_the_nearest_is_meant_and_of_equals_the_first() {
+        assert_eq!(nearest("prat17", ["part1", "part17", "part71"]), Some("part17"));
+        assert_eq!(nearest("hight", ["light", "height", "weight"]), Some("light"));
+        assert_eq!(nearest("X", ["y", "x"]), Some("x"));
+        assert_eq!(nearest("x", ["y", "z"]), None);
+        assert_eq!(nearest("ab", ["ba"]), Some("ba"));
+        assert_eq!(nearest("", ["a", ""]), Some(""));
     }
     #[test]
     fn a_strange_word_is_not() {
