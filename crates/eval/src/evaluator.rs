@@ -400,12 +400,13 @@ impl<'a> Evaluator<'a> {
         Ok(Answer::List((from..=to).map(|i| Answer::plain(i as f64)).collect()))
     }
 
-    /// Reads a whole number.
+    /// Reads a whole number; one that is off by rounding alone, as 600 mm by 200 mm is, is one.
     pub(crate) fn whole(&self, answer: &Answer<'a>) -> Result<i64> {
         let (x, _) = self.operand(answer)?;
         let x = self.fixed_number(x);
-        if x.fract() == 0.0 && x.abs() < 1e15 {
-            Ok(x as i64)
+        let whole = x.round();
+        if (x - whole).abs() <= base::number::ROUNDING * x.abs() && x.abs() < 1e15 {
+            Ok(whole as i64)
         } else {
             let x = base::number::shortest(x);
             Err(Fault::no_answer(format!("{x} where a whole number is wanted")))

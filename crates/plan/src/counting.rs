@@ -10,9 +10,11 @@ use crate::meaning::{Meaning, slots_of_expression};
 use expr::Var;
 use kernel::{Path, Primitive, SlotId, ThingId};
 
-/// Returns a whole number, if it is one that counts.
+/// Returns a whole number, if it is one that counts: up to rounding, for 600 mm by 200 mm is one.
 pub(crate) fn whole(x: f64) -> Option<i64> {
-    (x == x.trunc() && x.abs() < 1e15).then_some(x as i64)
+    let whole = x.round();
+    let is_one = (x - whole).abs() <= base::number::ROUNDING * x.abs() && x.abs() < 1e15;
+    is_one.then_some(whole as i64)
 }
 
 impl<'a> Opening<'a> {

@@ -23,15 +23,18 @@ pub fn allowed_table(rule: &Term) -> Option<(&Name, &[Term])> {
 impl<'a> Evaluator<'a> {
     /// Says which values are allowed of a parameter, with their units.
     pub fn one_of_in_words(&self, name: &Name, values: &[Answer<'a>]) -> String {
-        let one = |value: &Answer<'a>| match value {
+        let values: Vec<String> = values.iter().map(|value| self.in_words(value)).collect();
+        format!("{name} has to be one of {}", values.join(", "))
+    }
+    /// Returns a value as people read it, a number with its unit.
+    pub(super) fn in_words(&self, value: &Answer<'a>) -> String {
+        match value {
             Answer::Number(x, dimension) => {
                 let quantity = Quantity { dimension: *dimension, ..Quantity::default() };
                 kernel::show_quantity(*x, quantity, self.document).with_unit()
             }
             other => self.text_of(other),
-        };
-        let values: Vec<String> = values.iter().map(one).collect();
-        format!("{name} has to be one of {}", values.join(", "))
+        }
     }
 }
 
@@ -85,7 +88,7 @@ impl<'a> Run<'_, 'a> {
                 if let (true, true, Ok(value)) =
                     (is_asked, is_new, self.evaluator.term(rule, frame))
                 {
-                    found.push((name.to_string(), self.evaluator.text_of(&value)));
+                    found.push((name.to_string(), self.evaluator.in_words(&value)));
                 }
             }
             Term::Send { to, .. } => self.parameters(program, to, frame, found),
