@@ -507,6 +507,7 @@ pub(crate) fn called_otherwise(word: &str) -> Option<&'static str> {
         "len" | "length" | "COUNT" | "size" => {
             "how many a list has is `list.count`, a text `text.length`"
         }
+        "Σ" | "∑" => "what a list comes to is `list.sum`",
         "math" | "Math" | "np" | "numpy" => "functions stand by themselves: `sqrt(2)`",
         "unknown" | "auto" | "any" => {
             "of what nothing is said the constraints decide: leave the value out"
@@ -664,6 +665,10 @@ pub(crate) fn unknown_unit(place: Place, spelling: &str) -> Diagnostic {
     match spelling {
         "weak" | "medium" | "strong" | "required" => {
             return d.hint(format!("a strength stands before its rule: `{spelling} constraint …`"));
+        }
+        "step" | "by" => {
+            return d
+                .hint("every second of a list is `for i in 0..2 { constraint xs[2 * i] = 1 }`");
         }
         "where" | "and" | "with" => {
             return d.hint("two rules are joined by `and`: `constraint x^2 = 2 and x > 0`");

@@ -47,9 +47,24 @@ fn add_tokens(text: &str, from: usize, lexed: &mut Lexed) {
     let mut count = Count::None;
     // how many `let`s of this line wait for their `in`
     let mut waiting = 0usize;
+    // up to where no text with texts in its values ends
+    let mut plain = from;
     while at < text.len() {
         let (kind, length) = token(&text[at..]);
         let end = at + length;
+        if kind == SyntaxKind::Text && at >= plain && opens_value(&text[at..end]) {
+            match end_around_texts(&text[at..]) {
+                Ok(length) => {
+                    let brace = at + text[at..end].rfind('{').unwrap_or_default();
+                    let span = Span::new(brace as u32, (at + length) as u32);
+                    lexed.faults.push((span, Fault::UnterminatedValue));
+                    lexed.tokens.push(RawToken { kind, start: at as u32 });
+                    (at, count) = (at + length, Count::None);
+                    continue;
+                }
+                Err(length) => plain = at + length,
+            }
+        }
         if kind == SyntaxKind::Text && closed(&text[at..end]) && add_pieces(&text[..end], at, lexed)
         {
             (at, count) = (end, Count::None);
@@ -119,6 +134,42 @@ impl Count {
             _ => Self::None,
         }
     }
+}
+
+/// Returns true for a text that ends at a quote within a value of it: `"no. {"` of `"no. {"0"}"`.
+fn opens_value(text: &str) -> bool {
+    if !text.contains('{') || !closed(text) {
+        return false;
+    }
+    let doubled = text.replace("{{", "");
+    doubled.rfind('{').is_some_and(|open| !doubled[open..].contains('}'))
+}
+
+/// Returns where a text ends that has texts in its values; as an error, where its line ends and it does not.
+///
+/// There are no such texts, but what is written so is one mistake.
+fn end_around_texts(text: &str) -> Result<usize, usize> {
+    let bytes = text.as_bytes();
+    // of what is open, innermost last, whether it is a text
+    let mut open: Vec<bool> = vec![true];
+    let mut at = 1;
+    while let Some(&byte) = bytes.get(at).filter(|b| **b != b'\n') {
+        let is_text = open.last() == Some(&true);
+        match byte {
+            b'\\' if is_text && bytes.get(at + 1) != Some(&b'\n') => at += 1,
+            b'{' if is_text && bytes.get(at + 1) == Some(&b'{') => at += 1,
+            b'{' => open.push(false),
+            b'}' if !is_text => drop(open.pop()),
+            b'"' if is_text => drop(open.pop()),
+            b'"' => open.push(true),
+            _ => {}
+        }
+        at += 1;
+        if open.is_empty() {
+            return Ok(at);
+        }
+    }
+    Err(at.min(text.len()))
 }
 
 /// Adds the tokens of the quoted text that begins at `start` and ends `text`, if there are values in it: `"R = {r} ohm"`.
@@ -450,6 +501,11 @@ mod tests {
             r#""R = {r.x} ohm, {2 mm}" x"#,
             r#"TextOpen "R = { | Ident r | Dot . | Ident x | TextMiddle } ohm, { | Number 2 | Unit mm | TextClose }" | Ident x"#,
         );
+        let nested = r#""no. {"{x}" + "0"} of" y"#;
+        check(nested, r#"Text "no. {"{x}" + "0"} of" | Ident y"#);
+        let faults = lex(nested).faults;
+        assert_eq!(faults, [(Span::new(5, 22), Fault::UnterminatedValue)], "one mistake");
+        check(r#""a {" b"#, r#"Text "a {" | Ident b"#);
         check(r#""{{a}} \\{b""#, r#"Text "{{a}} \\{b""#);
         assert_eq!(lex(r#""a {b""#).faults.len(), 1);
     }

@@ -207,6 +207,10 @@ impl<'t> Parser<'t> {
             word => word,
         }
     }
+    /// Returns what stands on the line before the current token.
+    pub(crate) fn line_before(&self) -> &'t str {
+        line_before(self.text, self.span_at(self.pos))
+    }
     /// Returns true if the member before this one replaces a part: `replace z: Real`.
     pub(crate) fn declared_before(&self) -> bool {
         let kind = self.tokens.get(self.previous + 2).map_or(Eof, |token| token.kind);
@@ -654,6 +658,12 @@ fn meant_by(text: &str, span: Span) -> Option<&'static str> {
         Some('&') if line_before(text, span).trim_end().ends_with('"') => {
             "texts are joined by `+`, or have the values in them: `\"{a}{b}\"`"
         }
+        Some('\'') if line_before(text, span).ends_with(|c: char| c.is_ascii_digit()) => {
+            match text[span.range().end..].starts_with(|c: char| c.is_ascii_digit()) {
+                true => "the digits of a number stand together: `10000`",
+                false => "feet and inches are a sum: `5 ft + 3 inch`",
+            }
+        }
         Some('\'' | '“' | '”' | '„' | '«' | '»' | '‘' | '’') => {
             "a text stands between straight double quotes: `\"hello\"`"
         }
@@ -672,6 +682,10 @@ fn meant_by(text: &str, span: Span) -> Option<&'static str> {
             "a factorial is a product: `(1..5).product`"
         }
         Some('!') => "write `not`",
+        Some('%') if line_before(text, span).trim().is_empty() => "a comment begins with `//`",
+        Some('%') if line_before(text, span).trim_end().ends_with('"') => {
+            "a text has its values in braces: `\"x = {x}\"`"
+        }
         Some('%') => "the remainder is `x mod 3`; right after a number `%` is percent",
         Some('#') if is_colour(text, span) => "a colour is a text: `\"#ff8000\"`",
         Some('#') => "a comment begins with `//`",

@@ -351,7 +351,9 @@ fn text_with_values(p: &mut Parser<'_>) -> u32 {
             break;
         }
         if !p.eat(TextMiddle) {
-            p.expected("expected-brace", "`}` after the value");
+            let is_format = p.at(Colon) || p.at(Comma);
+            let hint = is_format.then(|| "digits are asked for: `{x.text(digits: 3)}`".to_string());
+            p.expected_hint("expected-brace", "`}` after the value", hint);
             break;
         }
     }

@@ -303,7 +303,14 @@ fn assigned(p: &mut Parser<'_>) {
         p.bump();
         return value(p);
     }
+    let adds = |word: &str| {
+        [".append(", ".push(", ".add(", ".insert("].iter().any(|call| word.contains(call))
+    };
     let hint = (p.behind(1) == RParen).then(|| {
+        if adds(p.text_between(first, p.pos() - 1)) {
+            return "nothing is added step by step: a list has what its value says, `[1, 2, 3]`"
+                .into();
+        }
         format!(
             "what is asked is the value of something: `name => {}`",
             p.quoted(first, p.pos() - 1)
@@ -453,7 +460,8 @@ fn merge(p: &mut Parser<'_>) {
     }
     path(p);
     if !p.at(Eq) {
-        let hint = p.at(Comma).then(|| "merged are things with `=`: `merge a = b`".to_string());
+        let is_joined = p.at(Comma) || p.at(SyntaxKind::AndKw);
+        let hint = is_joined.then(|| "merged are things with `=`: `merge a = b`".to_string());
         p.expected_hint("expected-merge", "`=` and what to merge it with", hint);
     }
     while p.eat(Eq) {

@@ -3,6 +3,7 @@
 pub(super) mod calls;
 pub(super) mod elsewhere;
 pub(super) mod numbers;
+mod paper;
 
 use super::members::is_keyword;
 use crate::kind::SyntaxKind::{
@@ -30,6 +31,7 @@ pub(super) fn unclosed(p: &mut Parser<'_>, opener: usize) {
 pub(super) fn of_member(p: &mut Parser<'_>) -> bool {
     numbers::grouped_digits(p)
         || numbers::decimal_comma(p)
+        || paper::of_member(p)
         || elsewhere::of_member(p)
         || comment(p)
         || declared_elsewhere(p)
@@ -42,7 +44,6 @@ pub(super) fn of_member(p: &mut Parser<'_>) -> bool {
         || class_and_brackets(p)
         || values_in_braces(p)
         || relation_in_words(p)
-        || anchored_value(p)
         || several_values(p)
         || numbers::time_of_day(p)
         || prefixed_text(p)
@@ -146,9 +147,9 @@ fn comment(p: &mut Parser<'_>) -> bool {
 
 /// `let x = 3`, `var x`, `const g = 9.81`, `int n`
 fn declared_elsewhere(p: &mut Parser<'_>) -> bool {
-    const WORDS: [&str; 12] = [
+    const WORDS: [&str; 14] = [
         "let", "var", "val", "const", "def", "dim", "int", "float", "double", "number", "string",
-        "part",
+        "part", "given", "known",
     ];
     let is_one = (p.at(LetKw) || p.at(Ident) && WORDS.contains(&p.word(0)))
         && p.nth(1) == Ident
@@ -158,6 +159,7 @@ fn declared_elsewhere(p: &mut Parser<'_>) -> bool {
         let has_value = p.nth(2) == Eq && !p.begins_line(2);
         let value = if has_value { p.text_between(at + 3, p.line_end()) } else { "" };
         let is_plain = !value.contains(|c: char| c.is_alphabetic() || c == '(');
+        let is_quantity = (p.nth(3), p.nth(4)) == (Number, Unit) && at + 4 == p.line_end();
         // `(x) => 2 * x`
         let is_function = (p.nth(3), p.nth(4), p.nth(5), p.nth(6))
             == (LParen, Ident, RParen, FatArrow)
@@ -169,6 +171,11 @@ fn declared_elsewhere(p: &mut Parser<'_>) -> bool {
                 p.word(4),
                 p.quoted_line(at + 7)
             ),
+            value if is_quantity => {
+                let unit = expr::units::unit(p.word(4)).and_then(|unit| unit.dimension.named());
+                let class = unit.unwrap_or("Real");
+                format!("a part is declared with its class: `{name}: {class} = {value}`")
+            }
             value if is_plain => {
                 format!("a part is declared with its class: `{name}: Real = {value}`")
             }
@@ -429,27 +436,6 @@ pub(super) fn constant_without_class(p: &mut Parser<'_>) {
     p.report_mistake((at, at), said, Some((p.span_at(at - 1), format!("{name}: {class}"))));
 }
 
-/// `anchor x = 3`
-fn anchored_value(p: &mut Parser<'_>) -> bool {
-    let is_one = p.at(Eq)
-        && !p.begins_line(0)
-        && p.behind(1) == Ident
-        && p.behind(2) == Ident
-        && matches!(p.text_between(p.pos() - 2, p.pos() - 2), "anchor" | "stay");
-    if is_one {
-        let at = p.pos();
-        let (name, value) = (p.text_between(at - 1, at - 1), p.word(1));
-        let word = p.text_between(at - 2, at - 2);
-        let said = (
-            "expected-member",
-            "found `=`, wanted the end of the line".to_string(),
-            format!("give the value by itself: `{name} = {value}`, and then `{word} {name}`"),
-        );
-        p.report_mistake((at, at), said, None);
-    }
-    is_one
-}
-
 /// `x = 3 within 1e-9 and y = 4`: returns true where `and` or `or` stands behind a tolerance.
 pub(super) fn joined_after_tolerance(p: &mut Parser<'_>) -> bool {
     let is_one = !p.begins_line(0) && (p.at(AndKw) || p.at(OrKw));
@@ -574,6 +560,7 @@ pub(super) fn value_for_class(p: &Parser<'_>) -> Option<String> {
         NotKw if p.behind(1) == Ident => {
             Some("unlike is `!=`, no thing of a class `not (x is C)`".into())
         }
+        Colon => Some("one `:` is enough".into()),
         LParen | LBracket | Minus => {
             Some(format!("a class follows `:`; a value is given with `=`: `{name} = …`"))
         }

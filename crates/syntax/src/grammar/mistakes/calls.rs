@@ -2,8 +2,8 @@
 
 use super::MEMBER;
 use crate::kind::SyntaxKind::{
-    AndKw, Colon, Eof, Eq, FatArrow, Greater, GreaterEq, Ident, LBrace, LParen, Less, LessEq,
-    RParen, Text,
+    AndKw, Colon, DotDot, Eof, Eq, FatArrow, Greater, GreaterEq, Ident, LBrace, LParen, Less,
+    LessEq, RParen, Text,
 };
 use crate::parser::Parser;
 
@@ -106,6 +106,7 @@ pub(in crate::grammar) fn no_operand(p: &Parser<'_>) -> Option<String> {
         (AndKw, Less | LessEq | Greater | GreaterEq) => {
             Some("comparisons stand in a chain: `0 < x < 3`".into())
         }
+        (DotDot, Eq) => Some("both ends belong to a range: `1..3`".into()),
         (FatArrow, LBrace) => {
             Some("what is answered stands behind `=>` without braces and without `return`".into())
         }

@@ -104,6 +104,10 @@ fn sign(p: &Parser<'_>) -> Option<String> {
     let before = |n: usize| p.text_between(p.pos().saturating_sub(n), p.pos().saturating_sub(n));
     let hint = match p.current() {
         Comma if of == "use" => format!("each has a line of its own: `use {}`", p.word(1)),
+        Comma if of == "unit" => {
+            "a sheet has one unit, that of its lengths; others stand behind their numbers, `30 deg`"
+                .into()
+        }
         Comma if ends_line(p, 1) => "nothing follows the comma: leave it out".into(),
         Comma if rule_follows(p) && of == "expect" => "each has its own `expect`".into(),
         Comma if rule_follows(p) => "two rules are joined by `and`".into(),
@@ -146,6 +150,9 @@ fn sign(p: &Parser<'_>) -> Option<String> {
         }
         Ident if p.behind(1) == Unit && expr::units::unit(p.word(0)).is_some() => {
             format!("units are joined without spaces: `{}*{}`", before(1), p.word(0))
+        }
+        Ident if before(1) == "%" && p.word(0) == "of" => {
+            format!("a part of something is a product: `{}% * {}`", before(2), p.word(1))
         }
         Number | Ident if before(1) == "%" && p.behind(2) == Number => {
             format!("the remainder is `{} mod {}`", before(2), p.word(0))
