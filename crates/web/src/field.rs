@@ -49,7 +49,8 @@ pub fn Edit(
     done: impl Fn() + Copy + Send + 'static,
 ) -> impl IntoView {
     let input = NodeRef::<Input>::new();
-    let begun = StoredValue::new(value.clone());
+    let shown = to_read(&value);
+    let begun = StoredValue::new(value);
     let error = RwSignal::new(None::<String>);
     let over = StoredValue::new(false);
     Effect::new(move |_| {
@@ -85,7 +86,7 @@ pub fn Edit(
     };
     view! {
         <span class="edit" on:click=|e| e.stop_propagation() on:dblclick=|e| e.stop_propagation()>
-            <input node_ref=input prop:value=to_read(&value) aria-label=path
+            <input node_ref=input prop:value=shown aria-label=path
                 aria-invalid=move || error.with(Option::is_some).to_string()
                 on:keydown=key
                 on:blur=move |_| {
