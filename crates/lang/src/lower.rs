@@ -585,6 +585,11 @@ impl Lowered {
         let class = before.checked_sub(1).map(|last| self.class_spans[last]);
         place.file == OWN && class.is_none_or(|class| class.end < place.span.end)
     }
+    /// Returns true for a part that its class declares as a `constant`.
+    pub fn is_constant(&self, class: ClassId, part: &Name) -> bool {
+        let line = self.document.primary_line(class);
+        line.into_iter().any(|class| self.names.constants.contains(&(class, part.clone())))
+    }
     /// Returns the names of what the document's own text uses.
     pub fn used(&self) -> Vec<String> {
         let members = self.files[OWN].members_of(&[SyntaxKind::Use]);

@@ -2,7 +2,9 @@
 
 use crate::document::Open;
 use crate::host::Host;
+use crate::session::Session;
 use crate::state::{Planned, Solved, State, Structured};
+use crate::view::DocumentId;
 use lang::{Lowered, Lowering};
 use plan::{Planner, Plans};
 
@@ -113,5 +115,17 @@ impl Opening {
                 _ => self = self.go_on(host),
             }
         }
+    }
+}
+
+impl Session {
+    /// Opens a document that is looked at, in as little room as it takes: its plans are forgotten once they have served,
+    /// here and by [`Session::forget_plans`].
+    pub fn open_sparingly(&mut self, name: &str, text: &str) -> DocumentId {
+        self.end_opening(Opening::sparing(name, text))
+    }
+    /// Forgets the plans of a document. What asks for one plans anew.
+    pub fn forget_plans(&mut self, id: DocumentId) {
+        self.document_mut(id).planner.forget_plans();
     }
 }

@@ -71,15 +71,6 @@ impl Session {
         self.documents.push(open);
         id
     }
-    /// Opens a document that is looked at, in as little room as it takes: its plans are forgotten once they have served,
-    /// here and by [`Session::forget_plans`].
-    pub fn open_sparingly(&mut self, name: &str, text: &str) -> DocumentId {
-        self.end_opening(Opening::sparing(name, text))
-    }
-    /// Forgets the plans of a document. What asks for one plans anew.
-    pub fn forget_plans(&mut self, id: DocumentId) {
-        self.document_mut(id).planner.forget_plans();
-    }
     /// Begins to open a document.
     pub fn begin_opening(&self, name: &str, text: &str) -> Opening {
         Opening::of(name, text)

@@ -342,4 +342,9 @@ twice: Acceleration = 2 * constants.g // of two
     // no constant yields
     desk.set("here.period", 2.0).expect("the length can be another");
     assert_eq!(desk.number("here.g"), 9.80665);
+    // what an anchor holds may be let go: the expression stays
+    let text = "w: Real = 3\nanchor w\nsize: Real = 2 * w\n";
+    let desk = &mut Desk::of(text);
+    assert!(desk.set("size", 10.0).is_err());
+    assert_eq!(desk.text(), text);
 }
