@@ -1045,8 +1045,8 @@ fn an_if_is_drawn_by_two_demonstrations() {
     assert_eq!(steps.iter().filter(|step| step.starts_with("if ")).count(), 1, "{steps:?}");
 }
 
-#[test]
-fn what_is_asked_of_the_first_of_a_set_is_forgotten_where_undo_brings_another() {
+/// A program that draws two circles and has begun a loop over both.
+fn each_of_two_circles() -> Desk {
     let mut desk = Desk::recording("Plate", &[]);
     for at in ["10,10", "50,10"] {
         begin(&mut desk, "Circle");
@@ -1054,6 +1054,12 @@ fn what_is_asked_of_the_first_of_a_set_is_forgotten_where_undo_brings_another() 
         made(enter(&mut desk, "4"));
     }
     desk.session.begin_each(desk.id, ((0.0, 0.0), (100.0, 100.0))).expect("two circles");
+    desk
+}
+
+#[test]
+fn what_is_asked_of_the_first_of_a_set_is_forgotten_where_undo_brings_another() {
+    let mut desk = each_of_two_circles();
     begin(&mut desk, "Circle");
     enter(&mut desk, "circle2.center");
     made(enter(&mut desk, "1"));
@@ -1096,13 +1102,7 @@ fn comments_in_a_set_stay_where_it_is_changed() {
 
 #[test]
 fn a_figure_that_stands_twice_in_a_set_is_left_out_wherever_it_stands() {
-    let mut desk = Desk::recording("Plate", &[]);
-    for at in ["10,10", "50,10"] {
-        begin(&mut desk, "Circle");
-        enter(&mut desk, at);
-        made(enter(&mut desk, "4"));
-    }
-    desk.session.begin_each(desk.id, ((0.0, 0.0), (100.0, 100.0))).expect("two circles");
+    let mut desk = each_of_two_circles();
     let twice = "in [circle, circle2, circle2] {";
     desk.type_text(&desk.text().replace("in [circle, circle2] {", twice));
     assert!(desk.text().contains(twice), "{}", desk.text());
