@@ -22,13 +22,15 @@ pub(crate) enum Effort {
     Tests,
     /// For trying a change: as for the tests, and what is compiled is kept in pieces.
     Quick,
+    /// As people get it, but undivided; its functions mark that they have been called.
+    Followed,
 }
 
 impl Effort {
     /// The page's profile in Cargo.toml.
     fn page_profile(self) -> &'static str {
         match self {
-            Effort::Full => "wasm-release",
+            Effort::Full | Effort::Followed => "wasm-release",
             Effort::Tests => "wasm-tests",
             Effort::Quick => "wasm-quick",
         }
@@ -48,8 +50,13 @@ pub(crate) fn build(compiler: &WasmCompiler, effort: Effort) -> Result<Option<Ma
 }
 
 /// The files of the assets that are worth compressing.
-const COMPRESSED: [&str; 6] =
-    ["codemirror.js", "host.js", "page.js", "painter.js", "stamps.js", "style.css"];
+const COMPRESSED: [&str; 7] =
+    ["codemirror.js", "host.js", "page.js", "painter.js", "rest.js", "stamps.js", "style.css"];
+
+/// Which functions of the page come after a first drag; `cargo run -p xtask -- figures later` writes it.
+pub(crate) fn later() -> PathBuf {
+    top().join("crates/web/later.txt")
+}
 
 /// Compiles a package's program of the same name for the browser; gives the folder of its module: `NAME.js`, and
 /// `NAME_bg.wasm` that it loads. For the tests it is taken down what was made, and the package is linted where the
@@ -67,11 +74,15 @@ pub(crate) fn module(
     let made = target().join("wasm32-unknown-unknown").join(profile).join(package);
     let made = made.with_extension("wasm");
     let wasm = compile(package, compiler, effort)?;
-    let module = target().join("bindgen").join(profile).join(package);
+    let folder = if effort == Effort::Followed { "followed" } else { profile };
+    let module = target().join("bindgen").join(folder).join(package);
+    let is_divided = package == "web" && matches!(effort, Effort::Full | Effort::Tests);
     let compressed = COMPRESSED.map(|name| top().join("crates/web/assets").join(name));
     let is_stale =
         |(name, file): (&str, &PathBuf)| is_older(&module.join(format!("{name}.br")), file);
-    if is_older(&module.join(format!("{package}_bg.wasm")), &made)
+    let code = module.join(format!("{package}_bg.wasm"));
+    if is_older(&code, &made)
+        || is_divided && is_older(&code, &later())
         || COMPRESSED.into_iter().zip(&compressed).any(is_stale)
     {
         say!("page: making its module");
@@ -86,6 +97,10 @@ pub(crate) fn module(
             // a smaller module is read sooner, for each page anew
             Effort::Tests => _ = bindgen.arg("--quick"),
             Effort::Quick => _ = bindgen.args(["--quick", "--named"]),
+            Effort::Followed => _ = bindgen.args(["--quick", "--followed"]),
+        }
+        if is_divided {
+            bindgen.arg("--later").arg(later());
         }
         bindgen.arg(&made).arg(&module).args(&compressed);
         run("the page's module was not made", quiet(&mut bindgen))?;
@@ -125,7 +140,7 @@ pub(crate) fn build_command(effort: Effort, selection: &[&str]) -> Result<PathBu
             tools::lint(&mut command);
             "debug"
         }
-        Effort::Quick => "debug",
+        Effort::Quick | Effort::Followed => "debug",
     };
     run("thinglab did not compile", quiet(&mut command))?;
     let target =

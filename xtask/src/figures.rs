@@ -1,5 +1,6 @@
 //! What `cargo bench-table browser` calls: builds the page of figures and reads it in a browser. And what
-//! `cargo bench-table lab` calls: builds the lab and visits it.
+//! `cargo bench-table lab` calls: builds the lab and visits it. `figures later` visits it too, and keeps which of its
+//! functions a first drag does not run.
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode, Stdio};
@@ -16,6 +17,8 @@ pub(crate) enum Of {
     Browser,
     /// The lab's, as people get it.
     Lab,
+    /// None: which functions of the page come after a first drag, kept for its next making.
+    Later,
 }
 
 /// Reads the command line.
@@ -25,6 +28,7 @@ pub(crate) enum Of {
 pub(crate) fn parse(arguments: &[String]) -> Result<(Of, Missing), String> {
     let (of, rest) = match arguments.split_first() {
         Some((first, rest)) if first == "lab" => (Of::Lab, rest),
+        Some((first, rest)) if first == "later" => (Of::Later, rest),
         _ => (Of::Browser, arguments),
     };
     match rest {
@@ -40,42 +44,43 @@ pub(crate) fn run((of, missing): (Of, Missing)) -> ExitCode {
     let (Some(compiler), Some(browser)) = (tools::wasm_compiler(), tools::browser()) else {
         return ExitCode::from(2);
     };
-    if let Of::Lab = of {
-        return lab(&compiler, &browser);
-    }
-    let table = bundle::module("figures", &compiler, Effort::Full).and_then(|(module, _)| {
-        let page = written(&module).map_err(|error| format!("no page of figures: {error}"))?;
-        shown(&browser, &page)
-    });
-    match table {
-        Ok(table) => {
-            say!("{table}");
-            ExitCode::SUCCESS
+    let told = match of {
+        Of::Lab => visited(&compiler, &browser, Effort::Full, "lab-figures"),
+        Of::Later => visited(&compiler, &browser, Effort::Followed, "lab-later").and_then(|list| {
+            fs::write(bundle::later(), list).map_err(|error| format!("not written: {error}"))?;
+            Ok(format!("{} is new", bundle::later().display()))
+        }),
+        Of::Browser => {
+            bundle::module("figures", &compiler, Effort::Full).and_then(|(module, _)| {
+                let page =
+                    written(&module).map_err(|error| format!("no page of figures: {error}"))?;
+                shown(&browser, &page)
+            })
         }
-        Err(why) => {
-            say!("{why}");
-            ExitCode::FAILURE
-        }
-    }
+    };
+    let (said, code) = match told {
+        Ok(table) => (table, ExitCode::SUCCESS),
+        Err(why) => (why, ExitCode::FAILURE),
+    };
+    say!("{said}");
+    code
 }
 
-/// Builds the lab as people get it, and has it visited.
-fn lab(compiler: &WasmCompiler, browser: &Path) -> ExitCode {
-    let built = bundle::build(compiler, Effort::Full);
-    match built.and_then(|_| bundle::build_command(Effort::Quick, &[])) {
-        Ok(thinglab) => {
-            let mut visit =
-                tools::cargo(&["run", "--quiet", "--package", "browser", "--bin", "lab-figures"]);
-            visit.env("THINGLAB", thinglab).env("CHROMIUM", browser);
-            match visit.status() {
-                Ok(status) if status.success() => ExitCode::SUCCESS,
-                Ok(_) | Err(_) => ExitCode::FAILURE,
-            }
-        }
-        Err(why) => {
-            say!("{why}");
-            ExitCode::FAILURE
-        }
+/// Builds the lab, and has it visited by a program of the browser's package; gives what that prints.
+fn visited(
+    compiler: &WasmCompiler,
+    browser: &Path,
+    effort: Effort,
+    visitor: &str,
+) -> Result<String, String> {
+    bundle::build(compiler, effort)?;
+    let thinglab = bundle::build_command(Effort::Quick, &[])?;
+    let mut visit = tools::cargo(&["run", "--quiet", "--package", "browser", "--bin", visitor]);
+    visit.env("THINGLAB", thinglab).env("CHROMIUM", browser).stderr(Stdio::inherit());
+    let output = visit.output().map_err(|error| format!("{visitor}: {error}"))?;
+    match output.status.success() {
+        true => Ok(String::from_utf8_lossy(&output.stdout).trim_end().into()),
+        false => Err(format!("{visitor} failed")),
     }
 }
 

@@ -1,5 +1,5 @@
 //! What the browser's scripts do for the page: `assets/host.js` (the server), `assets/painter.js`
-//! (the canvas), `assets/page.js` (small things), `assets/worker.js` (long jobs) and `assets/codemirror.js` (the text
+//! (the canvas), `assets/page.js` (small things), `assets/worker.js` (long jobs), `assets/rest.js` (the code that comes later) and `assets/codemirror.js` (the text
 //! editor, built from `assets/editor/editor.src.js`, fetched by `assets/editor.js`).
 //!
 //! All offsets are UTF-8 byte offsets into the editor's text.
@@ -22,6 +22,17 @@ pub fn after_painting(run: impl FnOnce() + 'static) {
 extern "C" {
     /// Sends a request with the server's token; gives `[status, text]`, status 0 without a server.
     pub async fn request(method: &str, path: &str, body: Option<&str>) -> Array;
+}
+
+#[wasm_bindgen(raw_module = "./rest.js")]
+extern "C" {
+    /// Fetches the code that a first drag does not run, while the page goes on.
+    #[wasm_bindgen(js_name = fetchRest)]
+    pub fn fetch_rest();
+
+    /// Fetches it at once. Functions that are not there yet call it of themselves.
+    #[wasm_bindgen(js_name = loadRest)]
+    pub fn load_rest();
 }
 
 #[wasm_bindgen(raw_module = "./editor.js")]

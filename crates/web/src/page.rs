@@ -23,7 +23,7 @@ use crate::status::{Asked, Recognition, Refused, StatusLine};
 use crate::strip::Strip;
 use crate::structure::Structure;
 use crate::why::Why;
-use crate::{bench, icons, keyboard, probe, route, words};
+use crate::{bench, icons, js, keyboard, probe, route, words};
 use leptos::ev;
 use leptos::prelude::*;
 
@@ -73,6 +73,13 @@ pub fn Page() -> impl IntoView {
             Some((title, false)) => format!("{title} — {}", words::LAB),
             None => String::from(words::LAB),
         });
+    });
+    Effect::new(move |was_there: Option<bool>| {
+        let is_there = ready.get() && !lab.arriving.get();
+        if is_there && was_there == Some(false) {
+            js::after_painting(js::fetch_rest);
+        }
+        is_there || was_there == Some(true)
     });
     let shown = Memo::new(move |_| lab.current.get());
     view! {

@@ -11,6 +11,7 @@ use wasm_bindgen::{JsCast, JsValue};
 
 /// Answers jobs from now on.
 pub fn start() {
+    js::load_rest();
     let mut desk = Desk::default();
     let answer = Closure::<dyn FnMut(Uint8Array, Function)>::new(move |job: Uint8Array, tell| {
         // the page is of the same build: its bytes are those of a job

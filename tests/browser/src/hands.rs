@@ -78,6 +78,20 @@ pub async fn point(visit: &Visit, (x, y): (f64, f64), button: u64) {
 /// # Panics
 /// Where the browser refuses.
 pub async fn drag(visit: &Visit, from: (f64, f64), to: (f64, f64)) {
+    let actions = carried(from, to).then(PointerAction::Up { button: MOUSE_BUTTON_LEFT });
+    visit.client.perform_actions(actions).await.expect("the mouse drags");
+    tokio::time::sleep(Duration::from_millis(100)).await;
+}
+
+/// As [`drag`], and keeps it in the hand.
+///
+/// # Panics
+/// Where the browser refuses.
+pub async fn carry(visit: &Visit, from: (f64, f64), to: (f64, f64)) {
+    visit.client.perform_actions(carried(from, to)).await.expect("the mouse drags");
+}
+
+fn carried(from: (f64, f64), to: (f64, f64)) -> MouseActions {
     let at = |k: f64| PointerAction::MoveTo {
         duration: Some(Duration::from_millis(30)),
         x: (from.0 + k * (to.0 - from.0)).round(),
@@ -89,11 +103,7 @@ pub async fn drag(visit: &Visit, from: (f64, f64), to: (f64, f64)) {
     for k in 1..=5 {
         actions = actions.then(at(f64::from(k) / 5.0));
     }
-    actions = actions
-        .then(PointerAction::Pause { duration: Duration::from_millis(80) })
-        .then(PointerAction::Up { button: MOUSE_BUTTON_LEFT });
-    visit.client.perform_actions(actions).await.expect("the mouse drags");
-    tokio::time::sleep(Duration::from_millis(100)).await;
+    actions.then(PointerAction::Pause { duration: Duration::from_millis(80) })
 }
 
 /// Presses a key while others are held.

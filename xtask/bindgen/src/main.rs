@@ -1,7 +1,13 @@
-//! `bindgen [--quick] [--named] PAGE.wasm FOLDER [FILE…]`: writes the module `PAGE.js` and its `PAGE_bg.wasm` into the
-//! folder, and beside them, compressed by brotli as `NAME.br`, these two and further files. `--quick` compresses
-//! them little; `--named` keeps the names of functions for whoever looks where time goes, a sixth of the module.
+//! `bindgen [--quick] [--named] [--later LIST | --followed] PAGE.wasm FOLDER [FILE…]`: writes the module `PAGE.js` and
+//! its `PAGE_bg.wasm` into the folder, and beside them, compressed by brotli as `NAME.br`, these two and further files.
+//! `--quick` compresses them little; `--named` keeps the names of functions for whoever looks where time goes, a sixth
+//! of the module. `--later` leaves the functions of a list to `PAGE_rest.wasm`; `--followed` has the module mark which
+//! of them are called, and writes to `PAGE.functions` where, and their keys.
 
+mod split;
+
+use std::collections::BTreeSet;
+use std::fmt::Write as _;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -9,40 +15,27 @@ use std::{fs, io};
 
 use wasm_bindgen_cli_support::Bindgen;
 
+const USAGE: &str =
+    "bindgen [--quick] [--named] [--later LIST | --followed] PAGE.wasm FOLDER [FILE…]";
+
+/// What becomes of the module that bindgen makes.
+enum Then {
+    AsItIs,
+    Divided(BTreeSet<u32>),
+    Followed,
+}
+
+struct Wish {
+    quality: u32,
+    is_named: bool,
+    then: Then,
+    page: PathBuf,
+    folder: PathBuf,
+    further: Vec<PathBuf>,
+}
+
 fn main() -> ExitCode {
-    let mut arguments = std::env::args().skip(1).peekable();
-    let quality = match arguments.next_if(|first| first == "--quick") {
-        Some(_) => QUICK,
-        None => QUALITY,
-    };
-    let is_named = arguments.next_if(|first| first == "--named").is_some();
-    let (Some(page), Some(folder)) = (arguments.next(), arguments.next()) else {
-        let _ = writeln!(io::stderr(), "bindgen [--quick] [--named] PAGE.wasm FOLDER [FILE…]");
-        return ExitCode::from(2);
-    };
-    let name = Path::new(&page).file_stem().map(|stem| stem.to_string_lossy().into_owned());
-    let mut bindgen = Bindgen::new();
-    // Without the default path the module cannot find its own .wasm.
-    let result = bindgen
-        .input_path(&page)
-        .out_name(&name.unwrap_or_default())
-        .typescript(false)
-        .remove_name_section(!is_named)
-        .remove_producers_section(true)
-        .omit_default_module_path(false)
-        .web(true)
-        .and_then(|bindgen| bindgen.generate(&folder));
-    let stem = Path::new(&page).file_stem().map(|stem| stem.to_string_lossy().into_owned());
-    let made = ["_bg.wasm", ".js"].map(|end| {
-        Path::new(&folder).join(format!("{}{end}", stem.as_deref().unwrap_or_default()))
-    });
-    let further: Vec<PathBuf> = arguments.map(PathBuf::from).collect();
-    let written = result.map_err(|error| format!("{error:#}")).and_then(|()| {
-        let mut all = made.iter().chain(&further);
-        all.try_for_each(|file| compress(file, Path::new(&folder), quality))
-            .map_err(|error| error.to_string())
-    });
-    match written {
+    match parsed().and_then(|wish| run(&wish)) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             let _ = writeln!(io::stderr(), "bindgen: {error}");
@@ -51,9 +44,75 @@ fn main() -> ExitCode {
     }
 }
 
-/// How hard the compressor tries, and how far back it looks, as a power of two: hard enough that more gains
-/// less than a hundredth.
-const QUALITY: u32 = 10;
+fn parsed() -> Result<Wish, String> {
+    let mut arguments = std::env::args().skip(1).peekable();
+    let mut is_asked = |option: &str| arguments.next_if(|first| first == option).is_some();
+    let quality = if is_asked("--quick") { QUICK } else { QUALITY };
+    let is_named = is_asked("--named");
+    let then = if is_asked("--followed") {
+        Then::Followed
+    } else if is_asked("--later") {
+        let list = arguments.next().ok_or(USAGE)?;
+        let text = fs::read_to_string(&list).map_err(|error| format!("{list}: {error}"))?;
+        Then::Divided(split::keys(&text))
+    } else {
+        Then::AsItIs
+    };
+    let mut path = || arguments.next().map(PathBuf::from).ok_or(USAGE);
+    let (page, folder) = (path()?, path()?);
+    Ok(Wish {
+        quality,
+        is_named,
+        then,
+        page,
+        folder,
+        further: arguments.map(PathBuf::from).collect(),
+    })
+}
+
+fn run(wish: &Wish) -> Result<(), String> {
+    let name = wish.page.file_stem().ok_or(USAGE)?.to_string_lossy();
+    let keeps_names = wish.is_named || !matches!(wish.then, Then::AsItIs);
+    // Without the default path the module cannot find its own .wasm.
+    Bindgen::new()
+        .input_path(&wish.page)
+        .out_name(&name)
+        .typescript(false)
+        .remove_name_section(!keeps_names)
+        .remove_producers_section(true)
+        .omit_default_module_path(false)
+        .web(true)
+        .and_then(|bindgen| bindgen.generate(&wish.folder))
+        .map_err(|error| format!("{error:#}"))?;
+    let beside = |end: &str| wish.folder.join(format!("{name}{end}"));
+    let module = beside("_bg.wasm");
+    let told = |error: io::Error| error.to_string();
+    let mut files = vec![module.clone(), beside(".js")];
+    match &wish.then {
+        Then::AsItIs => {}
+        Then::Divided(later) => {
+            let parts = split::split(&fs::read(&module).map_err(told)?, later, wish.is_named)?;
+            fs::write(&module, parts.first).map_err(told)?;
+            files.push(beside("_rest.wasm"));
+            fs::write(beside("_rest.wasm"), parts.rest).map_err(told)?;
+        }
+        Then::Followed => {
+            let followed = split::follow(&fs::read(&module).map_err(told)?)?;
+            let mut list = followed.address.to_string();
+            for key in followed.keys {
+                // a String takes all that is written
+                let _ = write!(list, "\n{key:08x}");
+            }
+            fs::write(&module, followed.module).map_err(told)?;
+            fs::write(beside(".functions"), list).map_err(told)?;
+        }
+    }
+    let mut all = files.iter().chain(&wish.further);
+    all.try_for_each(|file| compress(file, &wish.folder, wish.quality)).map_err(told)
+}
+
+/// How hard the compressor tries, and how far back it looks, as a power of two. The hardest gains a twenty-fifth.
+const QUALITY: u32 = 11;
 const QUICK: u32 = 1;
 const WINDOW: u32 = 24;
 

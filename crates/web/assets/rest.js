@@ -1,0 +1,51 @@
+// The rest of the code: what is not run until a first drag (`xtask/bindgen/src/split.rs`). It is fetched when the page
+// stands, or at its first call.
+
+import { isWorker, showCrash } from "./page.js"
+import { initSync } from "./web.js"
+
+const address = new URL("web_rest.wasm", import.meta.url)
+const AGAIN_MS = 5000
+let isThere = false
+
+const isMissing = () => !isThere && "is_divided" in initSync()
+
+// Fetches it while the page goes on; where the server does not answer, later again.
+export async function fetchRest() {
+  if (!isMissing()) return
+  try {
+    begin(await WebAssembly.compileStreaming(fetch(address)))
+  } catch (error) {
+    // what is of another build never fits; its first call says so
+    if (error instanceof WebAssembly.LinkError) return
+    await new Promise((resolve) => setTimeout(resolve, AGAIN_MS))
+    await fetchRest()
+  }
+}
+
+// Fetches it at once: the code that calls it waits.
+export function loadRest() {
+  if (!isMissing()) return
+  try {
+    const request = new XMLHttpRequest()
+    request.open("GET", address, false)
+    // the only way to bytes that does not give way to the page
+    request.overrideMimeType("text/plain; charset=x-user-defined")
+    request.send()
+    const text = request.responseText
+    const bytes = new Uint8Array(text.length)
+    for (let i = 0; i < bytes.length; i++) bytes[i] = text.charCodeAt(i)
+    begin(new WebAssembly.Module(bytes))
+  } catch (error) {
+    const advice = "A part of its code could not be fetched. What you made is kept in this browser."
+    if (!isWorker()) showCrash("The lab has stopped", advice, "Reload", String(error))
+    throw error
+  }
+}
+
+function begin(rest) {
+  // it may have come both ways
+  if (isThere) return
+  new WebAssembly.Instance(rest, { first: initSync() })
+  isThere = true
+}

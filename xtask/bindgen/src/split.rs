@@ -1,0 +1,271 @@
+//! A module in two parts: the functions that a first drag runs, and the others, which may come later.
+//!
+//! The first part has everything but the bodies of the later functions. In their place stand stubs, which have the
+//! second part loaded when it is not there yet and call through the table. The second part imports the first one's
+//! memory, tables, globals and functions, and puts its own into the table when it is instantiated. Which functions are
+//! later decides only what is sent when: any division is correct. `crates/web/later.txt` lists them by [`key`], as an
+//! instrumented page ([`follow`]) was seen not to call them; what is not listed is of the first part.
+
+use std::collections::BTreeSet;
+
+use walrus::ir::Value;
+use walrus::{
+    ConstExpr, ElementItems, ElementKind, Export, ExportItem, FunctionBuilder, FunctionId,
+    FunctionKind, GlobalId, GlobalKind, ImportKind, ImportedFunction, LocalId, Module,
+    ModuleConfig, TableId,
+};
+
+/// The name of the first part among the imports of the second.
+const FIRST: &str = "first";
+/// What the page imports to have the second part loaded at once (`crates/web/assets/rest.js`).
+const LOAD: &str = "loadRest";
+
+/// The two parts, as WebAssembly.
+pub(crate) struct Parts {
+    pub(crate) first: Vec<u8>,
+    pub(crate) rest: Vec<u8>,
+}
+
+/// What FNV-1a begins with, at 32 bits.
+const BASIS: u32 = 0x811c_9dc5;
+
+/// A function's key: the 32-bit FNV-1a hash of its name without the compiler's hashes of crates (`core[1f…]`), which
+/// differ from build to build.
+fn key(name: &str) -> u32 {
+    let mut hash = BASIS;
+    let mut rest = name;
+    while !rest.is_empty() {
+        let (text, after) = rest.split_once('[').unwrap_or((rest, ""));
+        let is_hash = |inner: &str| inner.len() > 8 && inner.bytes().all(|b| b.is_ascii_hexdigit());
+        rest = after
+            .split_once(']')
+            .filter(|(inner, _)| is_hash(inner))
+            .map_or(after, |(_, next)| next);
+        hash = text.bytes().fold(hash, hashed);
+    }
+    hash
+}
+
+fn hashed(hash: u32, byte: u8) -> u32 {
+    (hash ^ u32::from(byte)).wrapping_mul(0x0100_0193)
+}
+
+/// The keys that a list names, which has them in hexadecimal between spaces, and remarks after `#`.
+pub(crate) fn keys(list: &str) -> BTreeSet<u32> {
+    let lines = list.lines().filter(|line| !line.starts_with('#'));
+    lines
+        .flat_map(str::split_whitespace)
+        .filter_map(|key| u32::from_str_radix(key, 16).ok())
+        .collect()
+}
+
+fn read(bytes: &[u8], is_named: bool) -> Result<Module, String> {
+    let mut config = ModuleConfig::new();
+    config.generate_name_section(is_named).generate_producers_section(false);
+    config.parse(bytes).map_err(|error| format!("{error:#}"))
+}
+
+/// Divides a module whose functions have names, which are dropped unless they are wanted.
+///
+/// # Errors
+/// A module that is none, or that does not import what loads its second part.
+pub(crate) fn split(bytes: &[u8], later: &BTreeSet<u32>, is_named: bool) -> Result<Parts, String> {
+    let mut one = read(bytes, is_named)?;
+    let mut two = read(bytes, is_named)?;
+    let is_later = |function: &walrus::Function| {
+        let name = function.name.as_deref();
+        matches!(function.kind, FunctionKind::Local(_))
+            && name.is_some_and(|name| later.contains(&key(name)))
+    };
+    let later: Vec<bool> = one.funcs.iter().map(is_later).collect();
+    let table = function_table(&one)?;
+    let slots = one.tables.get(table).initial;
+    let count = later.iter().filter(|&&is_later| is_later).count() as u64;
+    for module in [&mut one, &mut two] {
+        let table = function_table(module)?;
+        let table = module.tables.get_mut(table);
+        table.initial += count;
+        table.maximum = table.maximum.map(|most| most + count);
+    }
+    let zero = ConstExpr::Value(Value::I32(0));
+    let is_loaded = one.globals.add_local(walrus::ValType::I32, true, false, zero);
+    let build = format!("of_{:08x}", bytes.iter().fold(BASIS, |hash, &byte| hashed(hash, byte)));
+    stand_in(&mut one, &later, slots, is_loaded)?;
+    detach(&mut two, &later, slots)?;
+    share(&mut one, &mut two, is_loaded, &build)?;
+    Ok(Parts { first: one.emit_wasm(), rest: two.emit_wasm() })
+}
+
+fn function_table(module: &Module) -> Result<TableId, String> {
+    let table = module.tables.main_function_table().map_err(|error| error.to_string())?;
+    table.ok_or_else(|| String::from("the module has no table of functions"))
+}
+
+/// Puts stubs in the place of the later functions.
+fn stand_in(
+    module: &mut Module,
+    later: &[bool],
+    slots: u64,
+    is_loaded: GlobalId,
+) -> Result<(), String> {
+    let load = module.imports.iter().find_map(|import| match import.kind {
+        ImportKind::Function(load) if import.name == LOAD => Some(load),
+        _ => None,
+    });
+    let load = load.ok_or_else(|| String::from("the page does not import loadRest"))?;
+    let table = function_table(module)?;
+    let ensure = {
+        let mut builder = FunctionBuilder::new(&mut module.types, &[], &[]);
+        builder.func_body().global_get(is_loaded).if_else(
+            None,
+            |_| {},
+            |otherwise| {
+                otherwise.call(load);
+            },
+        );
+        builder.finish(Vec::new(), &mut module.funcs)
+    };
+    let ids: Vec<FunctionId> = module.funcs.iter().map(walrus::Function::id).collect();
+    let later = ids.into_iter().zip(later).filter(|&(_, &is_later)| is_later);
+    for ((id, _), slot) in later.zip(slots..) {
+        let kind = module.funcs.get(id).ty();
+        let (params, results) = module.types.params_results(kind);
+        let (params, results) = (params.to_vec(), results.to_vec());
+        let arguments: Vec<LocalId> = params.iter().map(|&kind| module.locals.add(kind)).collect();
+        let mut stub = FunctionBuilder::new(&mut module.types, &params, &results);
+        let mut body = stub.func_body();
+        body.call(ensure);
+        for &argument in &arguments {
+            body.local_get(argument);
+        }
+        body.const_(Value::I32(slot as i32)).call_indirect(kind, table);
+        module.funcs.get_mut(id).kind = FunctionKind::Local(stub.local_func(arguments));
+    }
+    Ok(())
+}
+
+/// Leaves of a module its later functions, in their slots of the table; all else is imported.
+fn detach(module: &mut Module, later: &[bool], slots: u64) -> Result<(), String> {
+    module.start = None;
+    for export in module.exports.iter().map(Export::id).collect::<Vec<_>>() {
+        module.exports.delete(export);
+    }
+    for data in module.data.iter().map(walrus::Data::id).collect::<Vec<_>>() {
+        module.data.delete(data);
+    }
+    for element in module.elements.iter().map(walrus::Element::id).collect::<Vec<_>>() {
+        module.elements.delete(element);
+    }
+    let table = function_table(module)?;
+    let imports = &mut module.imports;
+    for memory in module.memories.iter_mut() {
+        memory.data_segments.clear();
+        memory.import = Some(imports.add(FIRST, "m", memory.id()));
+    }
+    for (i, table) in module.tables.iter_mut().enumerate() {
+        table.elem_segments.clear();
+        table.import = Some(imports.add(FIRST, &format!("t{i}"), table.id()));
+    }
+    for (i, id) in
+        module.globals.iter().map(walrus::Global::id).collect::<Vec<_>>().into_iter().enumerate()
+    {
+        module.globals.get_mut(id).kind =
+            GlobalKind::Import(imports.add(FIRST, &format!("g{i}"), id));
+    }
+    let mut own = Vec::new();
+    for ((i, function), is_later) in module.funcs.iter_mut().enumerate().zip(later) {
+        match (&mut function.kind, is_later) {
+            (_, true) => own.push(function.id()),
+            (FunctionKind::Import(imported), _) => {
+                let import = imports.get_mut(imported.import);
+                import.module = String::from(FIRST);
+                import.name = format!("f{i}");
+            }
+            (_, false) => {
+                let import = imports.add(FIRST, &format!("f{i}"), function.id());
+                let ty = function.ty();
+                function.kind = FunctionKind::Import(ImportedFunction { import, ty });
+            }
+        }
+    }
+    let offset = ConstExpr::Value(Value::I32(slots as i32));
+    let element =
+        module.elements.add(ElementKind::Active { table, offset }, ElementItems::Functions(own));
+    module.tables.get_mut(table).elem_segments.insert(element);
+    walrus::passes::gc::run(module);
+    Ok(())
+}
+
+/// Has the first part export what the second one imports; the second one says in `is_loaded` that it is there. This has
+/// a name of the `build`: parts of two builds do not fit.
+fn share(
+    one: &mut Module,
+    two: &mut Module,
+    is_loaded: GlobalId,
+    build: &str,
+) -> Result<(), String> {
+    let functions: Vec<FunctionId> = one.funcs.iter().map(walrus::Function::id).collect();
+    let tables: Vec<TableId> = one.tables.iter().map(walrus::Table::id).collect();
+    let globals: Vec<GlobalId> = one.globals.iter().map(walrus::Global::id).collect();
+    let memory = one.get_memory_id().map_err(|error| error.to_string())?;
+    for import in two.imports.iter() {
+        let place = import.name.get(1..).and_then(|number| number.parse::<usize>().ok());
+        let item = match import.kind {
+            ImportKind::Memory(_) => ExportItem::Memory(memory),
+            ImportKind::Table(_) => ExportItem::Table(tables[place.unwrap_or_default()]),
+            ImportKind::Global(_) => ExportItem::Global(globals[place.unwrap_or_default()]),
+            ImportKind::Function(_) => ExportItem::Function(functions[place.unwrap_or_default()]),
+            ImportKind::Tag(_) => {
+                return Err(String::from("a module with exceptions is not divided"));
+            }
+        };
+        one.exports.add(&import.name, item);
+    }
+    one.exports.add(build, is_loaded);
+    // by this the page knows that there is a rest
+    one.exports.add("is_divided", is_loaded);
+    let (loaded, _) = two.add_import_global(FIRST, build, walrus::ValType::I32, true, false);
+    let mut begin = FunctionBuilder::new(&mut two.types, &[], &[]);
+    begin.func_body().i32_const(1).global_set(loaded);
+    two.start = Some(begin.finish(Vec::new(), &mut two.funcs));
+    walrus::passes::gc::run(one);
+    Ok(())
+}
+
+/// Where an instrumented module marks what has been called: a byte a function, from this address on, which is the end
+/// of the memory that the module asked for.
+pub(crate) struct Followed {
+    pub(crate) module: Vec<u8>,
+    /// The functions' keys, in the order of their bytes.
+    pub(crate) keys: Vec<u32>,
+    pub(crate) address: u64,
+}
+
+/// Has every function mark that it has been called.
+pub(crate) fn follow(bytes: &[u8]) -> Result<Followed, String> {
+    const PAGE: u64 = 1 << 16;
+    let mut module = read(bytes, true)?;
+    let memory = module.get_memory_id().map_err(|error| error.to_string())?;
+    let address = module.memories.get(memory).initial * PAGE;
+    let mut keys = Vec::new();
+    for function in module.funcs.iter_mut() {
+        let FunctionKind::Local(body) = &mut function.kind else { continue };
+        let place = address + keys.len() as u64;
+        keys.push(key(function.name.as_deref().unwrap_or_default()));
+        let mark = walrus::ir::MemArg { align: 1, offset: place };
+        body.builder_mut()
+            .func_body()
+            .instr_at(
+                0,
+                walrus::ir::Store {
+                    memory,
+                    kind: walrus::ir::StoreKind::I32_8 { atomic: false },
+                    arg: mark,
+                },
+            )
+            .instr_at(0, walrus::ir::Const { value: Value::I32(1) })
+            .instr_at(0, walrus::ir::Const { value: Value::I32(0) });
+    }
+    module.memories.get_mut(memory).initial += (keys.len() as u64).div_ceil(PAGE);
+    Ok(Followed { module: module.emit_wasm(), keys, address })
+}
