@@ -12,6 +12,7 @@ use kernel::program::{Block, Carried, Program, Says, Step};
 use kernel::{Argument, ClassId, OriginId, Term, ThingId};
 use std::rc::Rc;
 
+mod bounds;
 mod demands;
 pub use demands::allowed_table;
 
@@ -444,7 +445,7 @@ impl<'a> Run<'_, 'a> {
             Says::Value(term) => {
                 let value = self.evaluator.count_entity();
                 let value = value.and_then(|()| self.evaluator.term(term, &making.frame));
-                match value {
+                match value.and_then(|answer| self.within_bounds(answer)) {
                     Ok(answer) => making.add(step, answer),
                     Err(fault) => return Err(self.ended(step, &making.frame, Some(term), fault)),
                 }
