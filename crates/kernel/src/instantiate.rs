@@ -17,6 +17,7 @@ use std::rc::Rc;
 mod bind;
 mod body;
 mod copies;
+mod counting;
 mod fill;
 mod finish;
 mod givens;

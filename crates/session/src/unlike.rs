@@ -1,11 +1,12 @@
 //! Parts that are one and are given unlike values: a warning that says which of these counts.
 //!
 //! In: a state. Out: for every line of the document that gives a value which does not count, where another part's
-//! does. What a class gives its things yields without a word: that is what a default is for. Where both are anchored
-//! neither yields, and the merge is an error, of a class too.
+//! does. What a class gives its things yields without a word, for that is what a default is for: but one that the class
+//! anchors is told where it yields. Where both are anchored neither yields, and the merge is an error, of a class too.
 
 use crate::state::State;
 use crate::words::show_thing;
+use crate::yielding;
 use base::number::ROUNDING;
 use base::{Diagnostic, Place};
 use eval::Answer;
@@ -25,6 +26,8 @@ struct Line {
     values: Vec<(SlotId, [Value; 2])>,
     /// True if both are anchored at what they are given, in one coordinate at least.
     holds: bool,
+    /// True if what does not count is what a class gives and anchors.
+    of_class: bool,
 }
 
 /// Returns a warning for every line that gives what does not count.
@@ -32,17 +35,21 @@ struct Line {
 /// Cost: a look at every thing that is merged.
 pub(crate) fn warnings(state: &State) -> Vec<Diagnostic> {
     let structure = &state.structure;
-    let mut lines: BTreeMap<(u32, u32), (Place, Line)> = BTreeMap::new();
+    let mut lines: BTreeMap<(u32, u32, ThingId), (Place, Line)> = BTreeMap::new();
     let anchors = structure.stays.iter().filter(|stay| stay.strength.is_none());
     let anchored: BTreeSet<ThingId> = anchors.map(|stay| stay.thing).collect();
     let is_anchored = |thing: ThingId| around(structure, thing).any(|t| anchored.contains(&t));
+    let is_own = |(term, _): (&GivenTerm, ThingId)| state.lowered.is_own_given(term.origin);
     let merged = structure.merged.iter().filter(|(t, _)| structure.is_merged(*t));
     for (thing, _) in merged {
         let Some(slot) = structure.slot_of(thing) else { continue };
         let given = structure.given_in(slot).or_else(|| binding(structure, thing, slot));
         let (Some(given), Some(own)) = (given, structure.given_apart_in(thing)) else { continue };
-        let is_own = |(term, _): (&GivenTerm, ThingId)| state.lowered.is_own_given(term.origin);
-        if given.0.origin == own.0.origin || is_own(own) != is_own(given) {
+        if given.0.origin == own.0.origin || is_own(own) && !is_own(given) {
+            continue;
+        }
+        // a default yields, if it is not anchored
+        if !is_own(own) && !is_anchored(thing) {
             continue;
         }
         let value = |(given, me): (&GivenTerm, ThingId)| value(state, &given.term, me);
@@ -50,20 +57,25 @@ pub(crate) fn warnings(state: &State) -> Vec<Diagnostic> {
         if are_alike(&is, &was) {
             continue;
         }
-        let giver = |t: &ThingId| structure.given_apart_in(*t) == Some(given);
-        let Some(by) = structure.merged_with(thing).into_iter().find(giver) else { continue };
+        let counts = |t: &ThingId| structure.given_apart_in(*t) == Some(given);
+        let Some(by) = structure.merged_with(thing).into_iter().find(counts) else { continue };
         let holds = is_anchored(thing) && is_anchored(by);
-        // a default yields, if it is not anchored in its class
-        if !holds && !is_own(own) {
+        let is_held = || match anchoring(state, thing) {
+            Some(by) => holds || around(structure, by).any(|t| t == own.1),
+            None => holds && !is_own(given),
+        };
+        if !is_own(own) && (is_connected(state, thing, own.1) || !is_held()) {
             continue;
         }
+        let (of_class, giver) = (!is_own(own), own.1);
         let (given, own) = (given.0, own.0);
         let place = state.lowered.place(own.origin);
-        let (_, line) = lines.entry((place.span.start, place.span.end)).or_insert_with(|| {
-            let parts = [whole(state, thing), whole(state, by)];
-            let counts = state.lowered.place(given.origin);
-            (place, Line { parts, counts, values: Vec::new(), holds: false })
-        });
+        let (_, line) =
+            lines.entry((place.span.start, place.span.end, giver)).or_insert_with(|| {
+                let parts = [whole(state, thing), whole(state, by)];
+                let counts = state.lowered.place(given.origin);
+                (place, Line { parts, counts, values: Vec::new(), holds: false, of_class })
+            });
         line.holds |= holds;
         line.values.push((slot, [was, is]));
     }
@@ -97,6 +109,36 @@ fn merged_at(state: &State, thing: ThingId, other: ThingId) -> Option<Place> {
         things.filter(within).count() > 1
     });
     found.map(|(_, merge)| state.lowered.place(merge.origin))
+}
+
+/// Returns what has a thing and anchors it by its class, the innermost; nothing where the document's own text does.
+///
+/// Cost: a look at every anchor of the classes of what has it.
+fn anchoring(state: &State, thing: ThingId) -> Option<ThingId> {
+    let (structure, document) = (&state.structure, &state.lowered.document);
+    let anchors = |host: &ThingId| {
+        let line = document.primary_line(structure.things[*host].class).into_iter();
+        let mut stays = line.flat_map(|class| &document.classes[class].stays);
+        stays.any(|stay| {
+            let part = structure.follow(*host, &stay.path).ok();
+            let is_of_class = stay.strength.is_none() && !state.lowered.is_own_given(stay.origin);
+            is_of_class && part.is_some_and(|part| around(structure, thing).any(|t| t == part))
+        })
+    };
+    around(structure, thing).find(anchors)
+}
+
+/// Returns true if a body of `giver`, or of what that is in, connects a thing with another.
+fn is_connected(state: &State, thing: ThingId, giver: ThingId) -> bool {
+    let (structure, document) = (&state.structure, &state.lowered.document);
+    around(structure, giver).any(|host| {
+        let line = document.primary_line(structure.things[host].class).into_iter();
+        let mut connections = line.flat_map(|class| &document.classes[class].connections);
+        connections.any(|connection| {
+            let part = structure.follow(host, &connection.path).ok();
+            part.is_some_and(|part| around(structure, thing).any(|t| t == part))
+        })
+    })
 }
 
 /// Returns a thing and all that it is in: lists too, which own no part by its name.
@@ -147,6 +189,14 @@ fn warning(state: &State, place: Place, line: &Line) -> Diagnostic {
             format!("{part} is anchored at {was}, and {other} at {is}: they cannot be one");
         let d = Diagnostic::error(CODE, merged.unwrap_or(place), message);
         return d.label(line.counts, "here").label(place, "here").hint("anchor one of them alone");
+    }
+    if line.of_class {
+        let message = format!(
+            "{part} is anchored by its class at {was}, and is one with {other}: {is} counts"
+        );
+        let d = Diagnostic::warning(yielding::CODE, merged.unwrap_or(place), message);
+        let d = d.label(line.counts, "here").label(place, "here");
+        return d.hint("give it this value in the body of the part, or take the other away");
     }
     let message = format!("{part} is given here as {was}, and is one with {other}: {is} counts");
     let d = Diagnostic::warning(CODE, place, message).label(line.counts, "here");

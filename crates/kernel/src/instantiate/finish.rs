@@ -2,11 +2,12 @@
 
 use super::bind::bind;
 use super::body::Body;
+use super::counting::Counting;
 use super::refer::refer;
 use super::{FaultKind, Maker};
 use crate::class::{Class, ClassId, ClassKind, Primitive};
 use crate::document::{Document, Side};
-use crate::structure::{Form, GivenIn, Givens, NO_SLOT, Slot, ThingId, Unlike};
+use crate::structure::{Form, GivenIn, Givens, NO_SLOT, Slot, SlotId, ThingId, Unlike};
 use crate::term::OriginId;
 use base::IdVec;
 use std::collections::{BTreeMap, BTreeSet};
@@ -136,6 +137,9 @@ fn give_slots(
     let has_ranges = document.classes.iter().any(|(_, c)| has_range(c));
     let mut places: IdVec<ClassId, Option<usize>> = IdVec::filled(None, document.classes.len());
     let layout = of_layout(document, structure, body, order);
+    let counting = Counting { document, body, givens };
+    // of every slot, what gives it its value
+    let mut givers: IdVec<SlotId, ThingId> = IdVec::new();
     for &thing in order {
         let t = &body.things[thing];
         let ClassKind::Primitive(primitive) = document.classes[t.class].kind else { continue };
@@ -147,6 +151,7 @@ fn give_slots(
                 (t.field as usize) < *places[class].get_or_insert_with(count)
             });
             let place = place.map(|owner| body.merged[owner]);
+            givers.push(thing);
             structure.slots.push(Slot {
                 thing: first,
                 primitive,
@@ -164,14 +169,10 @@ fn give_slots(
         structure.own_slots[first] = slot;
         structure.own_slots[thing] = slot;
         if let Some(given) = body.givens[thing] {
-            // what stands further out is nearer to whoever wrote it; of equals the first declared
-            let known = structure.slots[slot].given;
-            let outer = |known: GivenIn| {
-                let depth = |given| depth_of(document, structure, body, givens, given);
-                depth(known) <= depth(given)
-            };
-            if !known.is_some_and(outer) {
+            let known = structure.slots[slot].given.map(|known| (givers[slot], known));
+            if known.is_none_or(|known| !counting.is_first(structure, known, (thing, given))) {
                 structure.slots[slot].given = Some(given);
+                givers[slot] = thing;
             }
         }
         if !has_ranges {
@@ -213,40 +214,6 @@ fn of_layout(
         }
     }
     found
-}
-
-/// Returns how deep in the document the text stands that gives a value: 0 for what the document itself says, in
-/// the bodies of its parts as well; for what a class says, how deep its thing lies.
-fn depth_of(
-    document: &Document,
-    structure: &Form,
-    body: &Body,
-    givens: &Givens,
-    given: GivenIn,
-) -> usize {
-    let depth = |thing: ThingId| {
-        std::iter::successors(body.things[thing].owner, |&t| body.things[t].owner).count()
-    };
-    let origin = givens[given.value].origin;
-    let mut thing = given.me;
-    let line = document.primary_line(body.things[thing].class).into_iter();
-    let mut own = line.filter(|&c| document.classes[c].is_of_one);
-    let mut says = own.find(|&c| document.classes[c].givens.iter().any(|g| g.origin == origin));
-    // the body of a part stands in the text of the class that declares the part
-    while let Some(class) = says.filter(|&c| document.classes[c].general.is_none()) {
-        let Some(owner) = body.things[thing].owner else { break };
-        let field = structure.layouts[body.things[owner].class]
-            .as_ref()
-            .and_then(|layout| layout.fields.get(body.things[thing].field as usize));
-        let declares = match field {
-            Some(field) => field.class,
-            // the element of a list is declared with it
-            None => class,
-        };
-        thing = owner;
-        says = document.classes[declares].is_of_one.then_some(declares);
-    }
-    depth(thing)
 }
 
 /// Returns the numbers that a thing may be, and where that is written.

@@ -1,0 +1,82 @@
+//! Counting: of two values that one slot is given, which counts.
+//!
+//! In: things that are one, each with what it is given. Out: the value that is nearer to whoever wrote the document.
+//! What a body connects takes the place of what classes give the part by themselves; then what stands further out
+//! counts; of equals what is declared first.
+
+use super::body::Body;
+use crate::class::ClassId;
+use crate::document::Document;
+use crate::structure::{Form, GivenIn, Givens, ThingId};
+
+/// A thing, and what it is given.
+pub(super) type GivenTo = (ThingId, GivenIn);
+
+/// What is asked of where values stand.
+pub(super) struct Counting<'s, 'd> {
+    pub(super) document: &'d Document,
+    pub(super) body: &'s Body,
+    pub(super) givens: &'s Givens,
+}
+
+impl Counting<'_, '_> {
+    /// Returns true if the value of the thing that is declared first counts, not that of the other.
+    ///
+    /// `form` has the layouts. Cost: a look at what the classes of all that is around the two give and connect.
+    pub(super) fn is_first(&self, form: &Form, first: GivenTo, other: GivenTo) -> bool {
+        let key =
+            |(thing, given)| (self.is_replaced(form, thing, given), self.depth_of(form, given));
+        key(first) <= key(other)
+    }
+
+    /// Tests whether a body connects the thing, or what it is in, in the place of what it is given.
+    fn is_replaced(&self, form: &Form, thing: ThingId, given: GivenIn) -> bool {
+        let origin = self.givens[given.value].origin;
+        self.around(given.me).any(|host| {
+            let line = self.document.primary_line(self.body.things[host].class).into_iter();
+            let line = line.map(|class| &self.document.classes[class]);
+            // what the same body gives, or one nearer, is no default
+            let classes = line.take_while(|class| {
+                host != given.me || class.givens.iter().all(|given| given.origin != origin)
+            });
+            let mut connections = classes.flat_map(|class| &class.connections);
+            connections.any(|connection| {
+                let part = self.body.paths(&form.layouts).follow(host, &connection.path);
+                part.is_ok_and(|part| self.around(thing).any(|t| t == part))
+            })
+        })
+    }
+
+    /// Returns how deep in the document the text stands that gives a value: 0 for what the document itself says, in
+    /// the bodies of its parts as well; for what a class says, how deep its thing lies.
+    fn depth_of(&self, form: &Form, given: GivenIn) -> usize {
+        let Self { document, body, givens } = self;
+        let origin = givens[given.value].origin;
+        let says = |class: &ClassId| {
+            document.classes[*class].givens.iter().any(|given| given.origin == origin)
+        };
+        let mut thing = given.me;
+        let line = document.primary_line(body.things[thing].class).into_iter();
+        let mut said = line.filter(|&c| document.classes[c].is_of_one).find(says);
+        // the body of a part stands in the text of the class that declares the part
+        while let Some(class) = said.filter(|&c| document.classes[c].general.is_none()) {
+            let Some(owner) = body.things[thing].owner else { break };
+            let field = form.layouts[body.things[owner].class]
+                .as_ref()
+                .and_then(|layout| layout.fields.get(body.things[thing].field as usize));
+            let declares = match field {
+                Some(field) => field.class,
+                // the element of a list is declared with it
+                None => class,
+            };
+            thing = owner;
+            said = document.classes[declares].is_of_one.then_some(declares);
+        }
+        self.around(thing).skip(1).count()
+    }
+
+    /// Returns a thing and all that it is in.
+    fn around(&self, thing: ThingId) -> impl Iterator<Item = ThingId> {
+        std::iter::successors(Some(thing), |&t| self.body.things[t].owner)
+    }
+}
