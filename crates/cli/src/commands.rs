@@ -64,7 +64,8 @@ pub(crate) fn check(
     let (mut words, mut files, mut errors, mut warnings) = (String::new(), Vec::new(), 0, 0);
     for path in find(arguments)? {
         let mut opened = open(&path)?;
-        let diagnostics = opened.session.text(opened.id).diagnostics;
+        let mut diagnostics = opened.session.text(opened.id).diagnostics;
+        diagnostics.extend(opened.session.tables_outside(opened.id));
         let problems = opened.session.problems(opened.id);
         // what cannot hold may well follow from what is missing
         let is_broken = diagnostics.iter().any(|d| d.severity == "error");

@@ -62,6 +62,39 @@ fn rows_that_fail_say_why_and_the_others_go_on() {
     assert!(words.contains("6 rows: 3 drawn, 2 outside, 1 failed, 0 too long"), "{words}");
     assert!(words.contains("thin: outside: wall is not met"), "{words}");
     assert!(words.contains("wrong: failed: r: "), "{words}");
+    // before anything is drawn, too
+    let mut thinglab = Command::new(env!("CARGO_BIN_EXE_thinglab"));
+    let said = thinglab.current_dir(&folder).args(["check", "disc.thing"]).output();
+    let words = String::from_utf8(said.expect("the command starts").stdout).expect("words");
+    assert!(words.contains("1 file, 0 errors, 3 warnings"), "{words}");
+    assert!(words.contains("the row thin is outside: wall is not met"), "{words}");
+    assert!(words.contains("  --> discs.csv:6:1"), "{words}");
+    assert!(words.contains("r has to be from 1 mm to 50 mm; r is 60 mm"), "{words}");
+    fs::remove_file(folder.join("discs.csv")).expect("it is there");
+    let mut thinglab = Command::new(env!("CARGO_BIN_EXE_thinglab"));
+    let said = thinglab.current_dir(&folder).args(["check", "disc.thing"]).output();
+    let said = said.expect("the command starts");
+    let words = String::from_utf8(said.stdout).expect("words");
+    assert!(!said.status.success() && words.contains("there is no table discs.csv"), "{words}");
+}
+
+#[test]
+fn what_a_step_is_given_is_told_with_its_units_and_a_rule_as_it_is_written() {
+    let folder = folder("gap", "disc,r [mm]\n");
+    let text = "use geometry
+unit mm
+program Gap(r: Length = 4 mm, far: Length = 30 mm) {
+    constraint r < far
+    left = Circle(center: Point(0, 0), radius: r)
+    right = Circle(center: Point(far, 0), radius: r)
+    ring = Circle.tangent(left, right, radius: r / 2)
+}
+family Gaps of Gap { rows: (4 mm, 30 mm) (6 mm, 5 mm) }
+";
+    fs::write(folder.join("disc.thing"), text).expect("it can be written");
+    let (_, words) = drawn(&folder, "Gaps", &[]);
+    assert!(words.contains("right is Circle(Point(30 mm, 0 mm), 4 mm), radius is 2 mm"), "{words}");
+    assert!(words.contains("2: outside: r < far is not met; r is 6 mm, far is 5 mm"), "{words}");
 }
 
 #[test]

@@ -185,6 +185,22 @@ impl<'a> Evaluator<'a> {
         }
     }
 
+    /// Tests what a program demands of given values of its parameters; returns the run that ended there, or one that has
+    /// drawn nothing yet.
+    ///
+    /// # Errors
+    /// A class that is no program, values that its parameters do not take.
+    pub fn ask_with(
+        &self,
+        class: ClassId,
+        values: Vec<(&'a Name, Answer<'a>)>,
+    ) -> Result<Rc<Context<'a>>> {
+        let (program, of) = self.begin_with(class, values)?;
+        let run = Run { evaluator: self, way: Vec::new() };
+        let ended = run.demands(program, &Frame::sent(of.clone(), kernel::DOCUMENT)).err();
+        Ok(Rc::new(Context { class, of: Some(of), made: Vec::new(), ended }))
+    }
+
     /// Measures what a program draws for given values of its parameters. `measure` says what, and passes numbers on as
     /// they are; nothing where it takes no measures of a run. `what` tells apart what is measured of one program.
     ///
@@ -706,7 +722,7 @@ impl<'a> Run<'_, 'a> {
                 (None, _) => format!("operand {}", i + 1),
             };
             let value = self.evaluator.term(&argument.value, frame).ok()?;
-            Some((name, self.evaluator.text_of(&value)))
+            Some((name, self.evaluator.in_words(&value)))
         };
         arguments.iter().enumerate().filter_map(operand).collect()
     }

@@ -409,9 +409,18 @@ impl<'a> Evaluator<'a> {
     }
 
     fn listed(&self, items: &[Answer<'a>], open: char, close: char) -> String {
+        Self::listed_as(&|item| self.text_of(item), items, [open, close])
+    }
+
+    /// Lists values between brackets, each as `say` says it.
+    pub(crate) fn listed_as(
+        say: &dyn Fn(&Answer<'a>) -> String,
+        items: &[Answer<'a>],
+        [open, close]: [char; 2],
+    ) -> String {
         /// A longer list ends in dots.
         const MOST: usize = 12;
-        let mut words: Vec<String> = items.iter().take(MOST).map(|a| self.text_of(a)).collect();
+        let mut words: Vec<String> = items.iter().take(MOST).map(say).collect();
         if items.len() > MOST {
             words.push("…".into());
         }

@@ -49,8 +49,8 @@ pub enum Allowed {
 /// A constraint in a program: what rows and calls have to fulfil.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Demand {
-    /// Its name, where it has one.
-    pub name: Option<Name>,
+    /// Its name; how it is written where it has none.
+    pub said: Name,
     /// What shall be true.
     pub rule: Term,
     /// Where it was written.

@@ -4,7 +4,7 @@ use crate::kinds::Kind;
 use crate::lower::Lowerer;
 use crate::scope::Scope;
 use base::{Diagnostic, FileId, Name, Place};
-use kernel::{ClassId, Part, Term};
+use kernel::{ClassId, OriginId, Part, Term};
 use std::collections::BTreeSet;
 use syntax::SyntaxKind;
 use syntax::ast::{self, AstNode, Member};
@@ -26,6 +26,8 @@ pub struct Family {
     pub rows: Vec<Row>,
     /// What all rows have to fulfil, each as it is written.
     pub rules: Vec<(String, Term)>,
+    /// Where it was written.
+    pub origin: OriginId,
 }
 
 /// A row of a family that is written out.
@@ -37,6 +39,8 @@ pub struct Row {
     pub values: Vec<Term>,
     /// How each is written.
     pub texts: Vec<String>,
+    /// Where it was written.
+    pub origin: OriginId,
 }
 
 /// Lowers the families of all texts.
@@ -80,6 +84,7 @@ fn lower_family(
         table: None,
         rows: Vec::new(),
         rules: Vec::new(),
+        origin: l.origin(file, word.span()),
     };
     let members: Vec<Member> = family.body().into_iter().flat_map(|b| b.members()).collect();
     made.row = row_class(l, file, &made, &members);
@@ -169,5 +174,6 @@ fn lower_row(
     let scope = Scope::of(file, l.object);
     let texts = values.iter().map(|v| v.syntax().text().to_string().trim().to_string()).collect();
     let values = values.iter().zip(kinds).map(|(value, kind)| l.expr_of(&scope, value, &kind));
-    Some(Row { name, values: values.collect::<Option<_>>()?, texts })
+    let values = values.collect::<Option<_>>()?;
+    Some(Row { name, values, texts, origin: l.origin(file, row.span()) })
 }

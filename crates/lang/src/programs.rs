@@ -12,7 +12,7 @@ use crate::rules::mentions;
 use crate::scope::Scope;
 use base::{Diagnostic, FileId, Name, Place, Span};
 use kernel::program::{Block, Demand};
-use kernel::{ClassId, Message, Part, Program, Step, Term};
+use kernel::{ClassId, Constraint, Message, OriginId, Part, Program, Step, Term};
 use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 use syntax::ast::{self, AstNode, Expr, Member, Value, span_without_doc};
@@ -319,13 +319,23 @@ impl Lowerer<'_> {
                 mentions(&c.rule, &mut said);
                 c.strength == kernel::Strength::Required && !said.iter().any(is_step)
             });
+            let said = |c: &Constraint| c.name.clone().unwrap_or_else(|| self.rule_of(c.origin));
             let demands = demands
-                .map(|c| Demand { name: c.name.clone(), rule: c.rule.clone(), origin: c.origin })
+                .map(|c| Demand { said: said(c), rule: c.rule.clone(), origin: c.origin })
                 .collect();
             if let Some(program) = &mut self.document.classes[class].program {
                 Rc::make_mut(program).demands = demands;
             }
         }
+    }
+
+    /// Returns the rule of a constraint as it is written, on one line.
+    fn rule_of(&self, origin: OriginId) -> Name {
+        let place = self.origins.place(origin);
+        let written = self.files[place.file].text.get(place.span.range()).unwrap_or_default();
+        let words: Vec<&str> = written.split_whitespace().collect();
+        let written = words.join(" ");
+        Name::new(written.strip_prefix("constraint ").unwrap_or(&written))
     }
 
     /// Returns true for the name of a step that is made elsewhere in the program, and says where.

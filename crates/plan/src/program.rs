@@ -256,9 +256,9 @@ impl<'a> Run<'a> {
     ) -> Result<(), Trouble> {
         for demand in &program.demands {
             let meaning = opening.meaning(&demand.rule, frame)?;
-            let name = demand.name.as_ref().map_or("a demand", Name::as_str);
-            if opening.decide(&meaning, self.place(name, Decided::Demand))? == 0.0 {
-                return Err(Trouble::wrong(format!("{name} is not met")));
+            let said = &demand.said;
+            if opening.decide(&meaning, self.place(said, Decided::Demand))? == 0.0 {
+                return Err(Trouble::wrong(format!("{said} is not met")));
             }
         }
         Ok(())

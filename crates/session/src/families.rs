@@ -6,10 +6,12 @@
 //!
 //! `grid` shows and changes rows that stand in the document, `map` runs a program over two of its parameters, `hands`
 //! is what the page asks.
+//! `outside` tells rows beforehand that are outside.
 
 mod grid;
 mod hands;
 mod map;
+pub(crate) mod outside;
 
 pub(crate) use grid::csv;
 

@@ -290,6 +290,7 @@ impl Solved {
         warnings.extend(crate::unlike::warnings(&state));
         warnings.extend(state.lowered.mixed_lengths());
         warnings.extend(state.lowered.given_twice());
+        warnings.extend(crate::families::outside::warnings(&state));
         if !warnings.is_empty() {
             state.diagnostics.extend(warnings);
             state.diagnostics.sort_by_key(|d| (d.place.file, d.place.span.start));

@@ -142,7 +142,7 @@ pub struct Refusal {
 }
 
 /// A diagnostic as an editor shows it.
-#[derive(Clone, PartialEq, Eq, Debug, Serialize)]
+#[derive(Clone, PartialEq, Eq, Debug, Default, Serialize)]
 pub struct DiagnosticView {
     /// `error`, `warning`, `note`; `recording` of what is not finished yet.
     pub severity: String,

@@ -2,7 +2,7 @@
 
 use super::{Ended, Run, Why};
 use crate::answer::{Answer, Frame};
-use crate::evaluator::{Evaluator, Result};
+use crate::evaluator::Evaluator;
 use base::Name;
 use kernel::program::Program;
 use kernel::{BinaryOperator, Quantity, Term};
@@ -20,19 +20,42 @@ pub fn allowed_table(rule: &Term) -> Option<(&Name, &[Term])> {
     }
 }
 
+/// Returns the parameter and the ends of a rule that allows it a range: `least <= d and d <= most`.
+fn allowed_range(rule: &Term) -> Option<(&Name, [&Term; 2])> {
+    let Term::Binary(BinaryOperator::And, least, most) = rule else { return None };
+    let (Term::Binary(BinaryOperator::LessEqual, least, of), Term::Binary(less, same, most)) =
+        (&**least, &**most)
+    else {
+        return None;
+    };
+    let is_less = matches!(less, BinaryOperator::Less | BinaryOperator::LessEqual);
+    match &**of {
+        Term::Send { to, name, .. } if **to == Term::Me && of == same && is_less => {
+            Some((name, [least, most]))
+        }
+        _ => None,
+    }
+}
+
 impl<'a> Evaluator<'a> {
     /// Says which values are allowed of a parameter, with their units.
     pub fn one_of_in_words(&self, name: &Name, values: &[Answer<'a>]) -> String {
         let values: Vec<String> = values.iter().map(|value| self.in_words(value)).collect();
         format!("{name} has to be one of {}", values.join(", "))
     }
-    /// Returns a value as people read it, a number with its unit.
+    /// Returns a value as people read it, every number with its unit.
     pub(super) fn in_words(&self, value: &Answer<'a>) -> String {
         match value {
             Answer::Number(x, dimension) => {
                 let quantity = Quantity { dimension: *dimension, ..Quantity::default() };
                 kernel::show_quantity(*x, quantity, self.document).with_unit()
             }
+            Answer::Made(made) => {
+                let name = &self.document.classes[made.class].name;
+                let say = |field: &Answer<'a>| self.in_words(field);
+                format!("{name}{}", Self::listed_as(&say, &made.fields, ['(', ')']))
+            }
+            Answer::List(items) => Self::listed_as(&|item| self.in_words(item), items, ['[', ']']),
             other => self.text_of(other),
         }
     }
@@ -40,11 +63,7 @@ impl<'a> Evaluator<'a> {
 
 impl<'a> Run<'_, 'a> {
     /// Tests what a program demands of its parameters.
-    pub(super) fn demands(
-        &self,
-        program: &'a Program,
-        frame: &Frame<'a>,
-    ) -> std::result::Result<(), Ended> {
+    pub(super) fn demands(&self, program: &'a Program, frame: &Frame<'a>) -> Result<(), Ended> {
         for demand in &program.demands {
             let met = self.evaluator.truth(&demand.rule, frame);
             if matches!(met, Ok(true)) {
@@ -52,25 +71,31 @@ impl<'a> Run<'_, 'a> {
             }
             let mut operands = Vec::new();
             self.parameters(program, &demand.rule, frame, &mut operands);
-            let allowed = || {
-                let (name, values) = allowed_table(&demand.rule)?;
-                let values = values.iter().map(|value| self.evaluator.term(value, frame));
-                let values = values.collect::<Result<Vec<_>>>().ok()?;
-                Some(self.evaluator.one_of_in_words(name, &values))
-            };
             return Err(Ended {
                 why: Why::Outside,
-                step: demand.name.as_ref().map_or("a demand", Name::as_str).to_string(),
+                step: demand.said.to_string(),
                 operands,
                 is_called: false,
                 reason: match met {
-                    Ok(_) => allowed().unwrap_or_default(),
+                    Ok(_) => self.allowed(&demand.rule, frame).unwrap_or_default(),
                     Err(fault) => fault.message,
                 },
                 origin: demand.origin,
             });
         }
         Ok(())
+    }
+
+    /// Says what a rule allows of a parameter that has a range or a table; nothing of any other rule.
+    fn allowed(&self, rule: &'a Term, frame: &Frame<'a>) -> Option<String> {
+        let value = |term: &'a Term| self.evaluator.term(term, frame).ok();
+        if let Some((name, values)) = allowed_table(rule) {
+            let values = values.iter().map(value).collect::<Option<Vec<_>>>()?;
+            return Some(self.evaluator.one_of_in_words(name, &values));
+        }
+        let (name, [least, most]) = allowed_range(rule)?;
+        let [least, most] = [value(least)?, value(most)?].map(|end| self.evaluator.in_words(&end));
+        Some(format!("{name} has to be from {least} to {most}"))
     }
 
     /// Collects the parameters that a rule speaks of, with their values.
