@@ -44,13 +44,7 @@ impl Lowerer<'_> {
         written: &Expr,
         shown: impl Fn(&str) -> String,
     ) {
-        let angle = match written {
-            Expr::Unary(unary) if unary.op() == Some(UnaryOp::Negate) => unary.operand(),
-            other => Some(other.clone()),
-        };
-        let Some(Expr::Number(angle)) = angle else { return };
-        let is_meant = angle.unit().is_some() || angle.value().is_none_or(|x| x <= TURN);
-        if is_meant || scope.file != OWN || self.silent > 0 {
+        if bare_number(written).is_none_or(|x| x <= TURN) || scope.file != OWN || self.silent > 0 {
             return;
         }
         let place = Place { file: scope.file, span: written.span() };
@@ -61,6 +55,18 @@ impl Lowerer<'_> {
         let hint =
             format!("degrees have their unit: {}; so may radians, `{number} rad`", shown(&degrees));
         self.report(d.hint(hint).fix(format!("write {degrees}"), [(place, degrees)]));
+    }
+
+    /// Warns of `a = 90` and `0 <= a <= 90`: an angle that is compared with more than a whole turn without a unit.
+    pub(crate) fn warn_of_bare_angles(&mut self, scope: &Scope, compared: &[Expr]) {
+        let is_over = |e: &&Expr| bare_number(e).is_some_and(|x| x > TURN);
+        let (numbers, others): (Vec<&Expr>, Vec<&Expr>) = compared.iter().partition(is_over);
+        let is_told = self.silent == 0 && !numbers.is_empty();
+        if is_told && others.iter().any(|other| self.is_angle(scope, other)) {
+            for number in numbers {
+                self.warn_of_bare_angle(scope, number, |degrees| format!("`{degrees}`"));
+            }
+        }
     }
 
     /// Warns of `f: Frequency = 80 rpm`: turns are counted as angles, and 80 1/min was perhaps meant.
@@ -160,6 +166,15 @@ impl Lowerer<'_> {
         self.references = references;
         let found = found.and_then(|(term, _)| self.declared_class(scope, &term));
         found.is_some() && found == self.visible.of_language(class)
+    }
+}
+
+/// Returns the size of a number that is written without a unit, with a minus or without.
+fn bare_number(written: &Expr) -> Option<f64> {
+    match written {
+        Expr::Unary(unary) if unary.op() == Some(UnaryOp::Negate) => bare_number(&unary.operand()?),
+        Expr::Number(number) => number.value().filter(|_| number.unit().is_none()),
+        _ => None,
     }
 }
 

@@ -9,7 +9,7 @@ use crate::lower::{Lowerer, OWN};
 use crate::paths::loose_path;
 use crate::scope::Scope;
 use base::{Name, Span};
-use kernel::{ClassId, Command, Literal, Path, Step, Term};
+use kernel::{BinaryOperator, ClassId, Command, Literal, Path, Step, Term};
 use std::rc::Rc;
 use syntax::SyntaxKind;
 use syntax::ast::{self, AstNode, Member};
@@ -73,14 +73,57 @@ pub enum Expectation {
     Satisfied,
     /// That the latest edit moved these and no others.
     Moved(Vec<Path>),
-    /// That there are so many degrees of freedom.
-    Free(u64),
-    /// That what is searched has so many solutions.
-    Solutions(u64),
+    /// How many degrees of freedom there are.
+    Free(Counted),
+    /// How many solutions what is searched has.
+    Solutions(Counted),
     /// The heaviest kind of the latest plan.
     Plan(PlanKind),
     /// That the latest `try` was refused with this word.
     Error(String),
+}
+
+/// How many there have to be of something: `= 3`, `>= 1`.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Counted {
+    /// How the number is compared.
+    pub operator: BinaryOperator,
+    /// What it is compared with.
+    pub n: u64,
+}
+
+impl Counted {
+    /// Returns whether so many are as many as there have to be.
+    pub fn holds(self, found: u64) -> bool {
+        match self.operator {
+            BinaryOperator::NotEqual => found != self.n,
+            BinaryOperator::Less => found < self.n,
+            BinaryOperator::LessEqual => found <= self.n,
+            BinaryOperator::Greater => found > self.n,
+            BinaryOperator::GreaterEqual => found >= self.n,
+            _ => found == self.n,
+        }
+    }
+    /// Returns whether that so many were found settles it, though there may be more.
+    pub fn holds_for_more(self, found: u64) -> bool {
+        let is_least =
+            matches!(self.operator, BinaryOperator::Greater | BinaryOperator::GreaterEqual);
+        is_least && self.holds(found)
+    }
+}
+
+impl std::fmt::Display for Counted {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let sign = match self.operator {
+            BinaryOperator::NotEqual => "!= ",
+            BinaryOperator::Less => "< ",
+            BinaryOperator::LessEqual => "<= ",
+            BinaryOperator::Greater => "> ",
+            BinaryOperator::GreaterEqual => ">= ",
+            _ => "",
+        };
+        write!(f, "{sign}{}", self.n)
+    }
 }
 
 /// How heavy a plan is.
@@ -394,6 +437,23 @@ fn prototype_named(l: &mut Lowerer<'_>, scope: &Scope, name: &Name) -> Option<Cl
     l.visible.class(scope.file, name).filter(|_| !is_part)
 }
 
+fn counted(
+    l: &mut Lowerer<'_>,
+    scope: &Scope,
+    op: ast::BinaryOp,
+    n: &ast::Expr,
+) -> Option<Counted> {
+    let operator = match op {
+        ast::BinaryOp::NotEqual => BinaryOperator::NotEqual,
+        ast::BinaryOp::Less => BinaryOperator::Less,
+        ast::BinaryOp::LessEqual => BinaryOperator::LessEqual,
+        ast::BinaryOp::Greater => BinaryOperator::Greater,
+        ast::BinaryOp::GreaterEqual => BinaryOperator::GreaterEqual,
+        _ => BinaryOperator::Equal,
+    };
+    Some(Counted { operator, n: u64::try_from(l.constant(scope, n)?).ok()? })
+}
+
 fn expectation(l: &mut Lowerer<'_>, scope: &Scope, e: &ast::Expect) -> Option<Expectation> {
     match e.expectation() {
         ast::Expectation::Satisfied => Some(Expectation::Satisfied),
@@ -408,13 +468,9 @@ fn expectation(l: &mut Lowerer<'_>, scope: &Scope, e: &ast::Expect) -> Option<Ex
             let paths: Option<Vec<Path>> = paths.iter().map(path).collect();
             Some(Expectation::Moved(paths?))
         }
-        ast::Expectation::Free(n) => {
-            let n = l.constant(scope, &n?)?;
-            Some(Expectation::Free(u64::try_from(n).ok()?))
-        }
-        ast::Expectation::Solutions(n) => {
-            let n = l.constant(scope, &n?)?;
-            Some(Expectation::Solutions(u64::try_from(n).ok()?))
+        ast::Expectation::Free(op, n) => Some(Expectation::Free(counted(l, scope, op, &n?)?)),
+        ast::Expectation::Solutions(op, n) => {
+            Some(Expectation::Solutions(counted(l, scope, op, &n?)?))
         }
         ast::Expectation::Plan(word) => match word?.text() {
             "one_pass" => Some(Expectation::Plan(PlanKind::OnePass)),

@@ -265,8 +265,10 @@ impl Lowerer<'_> {
             } else {
                 let is_list =
                     ["list", "array", "vector"].iter().any(|w| word.text().eq_ignore_ascii_case(w));
+                let is_unit = expr::units::unit(word.text()).is_some();
                 d = d.hint(match is_list {
                     true => "a list is written `List of Real`, `List of 3 Real`",
+                    false if is_unit => "a unit stands behind a number, `3 mm`, and that of the sheet in a line of its own: `unit mm`",
                     false => "declare it, or `use` the library that has it",
                 });
             }

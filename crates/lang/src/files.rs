@@ -145,7 +145,12 @@ impl Lowerer<'_> {
             None => {
                 let message =
                     format!("there is no library and no file beside this one named {name}");
-                self.error("missing-file", file, path.span(), message);
+                let place = Place { file, span: path.span() };
+                let d = Diagnostic::error("missing-file", place, message);
+                self.report(match expr::units::unit(&name) {
+                    Some(_) => d.hint(format!("the unit of the sheet is said by `unit {name}`")),
+                    None => d,
+                });
                 self.missing.insert(name);
             }
         }

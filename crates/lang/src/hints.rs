@@ -297,6 +297,12 @@ impl Lowerer<'_> {
             (Kind::List(_), Kind::Number(_)) if is_name(written) => d.hint(format!(
                 "one of its elements is `{written}[0]`, what is made of each `{written}.map(x => 2 * x)`"
             )),
+            (Kind::Bool, Kind::Number(_)) if written.contains('^') => {
+                d.hint("`^` is a power; that just one of two is true is `a != b`")
+            }
+            (Kind::Bool, Kind::Number(_)) if written.contains('*') => {
+                d.hint("that both are true is `a and b`")
+            }
             (Kind::Number(_), Kind::Bool) => {
                 d.hint("what is true or false compares, on each side of `or`, too: `x = 3 or x = 4`")
             }
@@ -344,6 +350,20 @@ impl Lowerer<'_> {
         }
         if let (Kind::List(_), Kind::List(_), Some(BinaryOperator::Add)) = (left, right, operator) {
             d = d.hint("what either list has, each once, is `xs.union(other: ys)`; numbers of two lists are added by `xs.zip(other: ys).map(pair => pair[0] + pair[1])`");
+        }
+        if let (
+            Kind::List(_),
+            Kind::Number(_),
+            Some(
+                BinaryOperator::Less
+                | BinaryOperator::LessEqual
+                | BinaryOperator::Greater
+                | BinaryOperator::GreaterEqual
+                | BinaryOperator::Equal,
+            ),
+        ) = (left, right, operator)
+        {
+            d = d.hint("a rule for each element is a loop: `for x in xs { constraint x > 0 }`");
         }
         if let (Kind::Thing(class), Kind::Tuple(items)) | (Kind::Tuple(items), Kind::Thing(class)) =
             (left, right)

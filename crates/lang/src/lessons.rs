@@ -152,7 +152,7 @@ fn lower_member(l: &mut Lowerer<'_>, scope: &Scope, member: &Member, step: &mut 
                 expect.expectation(),
                 ast::Expectation::Holds { .. }
                     | ast::Expectation::Satisfied
-                    | ast::Expectation::Free(_)
+                    | ast::Expectation::Free(..)
             );
             if is_plain {
                 step.expects.push(written(expect.syntax()));

@@ -82,7 +82,7 @@ mod visible;
 mod write;
 
 pub use alone::{Alone, read_alone};
-pub use checks::{Check, Expectation, PlanKind, Statement, StatementKind, without_checks};
+pub use checks::{Check, Counted, Expectation, PlanKind, Statement, StatementKind, without_checks};
 pub use edits::{Restructuring, edits_for, for_every, is_count, of_constraint, write_sides};
 pub use families::{Family, Row as FamilyRow};
 pub use files::File;

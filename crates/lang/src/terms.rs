@@ -71,6 +71,9 @@ impl Lowerer<'_> {
                 let (a, b) = (a?, b?);
                 self.refer_by_position(scope.file, &left, &b.1);
                 self.refer_by_position(scope.file, &right, &a.1);
+                if is_comparison(op) {
+                    self.warn_of_bare_angles(scope, &[left, right]);
+                }
                 self.combine(scope, op, e.span(), a, b)
             }
             Expr::Chain(chain) => self.chain(scope, chain),
@@ -544,6 +547,7 @@ impl Lowerer<'_> {
             links.push(link);
         }
         let both = |a, b| Term::Binary(BinaryOperator::And, Box::new(a), Box::new(b));
+        self.warn_of_bare_angles(scope, &chain.operands().collect::<Vec<_>>());
         Some((base::number::joined(links, both)?, Kind::Bool))
     }
 
@@ -699,6 +703,19 @@ impl Lowerer<'_> {
         };
         Some(kind)
     }
+}
+
+/// Returns true for an operator that compares numbers.
+fn is_comparison(op: BinaryOp) -> bool {
+    matches!(
+        op,
+        BinaryOp::Equal
+            | BinaryOp::NotEqual
+            | BinaryOp::Less
+            | BinaryOp::LessEqual
+            | BinaryOp::Greater
+            | BinaryOp::GreaterEqual
+    )
 }
 
 /// Returns the unit of a number that is written with one.

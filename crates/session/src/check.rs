@@ -308,7 +308,7 @@ impl Run<'_> {
             Expectation::Free(n) => {
                 let found = self.open.counted();
                 let message = || format!("{found} degrees of freedom, not {n}");
-                if found as u64 == *n { Ok(()) } else { Err(message()) }
+                if n.holds(found as u64) { Ok(()) } else { Err(message()) }
             }
             Expectation::Solutions(n) => {
                 let found = self.open.planner.solutions(state.model(), &state.values);
@@ -317,8 +317,9 @@ impl Run<'_> {
                     format!("{slot} stands among real numbers, whose solutions are not counted")
                 })?;
                 let found = found.ok_or("no whole numbers are searched here")?;
-                match (found.solutions == *n, found.is_complete) {
+                match (n.holds(found.solutions), found.is_complete) {
                     (true, true) => Ok(()),
+                    (true, false) if n.holds_for_more(found.solutions) => Ok(()),
                     (false, true) => Err(format!("{} solutions, not {n}", found.solutions)),
                     (_, false) => Err(format!(
                         "not decided: {} solutions were found before the count was given up",

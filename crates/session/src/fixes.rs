@@ -18,6 +18,7 @@ pub(crate) fn add_uses(text: &str, diagnostics: &mut [Diagnostic], host: &dyn Ho
         *diagnostic = match near {
             Some(near) => diagnostic.clone().meant(near),
             None if libraries.is_empty() => continue,
+            None if diagnostic.hint.is_some() => diagnostic.clone(),
             None => diagnostic.clone().hint(format!("the libraries are {}", libraries.join(", "))),
         };
     }

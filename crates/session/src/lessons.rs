@@ -259,8 +259,11 @@ fn expected(open: &Open, host: &dyn Host, expectation: &Expectation) -> Result<(
                 Some(_) => open.freedom().0,
                 None => open.copied(host).counted(),
             };
-            let is_so = found as u64 == *n;
-            if is_so { Ok(()) } else { Err(format!("{found} degrees of freedom, not {n}")) }
+            if n.holds(found as u64) {
+                Ok(())
+            } else {
+                Err(format!("{found} degrees of freedom, not {n}"))
+            }
         }
         Expectation::Moved(_)
         | Expectation::Solutions(_)

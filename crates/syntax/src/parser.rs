@@ -68,8 +68,11 @@ impl<'t> Parser<'t> {
         let is_new = |&(i, (span, fault)): &(usize, &(Span, Fault))| {
             let again = i.checked_sub(1).and_then(|i| lexed.faults.get(i));
             again.is_none_or(|(before, other)| {
+                let is_quote = |span: &Span| text[span.range()].starts_with('\'');
+                let are_inches = *fault == Fault::UnterminatedText && is_quote(before);
                 let alike = fault == other && text[before.range()] == text[span.range()];
-                !alike || text[before.range().start..span.range().start].contains('\n')
+                !(alike || are_inches)
+                    || text[before.range().start..span.range().start].contains('\n')
             })
         };
         let faults = lexed.faults.iter().enumerate().filter(is_new);
@@ -410,7 +413,10 @@ impl<'t> Parser<'t> {
     }
     /// Reports a fault at the current token, unless something was reported there already.
     pub(crate) fn report(&mut self, code: &'static str, message: String, hint: Option<String>) {
-        if self.last_error != Some(self.pos) && !self.at(SyntaxKind::Unknown) {
+        // a text without an end was told
+        let is_cut =
+            self.at(SyntaxKind::Text) && (self.word(0).len() == 1 || !self.word(0).ends_with('"'));
+        if self.last_error != Some(self.pos) && !self.at(SyntaxKind::Unknown) && !is_cut {
             let mut diagnostic = Diagnostic::error(code, self.place_here(), message);
             diagnostic.hint = hint;
             self.diagnostics.push(diagnostic);
@@ -648,6 +654,7 @@ fn token_fault(file: FileId, text: &str, span: Span, fault: Fault) -> Diagnostic
 /// Says what is written for a character that begins nothing.
 fn meant_by(text: &str, span: Span) -> Option<&'static str> {
     Some(match text[span.range()].chars().next() {
+        Some('⌀') => "a diameter is a rule: `constraint 2 * c.radius = 12 mm`",
         Some('`') => {
             "a text stands between straight double quotes, a value in it in braces: `\"x = {x}\"`"
         }

@@ -140,9 +140,14 @@ fn expectations_are_told_apart() {
     };
     assert_eq!(expectation("expect satisfied"), Expectation::Satisfied);
     assert!(matches!(expectation("expect moved a, b only"), Expectation::Moved(p) if p.len() == 2));
-    assert!(matches!(expectation("expect free = 3"), Expectation::Free(Some(_))));
+    assert!(matches!(expectation("expect free = 3"), Expectation::Free(BinaryOp::Equal, Some(_))));
     assert!(matches!(expectation("expect free.length = 3"), Expectation::Holds { .. }));
-    assert!(matches!(expectation("expect solutions = 3"), Expectation::Solutions(Some(_))));
+    assert!(matches!(
+        expectation("expect solutions = 3"),
+        Expectation::Solutions(BinaryOp::Equal, Some(_))
+    ));
+    let least = expectation("expect solutions >= 1");
+    assert!(matches!(least, Expectation::Solutions(BinaryOp::GreaterEqual, Some(_))));
     assert!(matches!(expectation("expect plan search"), Expectation::Plan(Some(_))));
     assert!(matches!(expectation("expect error \"x\""), Expectation::Error(Some(_))));
     let Expectation::Holds { condition, tolerance } = expectation("expect a = 1 within 1e-9")

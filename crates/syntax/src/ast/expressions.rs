@@ -187,7 +187,7 @@ impl BinaryOp {
 }
 
 /// The operators among a node's own tokens.
-fn operators(node: &SyntaxNode) -> impl Iterator<Item = (BinaryOp, Word)> + use<> {
+pub(super) fn operators(node: &SyntaxNode) -> impl Iterator<Item = (BinaryOp, Word)> + use<> {
     node.children_with_tokens()
         .filter_map(SyntaxElement::into_token)
         .filter_map(|token| Some((BinaryOp::of(&token)?, Word { token })))

@@ -1,5 +1,6 @@
 //! Statements of checks and lessons: the written forms of Commands.
 
+use super::expressions::{BinaryOp, operators};
 use super::rules::Within;
 use super::{Body, Expr, Member, Word, ast_nodes, child, children, word};
 use crate::kind::SyntaxKind;
@@ -162,9 +163,9 @@ pub enum Expectation {
     /// `expect moved a, b only`
     Moved(Vec<Expr>),
     /// `expect free = 3`
-    Free(Option<Expr>),
+    Free(BinaryOp, Option<Expr>),
     /// `expect solutions = 92`
-    Solutions(Option<Expr>),
+    Solutions(BinaryOp, Option<Expr>),
     /// `expect plan one_pass`
     Plan(Option<Word>),
     /// `expect error "word"`
@@ -174,11 +175,15 @@ impl Expect {
     /// Returns what is expected.
     pub fn expectation(&self) -> Expectation {
         let keyword = super::words(&self.syntax, SyntaxKind::Keyword).nth(1);
+        let count = || {
+            let op = operators(&self.syntax).next().map_or(BinaryOp::Equal, |(op, _)| op);
+            (op, child(&self.syntax))
+        };
         match keyword.as_ref().map(Word::text) {
             Some("satisfied") => Expectation::Satisfied,
             Some("moved") => Expectation::Moved(children(&self.syntax).collect()),
-            Some("free") => Expectation::Free(child(&self.syntax)),
-            Some("solutions") => Expectation::Solutions(child(&self.syntax)),
+            Some("free") => Expectation::Free(count().0, count().1),
+            Some("solutions") => Expectation::Solutions(count().0, count().1),
             Some("plan") => Expectation::Plan(word(&self.syntax, SyntaxKind::Ident)),
             Some("error") => Expectation::Error(word(&self.syntax, SyntaxKind::Text)),
             _ => Expectation::Holds {

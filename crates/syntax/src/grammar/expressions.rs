@@ -158,6 +158,7 @@ fn infix(p: &mut Parser<'_>, start: Checkpoint, power: Power) -> u32 {
             bump_operator(p);
             if is_plus {
                 mistakes::elsewhere::tolerance_sign(p);
+                mistakes::elsewhere::two_bounds(p);
             }
             if twice {
                 let at = p.pos();
@@ -176,6 +177,9 @@ fn infix(p: &mut Parser<'_>, start: Checkpoint, power: Power) -> u32 {
         Power::Range => {
             p.bump();
             p.eat(Less);
+            if p.at(Eq) {
+                mistakes::calls::range_with_equals(p);
+            }
             binary(p, start, Power::Add, RangeExpr)
         }
     }
@@ -241,6 +245,9 @@ fn operand(p: &mut Parser<'_>, start: Checkpoint) -> u32 {
                 p.bump();
                 if p.at(OwnerKw) {
                     p.bump_as(Ident);
+                } else if p.at(Eof) || p.line_ended(0) && (!p.at(Ident) || p.names_itself(1)) {
+                    let hint = "a line has no point at its end".to_string();
+                    p.expected_hint("expected-name", "a name after `.`", Some(hint));
                 } else {
                     p.expect(Ident, "expected-name", "a name after `.`");
                 }

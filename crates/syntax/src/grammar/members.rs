@@ -137,7 +137,7 @@ pub(super) fn member(p: &mut Parser<'_>) -> bool {
         "guide" if p.nth(1) == Ident => one(p, Assign, assigned),
         "erase" => one(p, Erase, paths),
         "view" => one(p, View, |p| {
-            p.expect(Text, "expected-text", "the view's name in quotes");
+            name_in_quotes(p, "the view's name in quotes", "view");
             p.expect(FatArrow, "expected-value", "`=>` and what it shows");
             expression(p);
         }),
@@ -475,6 +475,13 @@ fn reference(p: &mut Parser<'_>) {
     if p.expect(Colon, "expected-class", "`:` and a class") {
         class_name(p);
     }
+    if p.at(Eq) {
+        let hint =
+            format!("what is named stands behind an arrow: `-> {}`", p.quoted_line(p.pos() + 1));
+        p.expected_hint("expected-value", "`->` and what it names", Some(hint));
+        p.bump();
+        expression(p);
+    }
     if p.eat(Arrow) {
         if p.nth(1) == Ident && !p.begins_line(1) {
             p.eat_word("document");
@@ -503,9 +510,20 @@ fn choice(p: &mut Parser<'_>) {
     p.eat(SyntaxKind::RBrace);
 }
 
+/// A name in quotes; one without them is taken for it.
+fn name_in_quotes(p: &mut Parser<'_>, wanted: &str, word: &str) {
+    if p.at(Ident) {
+        let hint = format!("its name stands in quotes: `{word} \"{}\"`", p.word(0));
+        p.expected_hint("expected-text", wanted, Some(hint));
+        p.bump();
+    } else {
+        p.expect(Text, "expected-text", wanted);
+    }
+}
+
 /// `"Mechanics" { Spring, Beam }`, after `toolbox`
 fn toolbox(p: &mut Parser<'_>) {
-    p.expect(Text, "expected-text", "the toolbox's name in quotes");
+    name_in_quotes(p, "the toolbox's name in quotes", "toolbox");
     if !p.expect(LBrace, "expected-body", "the tools in `{ }`") {
         return;
     }

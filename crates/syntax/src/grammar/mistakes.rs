@@ -486,6 +486,17 @@ pub(super) fn bare_call(p: &mut Parser<'_>) -> bool {
         let at = p.pos();
         let unit = if p.nth(2) == Unit { format!(" {}", p.word(2)) } else { String::new() };
         let call = format!("{}({}{unit})", p.word(0), p.word(1));
+        let before = p.text_between(at.saturating_sub(1), at.saturating_sub(1));
+        if matches!(before, "set" | "move") {
+            let (name, value) = (p.word(0), p.word(1));
+            let said = (
+                "expected-word",
+                format!("found `{value}`, wanted `to`"),
+                format!("write `{before} {name} to {value}{unit}`"),
+            );
+            p.report_mistake((at + 1, at + 1), said, None);
+            return true;
+        }
         if p.word(0) == "return" {
             let said = (
                 "bare-call",

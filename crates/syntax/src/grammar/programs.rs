@@ -7,18 +7,26 @@ use super::statements::text_body;
 use super::types::{class_name, parameters};
 use super::{Scope, body};
 use crate::kind::SyntaxKind::{
-    Binding, Body, Check, Colon, Comma, Eq, Family, For, Ident, LBrace, LParen, Lesson, Next,
-    Number, Program, RParen, Repeat, Rows, Table, Text, TupleExpr, While, With,
+    Binding, Body, Check, Colon, Comma, Eq, Error, Family, For, Ident, LBrace, LParen, Lesson,
+    Next, Number, Program, RParen, Repeat, Rows, Table, Text, TupleExpr, While, With,
 };
 use crate::parser::Parser;
 
 /// A member that holds steps or statements, if one begins here.
 pub(super) fn member(p: &mut Parser<'_>, scope: Scope) -> bool {
+    if scope == Scope::Family && p.at(LParen) {
+        rows_without_colon(p);
+        return true;
+    }
     if !p.at(Ident) {
         return false;
     }
     if scope == Scope::Family && p.word(0) == "rows" && p.nth(1) == Colon {
         rows(p);
+        return true;
+    }
+    if scope == Scope::Family && p.word(0) == "rows" && p.nth(1) == LParen {
+        rows_without_colon(p);
         return true;
     }
     if p.names_itself(1) {
@@ -74,7 +82,12 @@ fn family(p: &mut Parser<'_>) {
     if body_by_colon(p, " of …") {
         return;
     }
-    super::members::into(p, "of", class_name);
+    if p.at(LBrace) {
+        let hint = "a family says which program draws it: `family Discs of Disc { … }`".to_string();
+        p.expected_hint("expected-word", "`of`", Some(hint));
+    } else {
+        super::members::into(p, "of", class_name);
+    }
     if !body_by_colon(p, "") || p.at(LBrace) {
         body(p, Scope::Family);
     }
@@ -109,6 +122,17 @@ pub(super) fn block_value(p: &mut Parser<'_>) -> bool {
 fn for_rest(p: &mut Parser<'_>, scope: Scope) {
     let first = p.pos();
     p.bump_keyword();
+    if p.at_word(0, "each") && p.nth(1) == Ident && p.word(1) != "in" {
+        let said = (
+            "expected-word",
+            "found `each`, wanted a name".to_string(),
+            format!("leave `each` out: `for {} in … {{ … }}`", p.word(1)),
+        );
+        p.report_mistake((p.pos(), p.pos()), said, Some((p.span_at(p.pos()), String::new())));
+        p.start(Error);
+        p.bump();
+        p.finish();
+    }
     loop {
         if !p.eat(Ident) {
             let hint = "a loop goes through numbers or a list: `for i in 0..<3 { … }`".to_string();
@@ -146,8 +170,15 @@ fn for_rest(p: &mut Parser<'_>, scope: Scope) {
 fn repeat_rest(p: &mut Parser<'_>, scope: Scope) {
     p.bump_keyword();
     if !p.at(LBrace) && !p.at_word(0, "with") {
+        let first = p.pos();
         expression(p);
-        super::members::into(p, "times", |_| {});
+        if p.at(LBrace) {
+            let count = p.text_between(first, p.pos() - 1);
+            let hint = format!("say how often: `repeat {count} times {{ … }}`");
+            p.expected_hint("expected-word", "`times`", Some(hint));
+        } else {
+            super::members::into(p, "times", |_| {});
+        }
     }
     with(p);
     body(p, scope);
@@ -188,11 +219,30 @@ fn bindings(p: &mut Parser<'_>) {
     }
 }
 
+/// `rows (3 mm) (4 mm)`, or the rows alone
+fn rows_without_colon(p: &mut Parser<'_>) {
+    let hint = "rows stand behind their word and a colon: `rows: (3 mm) (4 mm)`".to_string();
+    let is_word = p.at(Ident);
+    p.start_documented(Rows);
+    if is_word {
+        p.bump_keyword();
+    }
+    let wanted = if is_word { "`:`" } else { "`rows:`" };
+    p.expected_hint("expected-member", wanted, Some(hint));
+    each_row(p);
+    p.finish();
+}
+
 /// `rows: (40 mm, 2 mm)  (20 mm, 1 mm)`
 fn rows(p: &mut Parser<'_>) {
     p.start_documented(Rows);
     p.bump_keyword();
     p.bump();
+    each_row(p);
+    p.finish();
+}
+
+fn each_row(p: &mut Parser<'_>) {
     while p.at(LParen) {
         p.start(TupleExpr);
         bracketed(p, RParen, "`)` at the row's end", |p| {
@@ -202,5 +252,4 @@ fn rows(p: &mut Parser<'_>) {
         p.finish();
         p.eat(Comma);
     }
-    p.finish();
 }

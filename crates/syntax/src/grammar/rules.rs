@@ -16,6 +16,11 @@ pub(super) fn constraint(p: &mut Parser<'_>) {
         p.bump_keyword();
         p.bump_keyword();
     }
+    if mistakes::elsewhere::for_all(p) {
+        p.skip_line();
+        p.finish();
+        return;
+    }
     if p.at(Ident) && p.nth(1) == Colon {
         p.bump();
         p.bump();

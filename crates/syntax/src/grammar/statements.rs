@@ -6,16 +6,22 @@ use super::rules::tolerance;
 use super::types::paths;
 use super::{Scope, body, mistakes};
 use crate::kind::SyntaxKind::{
-    Comma, Delete, Dot, Edit, ElseKw, Eq, Expect, Hint, Ident, If, IfExpr, IfKw, LBrace, LBracket,
-    LetKw, Move, Note, Number, OwnerKw, Promote, Redo, Rename, Say, Set, Simulate, Target, Task,
-    Text, Try, Undo, Unmerge,
+    Comma, Delete, Dot, Edit, ElseKw, Eq, Expect, Greater, GreaterEq, Hint, Ident, If, IfExpr,
+    IfKw, LBrace, LBracket, Less, LessEq, LetKw, Move, NotEq, Note, Number, OwnerKw, Promote, Redo,
+    Rename, Say, Set, Simulate, Target, Task, Text, Try, Undo, Unit, Unmerge,
 };
 use crate::parser::Parser;
 
 /// `"name" { … }`, after `check` and `lesson`
 pub(super) fn text_body(p: &mut Parser<'_>, scope: Scope) {
     if !p.eat(Text) {
-        let hint = "what it promises stands in quotes: `check \"…\" { }`".to_string();
+        let word = p.text_between(p.pos().saturating_sub(1), p.pos().saturating_sub(1));
+        let hint = match (word, p.at(Ident)) {
+            ("lesson", true) => {
+                format!("its name stands in quotes: `lesson \"{}\" {{ }}`", p.word(0))
+            }
+            _ => "what it promises stands in quotes: `check \"…\" { }`".to_string(),
+        };
         p.expected_hint("expected-text", "a name in quotes", Some(hint));
     }
     body(p, scope);
@@ -126,7 +132,15 @@ fn targets(p: &mut Parser<'_>) {
         p.start(Target);
         let first = p.pos();
         path(p);
-        if p.at(Eq) {
+        if p.at_word(0, "by") {
+            let of = p.text_between(first, p.pos() - 1);
+            let hint = format!("say where it goes or what it becomes: `{of} to …`");
+            p.expected_hint("expected-word", "`to`", Some(hint));
+            p.bump();
+            expression(p);
+        } else if matches!(p.behind(1), Number | Unit) {
+            // what is missing before the number was told
+        } else if p.at(Eq) {
             let (of, value) = (p.text_between(first, p.pos() - 1), p.word(1));
             let hint = format!("write `{of} to {value}`");
             p.expected_hint("expected-word", "`to`", Some(hint));
@@ -156,7 +170,10 @@ fn expectation(p: &mut Parser<'_>) {
         }
         (true, "free" | "solutions") => {
             p.bump_keyword();
-            if p.expect(Eq, "expected-value", "`=` and a number") {
+            if matches!(p.current(), Less | LessEq | Greater | GreaterEq | NotEq) {
+                p.bump();
+                expression(p);
+            } else if p.expect(Eq, "expected-value", "`=` and a number") {
                 expression(p);
             }
         }

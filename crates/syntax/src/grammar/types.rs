@@ -3,8 +3,8 @@
 use super::expressions::{self, expression};
 use super::mistakes;
 use crate::kind::SyntaxKind::{
-    Colon, Comma, Domain, Dot, DottedName, Eq, Error, Ident, LParen, Minus, Number, NumberExpr,
-    Param, ParamList, Plus, RParen, Slash, Star, Text, Type, Unit,
+    Colon, Comma, Domain, Dot, DottedName, Eq, Error, Greater, Ident, LParen, Less, Minus, Number,
+    NumberExpr, Param, ParamList, Plus, RParen, Slash, Star, Text, Type, Unit,
 };
 use crate::parser::Parser;
 
@@ -19,16 +19,25 @@ fn class_within(p: &mut Parser<'_>, is_told: bool) {
         if !is_told {
             mistakes::elsewhere::list_in_brackets(p);
         }
-        p.start(Error);
-        p.bump();
-        p.finish();
+        bump_wrong(p);
         class_within(p, true);
         if p.at(RParen) {
-            p.start(Error);
-            p.bump();
-            p.finish();
+            bump_wrong(p);
         }
         return;
+    }
+    if matches!(p.word(0), "a" | "an") && p.nth(1) == Ident && !p.line_ended(1) {
+        let (at, class) = (p.pos(), p.word(1));
+        if class.starts_with(char::is_uppercase) {
+            let said = (
+                "expected-class",
+                format!("found `{} {class}`, wanted a class", p.word(0)),
+                format!("a class has no article: `{class}`"),
+            );
+            let span = p.span_at(at).join(p.span_at(at + 1));
+            p.report_mistake((at, at + 1), said, Some((span, class.into())));
+            bump_wrong(p);
+        }
     }
     if !(p.at(Ident) || p.at(Unit)) || p.line_ended(0) && p.nth(1) == Colon {
         let hint = if p.line_ended(0) { None } else { mistakes::value_for_class(p) };
@@ -42,7 +51,21 @@ fn class_within(p: &mut Parser<'_>, is_told: bool) {
             "Path" => "to",
             _ => "",
         };
-        if p.at(Ident) && !joiner.is_empty() && p.at_word(1, joiner) {
+        if p.at(Ident) && !joiner.is_empty() && p.nth(1) == Less {
+            let element = p.word(2);
+            let said = (
+                "expected-member",
+                format!("found `<` after {}, wanted `{joiner}`", p.word(0)),
+                format!("it is written `{} {joiner} {element}`", p.word(0)),
+            );
+            p.report_mistake((p.pos() + 1, p.pos() + 1), said, None);
+            p.bump_keyword();
+            bump_wrong(p);
+            class_within(p, is_told);
+            if p.at(Greater) {
+                bump_wrong(p);
+            }
+        } else if p.at(Ident) && !joiner.is_empty() && p.at_word(1, joiner) {
             let counted = p.word(0) == "List";
             p.bump_keyword();
             p.bump_keyword();
@@ -57,6 +80,13 @@ fn class_within(p: &mut Parser<'_>, is_told: bool) {
         }
         p.finish();
     });
+}
+
+/// Takes a token that does not belong here, and was told.
+fn bump_wrong(p: &mut Parser<'_>) {
+    p.start(Error);
+    p.bump();
+    p.finish();
 }
 
 /// The number of elements in `List of 12 C`, `List of n C`, `List of n + 1 C`, `List of (2 * n) C`.
@@ -157,7 +187,13 @@ fn parameter(p: &mut Parser<'_>) {
     if p.at(Ident) {
         p.bump();
     }
-    if p.expect(Colon, "expected-class", "`:` and the parameter's class") {
+    if p.at(Eq) {
+        let name = p.text_between(p.pos() - 1, p.pos() - 1);
+        let unit = (p.nth(2) == Unit).then(|| expr::units::unit(p.word(2))).flatten();
+        let class = unit.and_then(|unit| unit.dimension.named()).unwrap_or("Real");
+        let hint = format!("a parameter has its class: `{name}: {class} = …`");
+        p.expected_hint("expected-class", "`:` and the parameter's class", Some(hint));
+    } else if p.expect(Colon, "expected-class", "`:` and the parameter's class") {
         class_name(p);
         domain(p);
     }

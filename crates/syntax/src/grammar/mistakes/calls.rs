@@ -2,13 +2,25 @@
 
 use super::MEMBER;
 use crate::kind::SyntaxKind::{
-    AndKw, Colon, DotDot, Eof, Eq, FatArrow, Greater, GreaterEq, Ident, LBrace, LParen, Less,
-    LessEq, RParen, Text,
+    AndKw, Colon, Eof, Eq, FatArrow, Greater, GreaterEq, Ident, LBrace, LParen, Less, LessEq,
+    RParen, Text,
 };
 use crate::parser::Parser;
 
 /// `f(x) = x^2`, `print(x)`: returns true where the call or definition was reported.
 pub(in crate::grammar) fn called_member(p: &mut Parser<'_>) -> bool {
+    let before = p.word_before();
+    if p.word(0) == "at" && matches!(before, "anchor" | "stay") && !p.begins_line(0) {
+        let at = p.pos();
+        let (of, value) = (p.text_between(at - 1, at - 1), p.quoted_line(at + 1));
+        let said = (
+            "expected-member",
+            "found `at`, wanted the end of the line".to_string(),
+            format!("give the value by itself: `{of} = {value}`, and then `{before} {of}`"),
+        );
+        p.report_mistake((at, at), said, None);
+        return true;
+    }
     let is_one = p.nth(1) == LParen
         && matches!(p.nth(2), Ident | Text)
         && p.nth(3) == RParen
@@ -92,6 +104,19 @@ fn meant(p: &Parser<'_>) -> String {
     }
 }
 
+/// `1..=3`
+pub(in crate::grammar) fn range_with_equals(p: &mut Parser<'_>) {
+    let at = p.pos();
+    let said = (
+        "expected-expression",
+        "found `..=`, wanted `..`".to_string(),
+        "both ends belong to a range: `1..3`".to_string(),
+    );
+    let span = p.span_at(at);
+    p.report_mistake((at, at), said, Some((span, String::new())));
+    p.bump();
+}
+
 /// Says what is written where an operand is wanted and a sign of other languages stands.
 pub(in crate::grammar) fn no_operand(p: &Parser<'_>) -> Option<String> {
     match (p.behind(1), p.current()) {
@@ -106,7 +131,6 @@ pub(in crate::grammar) fn no_operand(p: &Parser<'_>) -> Option<String> {
         (AndKw, Less | LessEq | Greater | GreaterEq) => {
             Some("comparisons stand in a chain: `0 < x < 3`".into())
         }
-        (DotDot, Eq) => Some("both ends belong to a range: `1..3`".into()),
         (FatArrow, LBrace) => {
             Some("what is answered stands behind `=>` without braces and without `return`".into())
         }

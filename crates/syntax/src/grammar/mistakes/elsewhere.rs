@@ -66,6 +66,19 @@ fn word(p: &Parser<'_>) -> Option<String> {
         "end" | "endif" | "endfor" if is_named => {
             "a body ends with the `}` that closes its `{`: leave the line out".into()
         }
+        "table" if p.nth(1) == Text => {
+            format!(
+                "a table belongs to a family of a program: `family Bolts of Bolt {{ table {next} }}`"
+            )
+        }
+        "parameter" | "input" | "output" | "attribute" | "property"
+            if is_named && p.nth(2) == Colon =>
+        {
+            format!(
+                "a program's parameters stand in its brackets, parts by themselves: leave `{}` out",
+                p.word(0)
+            )
+        }
         "parameter" | "input" | "output" | "attribute" | "property" if is_named => {
             let is_of_class = p.nth(2) == Ident && !p.begins_line(2) && p.nth(3) != Colon;
             let has_value = p.nth(3) == Eq && !p.begins_line(3) && !ends_line(p, 4);
@@ -95,6 +108,22 @@ fn word(p: &Parser<'_>) -> Option<String> {
     })
 }
 
+/// `class A()`, `class A(B)`, `class A(x, y)`: what is written for it.
+fn class_in_brackets(p: &Parser<'_>) -> Option<String> {
+    if p.behind(1) != Ident {
+        return None;
+    }
+    let (class, inner) = (p.text_between(p.pos() - 1, p.pos() - 1), p.word(1));
+    Some(match (p.nth(1), p.nth(2)) {
+        (RParen, _) => format!("a class has no brackets: `class {class} {{ … }}`"),
+        (Ident, RParen | Comma) => format!("write `class {class} is {inner}`"),
+        (Ident, _) => {
+            format!("the parts of a class stand in its body: `class {class} {{ {inner}: Real }}`")
+        }
+        _ => return None,
+    })
+}
+
 /// What goes on where a member has ended: what is written for it.
 fn sign(p: &Parser<'_>) -> Option<String> {
     if p.begins_line(0) {
@@ -118,14 +147,12 @@ fn sign(p: &Parser<'_>) -> Option<String> {
         Colon if p.behind(1) == Number && p.nth(1) == Number && !p.is_adjacent(1) => {
             "a proportion is an equation of quotients: `constraint a / b = 2 / 3`".into()
         }
-        LParen if of == "class" && p.behind(1) == Ident && p.nth(1) == Ident => {
-            let (class, inner) = (before(1), p.word(1));
-            match p.nth(2) {
-                RParen | Comma => format!("write `class {class} is {inner}`"),
-                _ => format!(
-                    "the parts of a class stand in its body: `class {class} {{ {inner}: Real }}`"
-                ),
-            }
+        LParen if of == "class" => return class_in_brackets(p),
+        Ident if p.word(0) == "as" && of == "use" => {
+            format!(
+                "what is used keeps its names; of two alike one says whose: `{}.Line`",
+                before(1)
+            )
         }
         LParen if before(1) == "super" => {
             "the answer of the superclasses has a name: `super.picture`".into()
@@ -243,6 +270,23 @@ fn is_bound(p: &Parser<'_>) -> bool {
     };
     let mut within = (1..=p.line_end() - p.pos()).take_while(goes_on);
     begins_body && !p.begins_line(0) && within.any(|n| compares(p.nth(n)))
+}
+
+/// `forall i: xs[i] > 0` after `constraint`: returns true where it was reported.
+pub(in crate::grammar) fn for_all(p: &mut Parser<'_>) -> bool {
+    let is_one = matches!(p.word(0), "forall" | "foreach" | "every")
+        && p.nth(1) == Ident
+        && !p.begins_line(1);
+    if is_one {
+        let at = p.pos();
+        let said = (
+            "expected-member",
+            format!("found `{}` in a rule", p.word(0)),
+            format!("a rule for each is a loop: `for {} in … {{ constraint … }}`", p.word(1)),
+        );
+        p.report_mistake((at, at), said, None);
+    }
+    is_one
 }
 
 /// `sum x = 3` after `constraint`: a name without its colon, or a product without its sign. Returns true where it was
@@ -523,6 +567,20 @@ pub(in crate::grammar) fn body_by_colon(p: &mut Parser<'_>, missing: &str) -> bo
         p.bump();
     }
     is_one
+}
+
+/// `12 mm +0.1/-0.2`: reports the two bounds of a drawing, behind the `+`.
+pub(in crate::grammar) fn two_bounds(p: &mut Parser<'_>) {
+    let signs = (p.nth(0), p.nth(1), p.nth(2), p.nth(3)) == (Number, Slash, Minus, Number);
+    if signs && (0..4).all(|n| p.is_adjacent(n)) {
+        let at = p.pos();
+        let said = (
+            "tolerance-sign",
+            format!("found `+{}`, wanted one value", p.text_between(at, at + 3)),
+            "what lies between two bounds is a rule: `constraint 11.8 mm <= d <= 12.1 mm`".into(),
+        );
+        p.report_mistake((at - 1, at + 3), said, None);
+    }
 }
 
 /// `3 mm +- 0.1 mm`: reports the sign of a tolerance, behind its `+`.
