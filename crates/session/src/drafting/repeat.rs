@@ -75,6 +75,11 @@ impl Loop {
         self.each.as_ref().map(|each| each.first.as_str())
     }
 
+    /// What is said of the set's first, as it is said of each of the set: `element.radius * 2`.
+    fn in_turn(&self, first: &str) -> Option<String> {
+        self.each.as_ref().map(|each| text::renamed(first, &each.first, &each.element))
+    }
+
     /// What was caught for the set, of a loop over one whose second turn is not asked about.
     pub(crate) fn caught(&self) -> &[String] {
         let each = self.each.as_ref().filter(|_| !self.is_drawn());
@@ -102,7 +107,7 @@ impl Loop {
             operand: asked.slot.clone(),
             first: asked.first.clone(),
             is_value: asked.is_value,
-            element: self.element().map(String::from),
+            in_turn: self.in_turn(&asked.first),
         })
     }
 
@@ -117,7 +122,7 @@ impl Loop {
             };
             let place = steps::as_typed(first, "");
             let first = place.as_ref().unwrap_or(first);
-            let words = match &question.element {
+            let words = match &question.in_turn {
                 Some(_) => format!(
                     "{operand} of {step} is {first}: each of the set in turn, or always this one?"
                 ),
@@ -414,10 +419,13 @@ pub(crate) fn answer(
         return Err(words::refuse("nothing is asked".into()));
     };
     let first = loop_now.it.asked[i].first.clone();
-    let ways: Vec<String> = match answer.map(str::trim) {
-        None | Some("") => vec![first],
-        Some(text) if at.is_some() => vec![text.into(), outcome::turned_round(text)],
-        Some(text) => vec![text.into()],
+    let answer = answer.map(str::trim).filter(|text| !text.is_empty());
+    let in_turn = answer.and_then(|text| of_each(&open.state, (&loop_now, &first), text));
+    let ways: Vec<String> = match (answer, in_turn) {
+        (_, Some(in_turn)) => vec![in_turn],
+        (None, _) => vec![first],
+        (Some(text), _) if at.is_some() => vec![text.into(), outcome::turned_round(text)],
+        (Some(text), _) => vec![text.into()],
     };
     let mut best: Option<(f64, String)> = None;
     let mut why = None;
@@ -442,6 +450,15 @@ pub(crate) fn answer(
     let is_settled = it.each.is_some() && it.question().is_none();
     keep(open, it);
     is_settled.then(|| close(open, host, "")).transpose()
+}
+
+/// What an answer is for each of the set, where it says of the second what the first turn says of the first: that one is
+/// shown for what comes in turn.
+fn of_each(state: &State, (opened, first): (&Opened, &str), answer: &str) -> Option<String> {
+    let set = set_of(&text::Source::now(state), &opened.program, &opened.address);
+    let second = set?.0.into_iter().nth(1)?;
+    let of_second = text::renamed(first, opened.it.first_of_set()?, &second);
+    opened.it.in_turn(first).filter(|_| answer == of_second)
 }
 
 /// Returns an answer that is typed as the language writes it. A place goes on from where it was in the turn before.
@@ -644,7 +661,7 @@ fn carried(it: &Loop, source: &text::Source, program: &Name) -> Vec<(String, Str
         let Some(answer) = asked.answer.as_ref().filter(|answer| **answer != asked.first) else {
             continue;
         };
-        if it.element() == Some(answer)
+        if it.in_turn(&asked.first).as_ref() == Some(answer)
             || all.iter().any(|(_, f, n)| *f == asked.first && n == answer)
         {
             continue;

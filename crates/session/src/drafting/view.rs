@@ -273,8 +273,8 @@ pub struct RecurrenceQuestion {
     pub first: String,
     /// Whether it is a number or a yes or no.
     pub is_value: bool,
-    /// What runs through the set, where the loop is one over a set: the other answer.
-    pub element: Option<String>,
+    /// What it is for each of the set in turn, where the loop is one over a set: the other answer.
+    pub in_turn: Option<String>,
 }
 
 /// A block that is demonstrated.

@@ -1058,6 +1058,33 @@ fn each_of_two_circles() -> Desk {
 }
 
 #[test]
+fn what_stands_on_each_of_a_set_is_drawn_on_each_and_not_on_the_one_before() {
+    for answers in
+        [["element.center", "element.radius * 2"], ["circle2.center", "circle2.radius * 2"]]
+    {
+        let mut desk = Desk::recording("Plate", &[]);
+        for (at, radius) in [("10,10", "4"), ("50,10", "2"), ("90,70", "5")] {
+            begin(&mut desk, "Circle");
+            enter(&mut desk, at);
+            made(enter(&mut desk, radius));
+        }
+        desk.session.begin_each(desk.id, ((0.0, 0.0), (100.0, 100.0))).expect("three circles");
+        begin(&mut desk, "Circle");
+        enter(&mut desk, "circle.center");
+        made(enter(&mut desk, "circle.radius * 2"));
+        desk.session.end_turn(desk.id, Ends::Until).expect("it is drawn");
+        // the second of the set may be shown for what it is in turn
+        for answer in answers {
+            enter(&mut desk, answer);
+        }
+        let each = "circle4 = Circle(center: element.center, radius: element.radius * 2)";
+        assert!(desk.text().contains(each), "{}", desk.text());
+        assert_eq!(value(&desk, "plate.turns[1].circle4"), "centre (50, 10), radius 4");
+        assert_eq!(value(&desk, "plate.turns[2].circle4"), "centre (90, 70), radius 10");
+    }
+}
+
+#[test]
 fn what_is_asked_of_the_first_of_a_set_is_forgotten_where_undo_brings_another() {
     let mut desk = each_of_two_circles();
     begin(&mut desk, "Circle");
@@ -1170,11 +1197,10 @@ fn a_loop_runs_over_what_a_rubber_band_catches() {
     desk.session.end_turn(desk.id, Ends::Until).expect("it is drawn");
     assert_eq!(desk.session.of_set_at(desk.id, &pointer(54.0, 10.0)), None, "it is asked about");
     // both the circle and its radius: each in turn
-    for _ in 0..2 {
+    for answer in ["element", "element.radius + 2"] {
         let question = asked(&desk).expect("it is asked");
-        let element = question.element.expect("it runs over a set");
-        let answer = if question.is_value { format!("{element}.radius + 2") } else { element };
-        enter(&mut desk, &answer);
+        assert_eq!(question.in_turn.as_deref(), Some(answer));
+        enter(&mut desk, answer);
     }
     assert_eq!(desk.wrong(), [], "{}", desk.text());
     assert_eq!(value(&desk, "plate.turns"), "3 turns");

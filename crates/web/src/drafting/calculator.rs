@@ -52,7 +52,11 @@ pub fn Calculator(
         let is_blank = typed.trim().is_empty();
         (!is_blank).then(|| lab.ask_of_shown(|session, id| session.compute(id, &typed))).flatten()
     });
-    let add = move |text: &str| drafting.typed.update(|typed| typed.push_str(text));
+    let change = move |how: &dyn Fn(&mut String)| {
+        drafting.typed.update(how);
+        lab.draft_typed();
+    };
+    let add = move |text: &str| change(&|typed| typed.push_str(text));
     let measures = MEASURES.map(|(label, kind)| {
         view! {
             <button type="button" class="measure" data-measure=label
@@ -65,7 +69,7 @@ pub fn Calculator(
         })
     });
     let take_back = move |_| {
-        drafting.typed.update(|typed| {
+        change(&|typed| {
             let short = typed.trim_end().char_indices().next_back().map_or(0, |(at, _)| at);
             typed.truncate(short);
         });
@@ -94,7 +98,7 @@ pub fn Calculator(
                 <button type="button" data-key="M" title=words::KEEP on:click=keep>"M"</button>
                 <button type="button" data-key="MR" title=move || drafting.memory.get().unwrap_or_default()
                     disabled=move || drafting.memory.with(Option::is_none) on:click=recall>"MR"</button>
-                <button type="button" data-key="C" on:click=move |_| drafting.typed.set(String::new())>"C"</button>
+                <button type="button" data-key="C" on:click=move |_| change(&String::clear)>"C"</button>
                 <button type="button" data-key="⌫" aria-label=words::BACKSPACE on:click=take_back>"⌫"</button>
                 <button class="primary" data-key="give">{words::GIVE}</button>
             </div>

@@ -164,8 +164,7 @@ fn Answers(lab: Lab) -> impl IntoView {
     move || {
         match drafting.prompt.with(|p| p.as_ref().map(|p| p.wants.clone())) {
         Some(Wants::Recurrence(question)) if !is_drawn() => {
-            let element = question.element.map(|element| {
-                let answer = element.clone();
+            let in_turn = question.in_turn.map(|answer| {
                 view! {
                     <button type="button" class="primary" data-draft="each"
                         on:click=move |_| {
@@ -175,7 +174,7 @@ fn Answers(lab: Lab) -> impl IntoView {
                 }
             });
             view! {
-                {element}
+                {in_turn}
                 <button type="button" class="primary" data-draft="same"
                     on:click=move |_| lab.draft_same()>{words::THE_SAME}</button>
             }
