@@ -162,6 +162,16 @@ async fn no_page_is_wider_than_its_window() {
             visit.reference_picture(&format!("{name}-{size}")).await;
         }
     }
+    // in a low window, with the reasons open, the tools stand beside each other over the picture
+    visit.client.set_window_size(1440, 600).await.expect("a low window");
+    visit.script("document.querySelector('.why-button').click()").await;
+    visit.until("document.querySelector('.centre .why')").await;
+    let beside = "(tools => tools.length > 9 && tools.every(tool => { \
+                   const r = tool.getBoundingClientRect(), p = tool.closest('.stage').getBoundingClientRect(); \
+                   return r.bottom <= p.bottom && tool.contains( \
+                   document.elementFromPoint(r.left + r.width / 2, r.top + r.height / 2)); \
+                   }))([...document.querySelectorAll('.rail .tool')])";
+    visit.until(beside).await;
 }
 
 #[tokio::test]
