@@ -14,7 +14,7 @@ use syntax::ast::{AstNode, BinaryOp, CallExpr, Expr, Part, Type, TypeShape, Unar
 const TURN: f64 = std::f64::consts::TAU;
 
 /// The units of angles by which a number is told from other plain numbers.
-const UNITS: [&str; 8] = ["deg", "°", "rad", "turn", "rev", "grad", "arcmin", "arcsec"];
+pub(crate) const UNITS: [&str; 8] = ["deg", "°", "rad", "turn", "rev", "grad", "arcmin", "arcsec"];
 /// The functions that answer angles.
 const ANSWERING: [&str; 4] = ["atan2", "atan", "asin", "acos"];
 /// The functions of numbers that answer what these are.
@@ -158,7 +158,7 @@ impl Lowerer<'_> {
     }
 
     /// Returns true for what is declared as a class of the language, or answers one.
-    fn is_declared_as(&mut self, scope: &Scope, e: &Expr, class: &str) -> bool {
+    pub(crate) fn is_declared_as(&mut self, scope: &Scope, e: &Expr, class: &str) -> bool {
         let references = self.references.take();
         self.silent += 1;
         let found = self.expr(scope, e);

@@ -51,6 +51,7 @@ mod lower;
 mod lowering;
 mod members;
 mod mentions;
+mod misread;
 mod mixed;
 mod names;
 mod numbers;

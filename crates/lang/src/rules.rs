@@ -201,6 +201,9 @@ impl Lowerer<'_> {
         {
             return;
         }
+        if let Some(name) = class.map(|class| self.document.classes[class].name.clone()) {
+            self.warn_of_value(scope, &name, value);
+        }
         if class.is_some_and(|class| self.document.classes[class].name.as_str() == ANGLE) {
             self.warn_of_bare_angle(scope, value, |degrees| format!("`{degrees}`"));
         }

@@ -71,6 +71,7 @@ impl Lowerer<'_> {
                 let (a, b) = (a?, b?);
                 self.refer_by_position(scope.file, &left, &b.1);
                 self.refer_by_position(scope.file, &right, &a.1);
+                self.warn_of_misreading(scope, binary);
                 if is_comparison(op) {
                     self.warn_of_bare_angles(scope, &[left, right]);
                 }

@@ -1,0 +1,160 @@
+//! Numbers that their writer may have meant otherwise: each is a warning, for what is written is allowed.
+//!
+//! In: expressions. Out: warnings of `1/4 turn`, which is 1 over 4 turns; of `x^1/2`, half of x; of `pi() * d * n`, where
+//! n turns in radians; of degrees that are taken as radians, and of hertz as radians in a second.
+
+use crate::angles::{ANGLE, UNITS};
+use crate::lower::{Lowerer, OWN};
+use crate::scope::Scope;
+use base::{Diagnostic, Place};
+use syntax::ast::{AstNode, BinaryExpr, BinaryOp, Expr, NumberExpr};
+
+/// The class of what turns.
+const TURNING: &str = "AngularVelocity";
+
+impl Lowerer<'_> {
+    /// Warns of a product or quotient that may be meant otherwise.
+    pub(crate) fn warn_of_misreading(&mut self, scope: &Scope, binary: &BinaryExpr) {
+        if scope.file != OWN || self.silent > 0 {
+            return;
+        }
+        let (Some(op), Some(left), Some(right)) = (binary.op(), binary.left(), binary.right())
+        else {
+            return;
+        };
+        let place = Place { file: scope.file, span: binary.span() };
+        let written = binary.syntax().text().to_string();
+        let told = match op {
+            BinaryOp::Divide => fraction(&left, &right, &written)
+                .or_else(|| root(&left, &right, &written))
+                .map(|(meaning, hint)| ("fraction", format!("{written} is {meaning}"), hint)),
+            BinaryOp::Multiply => self.turns_by_pi(scope, &left, &right),
+            _ => None,
+        };
+        if let Some((code, message, hint)) = told {
+            self.report(Diagnostic::warning(code, place, message).hint(hint));
+        }
+    }
+
+    /// Warns of a value that a part of some class may be meant to have otherwise.
+    pub(crate) fn warn_of_value(&mut self, scope: &Scope, class: &str, value: &Expr) {
+        if scope.file != OWN || self.silent > 0 {
+            return;
+        }
+        let written = value.syntax().text().to_string();
+        let told = match value {
+            Expr::Number(number) if class == TURNING => hertz(number).map(|(once, turns)| {
+                let message = format!("{written} is {once} rad/s here, not so many turns");
+                ("turns-as-frequency", message, format!("what turns so often has `{turns} rpm`"))
+            }),
+            _ if class == ANGLE && is_in_degrees(value) => Some((
+                "bare-angle",
+                format!("{written} is a number of degrees, and is taken as radians"),
+                "an angle is shown in degrees by itself: leave `180 / pi()` out".to_string(),
+            )),
+            _ => None,
+        };
+        if let Some((code, message, hint)) = told {
+            let place = Place { file: scope.file, span: value.span() };
+            self.report(Diagnostic::warning(code, place, message).hint(hint));
+        }
+    }
+
+    /// `pi() * d * n`, where n is an angular velocity
+    fn turns_by_pi(
+        &mut self,
+        scope: &Scope,
+        left: &Expr,
+        right: &Expr,
+    ) -> Option<(&'static str, String, String)> {
+        let [left, right] = [left, right].map(factors);
+        let has_pi = |factors: &[Expr]| factors.iter().any(is_pi);
+        let others = match (has_pi(&left), has_pi(&right)) {
+            (true, false) => right,
+            (false, true) => left,
+            _ => return None,
+        };
+        let turning = others.into_iter().find(|e| self.is_declared_as(scope, e, TURNING))?;
+        let turning = turning.syntax().text().to_string();
+        Some((
+            "turns-by-pi",
+            format!("{turning} is an angular velocity: each turn is 2π already"),
+            format!(
+                "a speed is `{turning} * radius`, a power `{turning} * torque`; how often something turns is a Frequency"
+            ),
+        ))
+    }
+}
+
+/// `1/4 turn`, `1/2 %`: what it is, and what is written for a fraction of the unit.
+fn fraction(left: &Expr, right: &Expr, written: &str) -> Option<(String, String)> {
+    let (Expr::Number(above), Expr::Number(below)) = (left, right) else { return None };
+    let unit = below.unit().filter(|unit| UNITS.contains(&unit.text()) || unit.text() == "%")?;
+    let (above, digits) = (above.digits().filter(|_| above.unit().is_none())?, below.digits()?);
+    let (above, unit) = (above.text(), unit.text());
+    // what stands apart is a quotient
+    let is_fraction = written.starts_with(&format!("{above}/{}", digits.text()));
+    let meaning = format!("{above} divided by {} {unit}", digits.text());
+    let hint = format!(
+        "a unit belongs to the number before it alone: write `{above} {unit} / {}`",
+        digits.text()
+    );
+    is_fraction.then_some((meaning, hint))
+}
+
+/// `x^1/2`: what it is, and what is written for the root.
+fn root(left: &Expr, right: &Expr, written: &str) -> Option<(String, String)> {
+    let (Expr::Binary(power), Expr::Number(below)) = (left, right) else { return None };
+    let Expr::Number(one) = power.right()? else { return None };
+    let is_one = power.op() == Some(BinaryOp::Power) && one.value() == Some(1.0);
+    let (of, below) = (power.left()?.syntax().text().to_string(), below.digits()?);
+    let is_tight = !written.contains(char::is_whitespace);
+    let hint = format!("a root is a power in brackets: `{of}^(1/{})`", below.text());
+    (is_one && is_tight).then(|| (format!("{of} divided by {}", below.text()), hint))
+}
+
+/// How much a number of hertz is as it stands, and in turns a minute.
+fn hertz(number: &NumberExpr) -> Option<(String, String)> {
+    let unit = number.unit().filter(|unit| unit.text().ends_with("Hz"))?;
+    let (once, _) = expr::units::read_quantity(number.digits()?.text(), unit.text())?;
+    Some((base::number::shortest(once), base::number::shortest(once * 60.0)))
+}
+
+/// Returns what is multiplied in a product.
+fn factors(e: &Expr) -> Vec<Expr> {
+    let mut open = vec![e.clone()];
+    let mut found = Vec::new();
+    while let Some(e) = open.pop() {
+        match &e {
+            Expr::Paren(inner) => open.extend(inner.inner()),
+            Expr::Binary(binary) if binary.op() == Some(BinaryOp::Multiply) => {
+                open.extend(binary.right());
+                open.extend(binary.left());
+            }
+            Expr::Binary(binary) if binary.op() == Some(BinaryOp::Divide) => {
+                open.extend(binary.left());
+            }
+            _ => found.push(e),
+        }
+    }
+    found
+}
+
+fn is_pi(e: &Expr) -> bool {
+    match e {
+        Expr::Call(call) => call.name().is_some_and(|word| word.text() == "pi"),
+        Expr::Name(name) => name.name().is_some_and(|word| word.text() == "pi"),
+        _ => false,
+    }
+}
+
+/// Returns true for what is multiplied by 180 and divided by pi: radians made degrees.
+fn is_in_degrees(value: &Expr) -> bool {
+    let is_180 =
+        |e: &Expr| matches!(e, Expr::Number(n) if n.unit().is_none() && n.value() == Some(180.0));
+    let mut quotients = value.syntax().descendants().filter_map(BinaryExpr::cast).filter(|b| {
+        b.op() == Some(BinaryOp::Divide)
+            && b.right().is_some_and(|right| factors(&right).iter().any(is_pi))
+    });
+    quotients.any(|quotient| quotient.left().is_some_and(|left| factors(&left).iter().any(is_180)))
+}
