@@ -18,20 +18,15 @@ impl Lowerer<'_> {
         if scope.file != OWN || self.silent > 0 {
             return;
         }
-        let (Some(op), Some(left), Some(right)) = (binary.op(), binary.left(), binary.right())
-        else {
-            return;
-        };
         let place = Place { file: scope.file, span: binary.span() };
-        let written = binary.syntax().text().to_string();
-        let told = match op {
-            BinaryOp::Divide => fraction(&left, &right, &written)
-                .or_else(|| root(&left, &right, &written))
-                .map(|(meaning, hint)| ("fraction", format!("{written} is {meaning}"), hint)),
-            BinaryOp::Multiply => self.turns_by_pi(scope, &left, &right),
+        let told = match binary.op() {
+            Some(BinaryOp::Divide) => fraction(binary).or_else(|| root(binary)),
             _ => None,
         };
-        if let Some((code, message, hint)) = told {
+        let told = told.map(|(meaning, hint)| {
+            ("fraction", format!("{} is {meaning}", binary.syntax().text()), hint)
+        });
+        if let Some((code, message, hint)) = told.or_else(|| self.turns_by_pi(scope, binary)) {
             self.report(Diagnostic::warning(code, place, message).hint(hint));
         }
     }
@@ -41,15 +36,15 @@ impl Lowerer<'_> {
         if scope.file != OWN || self.silent > 0 {
             return;
         }
-        let written = value.syntax().text().to_string();
+        let written = || value.syntax().text().to_string();
         let told = match value {
             Expr::Number(number) if class == TURNING => hertz(number).map(|(once, turns)| {
-                let message = format!("{written} is {once} rad/s here, not so many turns");
+                let message = format!("{} is {once} rad/s here, not so many turns", written());
                 ("turns-as-frequency", message, format!("what turns so often has `{turns} rpm`"))
             }),
             _ if class == ANGLE && is_in_degrees(value) => Some((
                 "bare-angle",
-                format!("{written} is a number of degrees, and is taken as radians"),
+                format!("{} is a number of degrees, and is taken as radians", written()),
                 "an angle is shown in degrees by itself: leave `180 / pi()` out".to_string(),
             )),
             _ => None,
@@ -60,21 +55,21 @@ impl Lowerer<'_> {
         }
     }
 
-    /// `pi() * d * n`, where n is an angular velocity
+    /// `pi() * d * n`, where n is an angular velocity: told of the whole product.
     fn turns_by_pi(
         &mut self,
         scope: &Scope,
-        left: &Expr,
-        right: &Expr,
+        product: &BinaryExpr,
     ) -> Option<(&'static str, String, String)> {
-        let [left, right] = [left, right].map(factors);
-        let has_pi = |factors: &[Expr]| factors.iter().any(is_pi);
-        let others = match (has_pi(&left), has_pi(&right)) {
-            (true, false) => right,
-            (false, true) => left,
-            _ => return None,
-        };
-        let turning = others.into_iter().find(|e| self.is_declared_as(scope, e, TURNING))?;
+        let around = product.syntax().parent().and_then(BinaryExpr::cast);
+        if !is_product(product) || around.is_some_and(|around| is_product(&around)) {
+            return None;
+        }
+        let factors = factors(&Expr::Binary(product.clone()));
+        if !factors.iter().any(is_pi) {
+            return None;
+        }
+        let turning = factors.into_iter().find(|e| self.is_declared_as(scope, e, TURNING))?;
         let turning = turning.syntax().text().to_string();
         Some((
             "turns-by-pi",
@@ -87,30 +82,37 @@ impl Lowerer<'_> {
 }
 
 /// `1/4 turn`, `1/2 %`: what it is, and what is written for a fraction of the unit.
-fn fraction(left: &Expr, right: &Expr, written: &str) -> Option<(String, String)> {
-    let (Expr::Number(above), Expr::Number(below)) = (left, right) else { return None };
+fn fraction(quotient: &BinaryExpr) -> Option<(String, String)> {
+    let (Expr::Number(above), Expr::Number(below)) = (quotient.left()?, quotient.right()?) else {
+        return None;
+    };
     let unit = below.unit().filter(|unit| UNITS.contains(&unit.text()) || unit.text() == "%")?;
-    let (above, digits) = (above.digits().filter(|_| above.unit().is_none())?, below.digits()?);
-    let (above, unit) = (above.text(), unit.text());
+    let (above, below) = (above.digits().filter(|_| above.unit().is_none())?, below.digits()?);
+    let (above, below, unit) = (above.text(), below.text(), unit.text());
     // what stands apart is a quotient
-    let is_fraction = written.starts_with(&format!("{above}/{}", digits.text()));
-    let meaning = format!("{above} divided by {} {unit}", digits.text());
-    let hint = format!(
-        "a unit belongs to the number before it alone: write `{above} {unit} / {}`",
-        digits.text()
-    );
-    is_fraction.then_some((meaning, hint))
+    let is_tight = quotient.syntax().text().to_string().starts_with(&format!("{above}/{below}"));
+    let hint =
+        format!("a unit belongs to the number before it alone: write `{above} {unit} / {below}`");
+    is_tight.then(|| (format!("{above} divided by {below} {unit}"), hint))
 }
 
 /// `x^1/2`: what it is, and what is written for the root.
-fn root(left: &Expr, right: &Expr, written: &str) -> Option<(String, String)> {
-    let (Expr::Binary(power), Expr::Number(below)) = (left, right) else { return None };
+fn root(quotient: &BinaryExpr) -> Option<(String, String)> {
+    let (Expr::Binary(power), Expr::Number(below)) = (quotient.left()?, quotient.right()?) else {
+        return None;
+    };
     let Expr::Number(one) = power.right()? else { return None };
-    let is_one = power.op() == Some(BinaryOp::Power) && one.value() == Some(1.0);
+    if power.op() != Some(BinaryOp::Power) || one.value() != Some(1.0) {
+        return None;
+    }
+    let is_tight = !quotient.syntax().text().to_string().contains(char::is_whitespace);
     let (of, below) = (power.left()?.syntax().text().to_string(), below.digits()?);
-    let is_tight = !written.contains(char::is_whitespace);
     let hint = format!("a root is a power in brackets: `{of}^(1/{})`", below.text());
-    (is_one && is_tight).then(|| (format!("{of} divided by {}", below.text()), hint))
+    is_tight.then(|| (format!("{of} divided by {}", below.text()), hint))
+}
+
+fn is_product(binary: &BinaryExpr) -> bool {
+    matches!(binary.op(), Some(BinaryOp::Multiply | BinaryOp::Divide))
 }
 
 /// How much a number of hertz is as it stands, and in turns a minute.
