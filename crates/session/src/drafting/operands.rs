@@ -16,6 +16,8 @@ pub(super) struct Occurrence {
     pub(super) span: Span,
     /// Where the same stands again.
     pub(super) again: Option<Span>,
+    /// Whether it is what a block in the turn carries on: `next first`.
+    pub(super) is_next: bool,
 }
 
 /// Lists the operands of a turn that speak of something that it has not made, those of blocks in it too.
@@ -30,14 +32,14 @@ fn collect(steps: &[text::StepNode], way: &str, own: &mut Vec<String>, into: &mu
         let step_way = text::joined(way, &step.segment);
         let Some(value) = &step.value else { continue };
         let mut operands = heads(value);
-        add(&mut operands, (&step_way, own), into);
+        add(&mut operands, (&step_way, own, false), into);
         let known = own.len();
         own.extend(text::carried_names(value));
         for (segment, steps) in text::inner_steps(value) {
             collect(&steps, &text::joined(&step_way, segment), own, into);
         }
         let mut operands = tails(value);
-        add(&mut operands, (&step_way, own), into);
+        add(&mut operands, (&step_way, own, true), into);
         // what a block with a name makes is reached by that name alone
         if step.name.is_some() {
             own.truncate(known);
@@ -49,7 +51,7 @@ fn collect(steps: &[text::StepNode], way: &str, own: &mut Vec<String>, into: &mu
 /// Keeps of operands those that speak of something from outside.
 fn add(
     operands: &mut Vec<(String, Expr)>,
-    (step, own): (&str, &[String]),
+    (step, own, is_tail): (&str, &[String], bool),
     into: &mut Vec<Occurrence>,
 ) {
     let from = into.len();
@@ -58,7 +60,8 @@ fn add(
         // a place on the sheet may be another one in the next turn: a number that is typed is a constant
         if speaks_of_outside(&value, own) || is_place(&value) {
             let span = syntax::ast::span_without_doc(value.syntax());
-            let it = Occurrence { step: step.into(), slot, first, span, again: None };
+            let is_next = is_tail && !is_condition(&slot);
+            let it = Occurrence { step: step.into(), slot, first, span, again: None, is_next };
             join(into, from, it);
         }
     }
@@ -79,19 +82,29 @@ pub(super) fn of_step(step: &text::StepNode) -> Vec<(Occurrence, bool)> {
     let one = |slot: String, value: &Expr, is_within: bool| {
         let first = value.syntax().text().to_string().trim().to_string();
         let span = syntax::ast::span_without_doc(value.syntax());
-        (Occurrence { step: step.segment.clone(), slot, first, span, again: None }, is_within)
+        let step = step.segment.clone();
+        (Occurrence { step, slot, first, span, again: None, is_next: false }, is_within)
     };
     let mut all = Vec::new();
     heads(value)
         .into_iter()
         .for_each(|(slot, value)| join(&mut all, 0, one(slot, &value, false).0));
     let heads = all.into_iter().map(|it| (it, false));
-    let tails = tails(value).into_iter().map(|(slot, value)| match slot.as_str() {
-        "while" => one(slot, &value, true),
-        "until" => one(slot, &value, true),
-        _ => one(format!("next {slot}"), &value, true),
+    let tails = tails(value).into_iter().map(|(slot, value)| match is_condition(&slot) {
+        true => one(slot, &value, true),
+        false => one(next(&slot), &value, true),
     });
     heads.chain(tails).collect()
+}
+
+/// How what a loop carries on is called.
+pub(super) fn next(slot: &str) -> String {
+    format!("next {slot}")
+}
+
+/// Whether what stands at the end of a block is what ends it.
+fn is_condition(slot: &str) -> bool {
+    matches!(slot, "while" | "until")
 }
 
 /// The operands of a step: those of a construction, or what stands before a block.

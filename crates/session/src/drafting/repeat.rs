@@ -6,7 +6,7 @@
 //! A loop over a set asks only of what speaks of the set's first element: each in turn, or always this one?
 
 use super::blocks::{self, Block, Kind};
-use super::operands::{Occurrence, operands};
+use super::operands::{self, Occurrence};
 use super::outcome::{self, Worth};
 use super::view::{Ends, Prompt, RecurrenceQuestion, Wants};
 use super::{Around, Home, recording, scene, steps, text, typed};
@@ -55,6 +55,8 @@ struct Asked {
     first: String,
     /// Whether that is a number or a yes or no.
     is_value: bool,
+    /// Whether it is what a block in the turn carries on.
+    is_next: bool,
     /// What it is in the next turn, as the turn before calls it; itself for the same.
     answer: Option<String>,
 }
@@ -104,7 +106,10 @@ impl Loop {
             number: at + 1,
             of: self.asked.len(),
             step: asked.step.clone(),
-            operand: asked.slot.clone(),
+            operand: match asked.is_next {
+                true => operands::next(&asked.slot),
+                false => asked.slot.clone(),
+            },
             first: asked.first.clone(),
             is_value: asked.is_value,
             in_turn: self.in_turn(&asked.first),
@@ -114,6 +119,7 @@ impl Loop {
     /// What is waited for, once the turn is drawn.
     pub(crate) fn prompt(&self) -> Option<Prompt> {
         if let Some(question) = self.question() {
+            let is_next = self.asked[question.number - 1].is_next;
             let RecurrenceQuestion { number, of, step, operand, first, .. } = &question;
             // an `if` has no name
             let step = match step.rsplit('.').next().is_some_and(text::is_name) {
@@ -126,7 +132,8 @@ impl Loop {
                 Some(_) => format!(
                     "{operand} of {step} is {first}: each of the set in turn, or always this one?"
                 ),
-                None if place.is_some() => format!(
+                // what a block in the turn carries on goes on from a place within it
+                None if place.is_some() && !is_next => format!(
                     "{operand} of {step} was {first}: the same, which object of the turn before, or how far on, `@dx,dy`?"
                 ),
                 None => {
@@ -685,7 +692,7 @@ fn closed(
     let body = text::block(source, &opened.program, &opened.address).ok_or_else(none)?;
     let (_, value) = text::step(source, &opened.program, &opened.address).ok_or_else(none)?;
     let carried = carried(it, source, &opened.program);
-    let operands = operands(&body);
+    let operands = operands::operands(&body);
     let mut edits: Vec<(Span, String)> = Vec::new();
     let mut rest = operands.iter();
     for asked in &it.asked {
@@ -734,11 +741,12 @@ fn questions(body: &syntax::ast::Body, first_of_set: Option<&str>) -> Vec<Asked>
         slot: o.slot,
         first: o.first,
         is_value: false,
+        is_next: o.is_next,
         answer: None,
     };
     let speaks = |o: &Occurrence| match first_of_set {
         Some(first) => !text::places_of(&o.first, first).is_empty(),
         None => true,
     };
-    operands(body).into_iter().filter(speaks).map(asked).collect()
+    operands::operands(body).into_iter().filter(speaks).map(asked).collect()
 }

@@ -1244,10 +1244,11 @@ fn a_plate_is_perforated_by_a_loop_in_a_loop() {
     enter(&mut desk, "columns");
     assert_eq!(value(&desk, "plate.grid[0].row"), "8 turns");
     desk.session.end_turn(desk.id, Ends::Times).expect("it is drawn");
-    let mut answers = 0;
+    let mut answered = Vec::new();
     while let Some(question) = asked(&desk) {
-        answers += 1;
-        assert!(answers < 20, "{question:?}");
+        let words = desk.session.prompt(desk.id).expect("it is asked").words;
+        answered.push((question.operand.clone(), words.contains("how far on")));
+        assert!(answered.len() < 20, "{question:?}");
         match question.first.starts_with("Point(pitch / 2") {
             true => {
                 let next = "Point(row[0].circle.center.x, row[0].circle.center.y + pitch)";
@@ -1256,6 +1257,9 @@ fn a_plate_is_perforated_by_a_loop_in_a_loop() {
             false => _ = desk.session.same(desk.id).expect("the same"),
         }
     }
+    // what the inner loop carries on goes on from a place within it
+    let last = answered.last().map(|(operand, goes_on)| (operand.as_str(), *goes_on));
+    assert_eq!(last, Some(("next center", false)), "{answered:?}");
     enter(&mut desk, "rows");
     assert_eq!(desk.wrong(), [], "{}", desk.text());
     assert_eq!(value(&desk, "plate.grid"), "5 turns");
