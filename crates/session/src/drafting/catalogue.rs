@@ -366,7 +366,7 @@ pub(crate) fn tools(state: &State, home: &Home) -> Vec<Tool> {
             continue;
         }
         let is_program = document.program(id).is_some();
-        let is_drawn = compound::is_drawn(document, id) || compound::is_of_places(document, id);
+        let is_drawn = compound::is_drawn(document, id);
         if is_program && !served.contains(&id) || is_drawn && !matches!(home, Home::Document) {
             let is_placed = is_program && matches!(home, Home::Document);
             let mut tool = constructor(document, id, is_program);

@@ -55,7 +55,9 @@ pub(crate) fn is_of_places(document: &Document, class: ClassId) -> bool {
     matches!(document.layout(class).as_slice(), [field] if is_places(field)) && is_drawn()
 }
 
-/// Whether things of a class are drawn as figures: it is one, or made of others.
+/// Whether things of a class are drawn as figures: it is one, made of others, or drawn through places.
 pub(crate) fn is_drawn(document: &Document, class: ClassId) -> bool {
-    document.figure(class).is_some() || of(document, class).is_some()
+    document.figure(class).is_some()
+        || of(document, class).is_some()
+        || is_of_places(document, class)
 }

@@ -164,6 +164,10 @@ fn operands_of(value: &Expr) -> Vec<(String, Expr)> {
         _ => (None, None),
     };
     let Some(list) = list else { return vec![("value".into(), value.clone())] };
+    // what goes through places has each of them as an operand
+    if let (Expr::Call(_), Some(places)) = (value, sole_list(&list)) {
+        return places.enumerate().map(|(i, place)| (ordinal(i), place)).collect();
+    }
     // `line.mirrored(about: axis)` is sent to what stands before the word
     let receiver = receiver.filter(|r| !is_class(&r.syntax().text().to_string()));
     let receiver = receiver.map(|r| ("what".to_string(), r));
@@ -174,9 +178,23 @@ fn operands_of(value: &Expr) -> Vec<(String, Expr)> {
     receiver.into_iter().chain(list.args().enumerate().filter_map(one)).collect()
 }
 
+/// The elements of a list that is all that a class is given: `Spline([start, Point(w, 0)])`.
+fn sole_list(list: &syntax::ast::ArgList) -> Option<impl Iterator<Item = Expr> + use<>> {
+    let mut all = list.args();
+    let only = all.next().filter(|only| all.next().is_none() && only.label().is_none())?;
+    match only.value()? {
+        Expr::List(list) => Some(list.elements().collect::<Vec<_>>().into_iter()),
+        _ => None,
+    }
+}
+
 /// What an operand without a label is called.
 fn ordinal(i: usize) -> String {
-    ["first", "second", "third"].get(i).map_or_else(|| format!("operand{}", i + 1), |n| (*n).into())
+    const NAMES: [&str; 10] = [
+        "first", "second", "third", "fourth", "fifth", "sixth", "seventh", "eighth", "ninth",
+        "tenth",
+    ];
+    NAMES.get(i).map_or_else(|| format!("operand{}", i + 1), |n| (*n).into())
 }
 
 /// Whether an expression is a point by its coordinates: `Point(3, d / 2)`.

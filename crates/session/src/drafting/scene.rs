@@ -1,5 +1,7 @@
 //! What can be picked: the figures that the home of a drawing knows, each by what it is called there.
 
+mod through;
+
 use super::compound::{self, Compound};
 use super::{Home, text};
 use crate::state::State;
@@ -103,9 +105,8 @@ pub(crate) fn within(state: &State, home: &Home, (a, b): ((f64, f64), (f64, f64)
     let mut caught: BTreeSet<&str> = BTreeSet::new();
     // the corners of a rectangle are no figures of their own
     let is_part = |found: &Found| is_part(found) || found.is_place && found.side_of.is_some();
-    // a contour is in it where all of its edges are
-    let cut: BTreeSet<&str> =
-        all.iter().filter(|f| f.side.is_some() && !is_in(f)).map(|f| f.text.as_str()).collect();
+    // a contour is in it where all of its edges are, a spline where all of its chords are
+    let cut: BTreeSet<&str> = all.iter().filter(|f| !is_in(f)).map(|f| f.text.as_str()).collect();
     let is_whole = |found: &Found| !cut.contains(found.text.as_str());
     // what a turn begins with was made elsewhere, save where it lies alone
     let carried: BTreeSet<&str> = carried.iter().map(String::as_str).collect();
@@ -240,12 +241,19 @@ pub(crate) struct Curve {
     arc: Option<[[f64; 2]; 2]>,
     /// Whether a straight goes on beyond its points.
     is_endless: bool,
+    /// Whether it stands for a part of a curve that is neither a line nor an arc.
+    is_chord: bool,
 }
 
 /// The names of the points that figures have.
 const PLACES: [&str; 5] = ["p1", "p2", "center", "start", "end"];
 
 impl Curve {
+    fn segment(from: [f64; 2], to: [f64; 2]) -> Self {
+        let figure = Figure::Straight { from, to };
+        Self { figure, arc: None, is_endless: false, is_chord: false }
+    }
+
     /// Returns where an edge lies.
     fn of_side(side: &Side) -> Self {
         let [from, to] = [side.from, side.to];
@@ -257,14 +265,16 @@ impl Curve {
                 },
                 arc: Some(if side.bulge < 0.0 { [to, from] } else { [from, to] }),
                 is_endless: false,
+                is_chord: false,
             },
-            None => Self { figure: Figure::Straight { from, to }, arc: None, is_endless: false },
+            None => Self::segment(from, to),
         }
     }
 
     /// Returns where it begins and ends, where it is a segment or an arc.
     pub(crate) fn ends(&self) -> Option<[[f64; 2]; 2]> {
         match (self.figure, self.arc) {
+            _ if self.is_chord => None,
             (Figure::Straight { from, to }, _) if !self.is_endless => Some([from, to]),
             (_, ends) => ends,
         }
@@ -273,6 +283,7 @@ impl Curve {
     /// Returns what edges of others can come from it.
     pub(crate) fn source(&self) -> Option<Source> {
         match (self.figure, self.arc) {
+            _ if self.is_chord => None,
             (Figure::Straight { from, to }, _) if self.is_endless => Some(Source::Axis(from, to)),
             (Figure::Straight { from, to }, _) => Some(Source::Line(from, to)),
             (Figure::Circle { center, radius }, None) => Some(Source::Circle(center, radius)),
@@ -300,7 +311,7 @@ impl Curve {
         let ends = is_of("Arc")
             .then(|| Some([place(evaluator, answer, "start")?, place(evaluator, answer, "end")?]));
         let arc = ends.flatten().map(|[a, b]| if is_of("ClockwiseArc") { [b, a] } else { [a, b] });
-        Some(Self { figure, arc, is_endless: !is_of("Line") })
+        Some(Self { figure, arc, is_endless: !is_of("Line"), is_chord: false })
     }
 
     /// Its radius, with its sign, where it is a circle or an arc of one.
@@ -654,6 +665,7 @@ impl<'a> Scene<'a> {
         }
         let Some(curve) = Curve::of(&self.evaluator, answer) else {
             self.sets.push((text.into(), self.is_result));
+            self.through_places((text, wholes), (class, answer));
             return self.outline((text, wholes), (class, answer));
         };
         let (wholes, is_result, is_place) = (wholes.to_vec(), self.is_result, false);

@@ -312,9 +312,17 @@ fn in_words(step: &StepNode, formula: &str) -> String {
     let (Some(head), Some(list)) = (head, list) else { return formula.into() };
     let mut before = String::new();
     let argument = |argument: syntax::ast::Arg| {
-        let value = said(argument.value()?.syntax());
-        let typed = as_typed(&value, &before).unwrap_or_else(|| value.clone());
-        before = value;
+        let value = argument.value()?;
+        let mut word = |value: &Expr| {
+            let value = said(value.syntax());
+            let typed = as_typed(&value, &before).unwrap_or_else(|| value.clone());
+            before = value;
+            typed
+        };
+        let typed = match &value {
+            Expr::List(list) => list.elements().map(|e| word(&e)).collect::<Vec<_>>().join(", "),
+            one => word(one),
+        };
         Some(match argument.label() {
             Some(label) => format!("{} {typed}", label.text()),
             None => typed,

@@ -2,7 +2,7 @@
 //! sides and corners, copied whole.
 
 use crate::desk::Desk;
-use session::drafting::view::{Ends, NewParameter, Turn};
+use session::drafting::view::{Ends, Go, NewParameter, Turn};
 use session::view::Pointer;
 
 fn begin(desk: &mut Desk, tool: &str) {
@@ -281,6 +281,82 @@ fn a_radius_of_more_than_half_the_shorter_side_rounds_no_corner() {
     let outline = text(enter(&mut desk, "15"));
     assert_eq!(outline, "Contour.rounded(of: rectangle, radius: 15)");
     assert_eq!(desk.wrong(), [], "{}", desk.text());
+}
+
+/// A program with a spline through three places, `width` across.
+fn wave() -> Desk {
+    let mut desk = Desk::of("use drafting\nuse contours\nunit mm\n");
+    desk.session.record(desk.id, "Wave").expect("a new program");
+    let width =
+        NewParameter { name: "width".into(), example: "60".into(), ..NewParameter::default() };
+    desk.session.define_parameter(desk.id, &width).expect("it is new");
+    begin(&mut desk, "Spline");
+    for place in ["0,0", "20,15", "width, 0"] {
+        enter(&mut desk, place);
+    }
+    text(enter(&mut desk, ""));
+    desk
+}
+
+#[test]
+fn a_spline_is_picked_by_its_curve_and_at_its_places() {
+    let mut desk = wave();
+    // between its places, where it bulges above them
+    begin(&mut desk, "Point:mirrored");
+    let on_it = Pointer { at: (10.5, 9.5), reach: 3.0, ..Pointer::default() };
+    assert_eq!(desk.session.hover(desk.id, &on_it, "").finds.as_deref(), Some("spline"));
+    desk.session.point(desk.id, &on_it).expect("it can be mirrored");
+    assert_eq!(
+        text(enter(&mut desk, "Axis.vertical(x: 0 mm)")),
+        "spline.mirrored(about: Axis.vertical(x: 0 mm))"
+    );
+    begin(&mut desk, "Circle");
+    pick(&mut desk, 20.0, 15.0);
+    assert_eq!(text(enter(&mut desk, "3")), "Circle(center: spline.places[1], radius: 3)");
+    // what it is picked by is no edge of a contour
+    begin(&mut desk, "Contour.along(edges)");
+    assert!(desk.session.point(desk.id, &on_it).is_err(), "it is neither a line nor an arc");
+    desk.session.give_up(desk.id);
+    // a band takes it where all of it lies within
+    let half = desk.session.begin_each(desk.id, ((-5.0, -5.0), (30.0, 30.0))).expect("a circle");
+    assert!(desk.text().contains("in [circle] {"), "{half:?}");
+    desk.undo();
+    let of_two =
+        desk.session.begin_each(desk.id, ((-5.0, -5.0), (70.0, 30.0))).expect_err("two kinds");
+    assert!(of_two.message.contains("1 Spline"), "{}", of_two.message);
+    assert_eq!(desk.wrong(), []);
+}
+
+#[test]
+fn each_place_of_a_spline_is_asked_about_and_changed_by_itself() {
+    let mut desk = wave();
+    let rows = desk.session.steps(desk.id, None).expect("it is recorded").rows;
+    assert_eq!(rows[0].words, "spline: (0, 0), (20, 15), (width, 0)");
+    desk.session.begin_change(desk.id, ("spline", "second")).expect("it has three");
+    enter(&mut desk, "@5,-20");
+    assert_eq!(value(&desk, "wave.spline.places[1]"), "(25, -5)");
+    // it is found by its curve, which is near its middle where its places are not
+    desk.session.visit(desk.id, &Go::Start).expect("it is recorded");
+    let on_it = Pointer { at: (45.0, -5.5), reach: 4.0, ..Pointer::default() };
+    desk.session.visit(desk.id, &Go::UntilPicked(on_it)).expect("it drew it");
+    desk.session.visit(desk.id, &Go::End).expect("there is one");
+    desk.undo();
+    // a second wave begins where the first one ends
+    let mut desk = Desk::of("use drafting\nunit mm\n");
+    desk.session.record(desk.id, "Waves").expect("a new program");
+    desk.session.begin_loop(desk.id, "").expect("a loop");
+    begin(&mut desk, "Spline");
+    for place in ["0,0", "20,15", "40,0"] {
+        enter(&mut desk, place);
+    }
+    text(enter(&mut desk, ""));
+    desk.session.end_turn(desk.id, Ends::Times).expect("it is drawn");
+    for _ in 0..3 {
+        enter(&mut desk, "@40,0");
+    }
+    enter(&mut desk, "3");
+    assert_eq!(desk.wrong(), [], "{}", desk.text());
+    assert_eq!(value(&desk, "waves.turns[2].spline.places[1]"), "(100, 15)");
 }
 
 #[test]

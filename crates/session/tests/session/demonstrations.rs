@@ -522,6 +522,15 @@ fn a_contour_is_made_of_edges_that_one_pick_follows() {
     draw(&mut desk, "value", &[Typed("contour.area / 1")]);
     let found = value_of(&desk, "half.value");
     assert!((found.abs() - area).abs() < 1e-9, "{found} for {area}");
+    // filled, it is what they surround
+    assert_eq!(draw(&mut desk, "Surface.filled(edges)", &[At(10.0, 0.0)]), "surface");
+    let wanted = "surface = Surface.filled(edges: [line, clockwiseArc, line2, arc])";
+    assert!(desk.text().contains(wanted), "{}", desk.text());
+    draw(&mut desk, "value", &[Typed("surface.area / 1")]);
+    let found = value_of(&desk, "half.value2");
+    assert!((found - area).abs() < 1e-9, "{found} for {area}");
+    desk.undo();
+    desk.undo();
     // where what covers the plane is wanted, several may stand in a list
     draw(&mut desk, "Contour.circle(of)", &[Typed("circle")]);
     draw(
