@@ -97,7 +97,8 @@ pub(crate) fn begin(open: &mut Open, paths: &[Path]) -> Result<(f64, f64), Refus
                 (None, Some(_)) if !held.is_empty() => {
                     press(&state, &mut open.planner, &held, path.clone())
                 }
-                _ => press_computed(&state, &mut open.planner, term, path.clone()),
+                _ => press_computed(&state, &mut open.planner, term, path.clone())
+                    .and_then(|drag| follows(&state, drag)),
             }
         }
     };
@@ -106,6 +107,20 @@ pub(crate) fn begin(open: &mut Open, paths: &[Path]) -> Result<(f64, f64), Refus
     let handle = drag.handle();
     open.drag = Some(drag);
     Ok(handle)
+}
+
+/// Refuses a drag that no number could follow.
+fn follows(state: &State, drag: Drag) -> Result<Drag, RefusalReason> {
+    if !drag.reach().is_empty() {
+        return Ok(drag);
+    }
+    let path = &drag.path;
+    let owner = path.0.first().and_then(|first| class_at(state, &Path(vec![first.clone()])));
+    let why = match owner.and_then(|class| state.lowered.document.program(class)) {
+        Some(_) => "its step says where it is; click the step to change what it says",
+        None => "no number that it is computed of can change",
+    };
+    Err(RefusalReason::Target(format!("{path} cannot be dragged: {why}")))
 }
 
 /// The most decimals of a number that follows a grasp.

@@ -341,6 +341,14 @@ fn each_place_of_a_spline_is_asked_about_and_changed_by_itself() {
     desk.session.visit(desk.id, &Go::UntilPicked(on_it)).expect("it drew it");
     desk.session.visit(desk.id, &Go::End).expect("there is one");
     desk.undo();
+    // a place that parameters say is dragged; one of numbers alone is said where that can be changed
+    let at = |i: usize| [session::parse_path(&format!("wave.spline.places[{i}]")).expect("a path")];
+    let refused = desk.session.press_all(desk.id, &at(1)).expect_err("it says (20, 15)");
+    assert!(refused.message.contains("click the step"), "{}", refused.message);
+    desk.session.press_all(desk.id, &at(2)).expect("it says (width, 0)");
+    desk.session.drag(desk.id, (80.0, 0.0));
+    desk.session.release(desk.id).expect("the width follows");
+    assert_eq!(value(&desk, "wave.width"), "80 mm");
     // a second wave begins where the first one ends
     let mut desk = Desk::of("use drafting\nunit mm\n");
     desk.session.record(desk.id, "Waves").expect("a new program");
