@@ -1,4 +1,5 @@
-//! What a draughtsman does in the drawer *Draw*: constructions and their operands, a program and its parameters.
+//! What a draughtsman does in the drawer *Draw*: constructions and their operands, a program and its parameters. Each
+//! is counted: one choice, one pick, one key of the calculator, one thing that is typed.
 
 use crate::Visit;
 use crate::hands::{self, key, state};
@@ -11,6 +12,7 @@ use std::time::Duration;
 /// # Panics
 /// Where it does not come, or nothing can click it.
 pub async fn press(visit: &Visit, selector: &str) {
+    visit.act();
     let found = visit.client.wait().for_element(Locator::Css(selector)).await;
     let found = found.unwrap_or_else(|e| panic!("{selector}: {e}"));
     if let Err(e) = found.click().await {
@@ -24,6 +26,7 @@ pub async fn press(visit: &Visit, selector: &str) {
 /// # Panics
 /// Where there is no such field.
 pub async fn fill(visit: &Visit, selector: &str, text: &str) {
+    visit.act();
     let found = visit.client.wait().for_element(Locator::Css(selector)).await;
     let found = found.unwrap_or_else(|e| panic!("{selector}: {e}"));
     visit.script(&format!("document.querySelector(\"{selector}\").select()")).await;
@@ -70,6 +73,7 @@ pub async fn seen(visit: &Visit, x: f64, y: f64) -> (f64, f64) {
 /// # Panics
 /// Where the browser refuses.
 pub async fn pick(visit: &Visit, x: f64, y: f64) {
+    visit.act();
     hands::point(visit, seen(visit, x, y).await, MOUSE_BUTTON_LEFT).await;
 }
 

@@ -8,6 +8,7 @@ mod chromium;
 pub mod drafting;
 pub mod hands;
 
+use std::cell::Cell;
 use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
@@ -25,6 +26,8 @@ pub struct Visit {
     pub client: Client,
     /// The address that the server printed: it carries the token.
     pub address: String,
+    /// How many actions were done in the drawer *Draw*: choices, picks, keys of the calculator, and what is typed.
+    pub actions: Cell<usize>,
     // Dropped in this order: a folder is gone only after those who write into it.
     _browser: chromium::Lent,
     server: Option<Process>,
@@ -57,6 +60,11 @@ impl Drop for Folder {
 const EMPTY: &str = "empty.thing";
 
 impl Visit {
+    /// Counts one more action.
+    pub fn act(&self) {
+        self.actions.update(|n| n + 1);
+    }
+
     /// Opens the lab on a document of the gallery (`quadrilateral.thing`), or on the gallery itself, which opens all
     /// that lies there.
     ///
@@ -103,7 +111,8 @@ impl Visit {
         let over = "localStorage.clear(); sessionStorage.clear(); \
                     localStorage.setItem('thinglab/first-minute', 'over')";
         client.execute(over, Vec::new()).await.expect("the browser keeps it");
-        Visit { client, address, _browser: browser, server: Some(server), folder }
+        let actions = Cell::new(0);
+        Visit { client, address, actions, _browser: browser, server: Some(server), folder }
     }
 
     /// Kills the server in the midst of whatever it does, and starts another over the same folder; the page stays.

@@ -24,6 +24,7 @@ async fn a_washer_is_recorded_by_drawing_one() {
     let visit = Visit::open(Some("belt.thing")).await;
     visit.until("document.querySelector('#tab-draw')").await;
     press(&visit, "#tab-draw").await;
+    visit.actions.set(0);
     fill(&visit, "input[name='program']", "Washer").await;
     press(&visit, "[data-draft='record']").await;
     for (name, example, question) in
@@ -41,6 +42,7 @@ async fn a_washer_is_recorded_by_drawing_one() {
     let text = text_of(&state(&visit).await);
     assert!(text.contains("circle2 = Circle(center: circle.center, radius: outer / 2)"), "{text}");
     press(&visit, "[data-draft='stop']").await;
+    assert_eq!(visit.actions.get(), 16);
     press(&visit, "#tab-bin").await;
     visit.until("document.querySelector(\".tile[data-class='Washer']\")").await;
 }
@@ -51,6 +53,7 @@ async fn first_ring(visit: &Visit) {
     visit.script("location.hash = '#/figure.thing'").await;
     visit.until("window.__thinglab.state().path === 'figure.thing'").await;
     press(visit, "#tab-draw").await;
+    visit.actions.set(0);
     fill(visit, "input[name='program']", "Rings").await;
     press(visit, "[data-draft='record']").await;
     for (name, example) in [("radius", "40"), ("minimum", "2")] {
@@ -114,6 +117,7 @@ async fn figure_7_6_is_drawn_as_its_chapter_tells() {
     pick(&visit, 0.0, 200.0).await;
     visit.until("window.__thinglab.state().text.includes('turns.mirrored(about: axis2)')").await;
     press(&visit, "[data-draft='stop']").await;
+    assert_eq!(visit.actions.get(), 43);
     let text = text_of(&state(&visit).await);
     let wanted = "turns = repeat with first = axis, radius2 = radius {
         circle = Circle.tangent(first, axis2, radius: radius2)

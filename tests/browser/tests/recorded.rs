@@ -6,25 +6,24 @@ use browser::drafting::{
 };
 use browser::hands::{self, key, state, text_of};
 
-/// Begins a program with its parameters, each with its example and a class.
-async fn record(visit: &Visit, program: &str, parameters: &[(&str, &str, &str)]) {
+/// Begins a program with its parameters, each with its example.
+async fn record(visit: &Visit, program: &str, parameters: &[(&str, &str)]) {
     press(visit, "#tab-draw").await;
+    visit.actions.set(0);
     fill(visit, "input[name='program']", program).await;
     press(visit, "[data-draft='record']").await;
-    for (name, example, class) in parameters {
-        if !class.is_empty() {
-            visit.until("document.querySelector('.define details')").await;
-            visit.script("document.querySelector('.define details').open = true").await;
-            press(visit, &format!("select[name='class'] option[value='{class}']")).await;
-        }
+    for (name, example) in parameters {
         define(visit, name, example).await;
     }
 }
 
+/// Zooms in, which is none of the actions that draw.
 async fn enlarge(visit: &Visit, times: usize) {
+    let drawn = visit.actions.get();
     for _ in 0..times {
         press(visit, ".corner button:last-child").await;
     }
+    visit.actions.set(drawn);
 }
 
 /// Begins an `if` whose condition the calculator says: a parameter, and keys.
@@ -50,7 +49,7 @@ async fn value(visit: &Visit, expression: &str) {
 #[tokio::test]
 async fn a_bolt_has_the_thread_that_its_length_asks_for() {
     let visit = hands::begin().await;
-    let parameters = [("d", "10", ""), ("k", "6.4", ""), ("s", "16", ""), ("length", "60", "")];
+    let parameters = [("d", "10"), ("k", "6.4"), ("s", "16"), ("length", "60")];
     record(&visit, "Bolt", &parameters).await;
     enlarge(&visit, 8).await;
     construct(&visit, "Line").await;
@@ -68,6 +67,9 @@ async fn a_bolt_has_the_thread_that_its_length_asks_for() {
     pick(&visit, 60.0, 5.0).await;
     enter(&visit, "@0, -d").await;
     has(&visit, "Point(line5.p2.x, line5.p2.y - d)").await;
+    pick(&visit, 60.0, -5.0).await;
+    enter(&visit, "0, -d / 2").await;
+    has(&visit, "line7 = Line(line6.p2, Point(0, -d / 2))").await;
     branch(&visit, "length", &["≤", "1", "2", "5"]).await;
     value(&visit, "2 * d + 6").await;
     otherwise(&visit, "length", "140").await;
@@ -82,24 +84,27 @@ async fn a_bolt_has_the_thread_that_its_length_asks_for() {
     construct(&visit, "Line.vertical(from,length)").await;
     enter(&visit, "length - value, d / 2").await;
     enter(&visit, "-d").await;
+    let drawn = visit.actions.get();
     for (length, at) in [("140", "(108, 5)"), ("60", "(34, 5)"), ("220", "(175, 5)")] {
         set(&visit, "length", length).await;
         visit
             .until(&format!(
-                "document.querySelector(\"[data-step='line7']\").innerText.includes('{at}')"
+                "document.querySelector(\"[data-step='line8']\").innerText.includes('{at}')"
             ))
             .await;
     }
     visit.picture("bolt").await;
+    visit.actions.set(drawn);
     press(&visit, "[data-draft='stop']").await;
+    assert_eq!(visit.actions.get(), 61);
     // its steps and values stay in sight
-    visit.until("document.querySelector(\"[data-step='line7']\")").await;
+    visit.until("document.querySelector(\"[data-step='line8']\")").await;
 }
 
 #[tokio::test]
 async fn a_retaining_ring_has_the_lug_that_its_size_asks_for() {
     let visit = hands::begin().await;
-    let parameters = [("d1", "20", ""), ("d3", "18.5", ""), ("a", "4", ""), ("d5", "2", "")];
+    let parameters = [("d1", "20"), ("d3", "18.5"), ("a", "4"), ("d5", "2")];
     record(&visit, "Ring", &parameters).await;
     enlarge(&visit, 12).await;
     // the tools beside the picture draw steps, too
@@ -145,7 +150,7 @@ async fn a_retaining_ring_has_the_lug_that_its_size_asks_for() {
 #[tokio::test]
 async fn a_nut_is_a_flat_in_a_polar_pattern() {
     let visit = hands::begin().await;
-    record(&visit, "Nut", &[("s", "16", ""), ("d", "10", "")]).await;
+    record(&visit, "Nut", &[("s", "16"), ("d", "10")]).await;
     enlarge(&visit, 12).await;
     construct(&visit, "Point").await;
     press(&visit, "input[name='guide']").await;
@@ -223,7 +228,7 @@ async fn half_a_ring(visit: &Visit) {
 async fn a_whole_retaining_ring_is_one_contour_with_its_holes() {
     let visit = hands::begin().await;
     hands::use_library(&visit, "contours").await;
-    let parameters = [("d3", "5.6", ""), ("a", "2.7", ""), ("b", "1.3", ""), ("d5", "1.2", "")];
+    let parameters = [("d3", "5.6"), ("a", "2.7"), ("b", "1.3"), ("d5", "1.2")];
     record(&visit, "Ring", &parameters).await;
     enlarge(&visit, 14).await;
     half_a_ring(&visit).await;
@@ -268,12 +273,7 @@ async fn a_whole_retaining_ring_is_one_contour_with_its_holes() {
 #[tokio::test]
 async fn a_plate_is_rows_of_rows_of_holes() {
     let visit = hands::begin().await;
-    let parameters = [
-        ("rows", "5", "Integer"),
-        ("columns", "8", "Integer"),
-        ("hole", "25", ""),
-        ("pitch", "40", ""),
-    ];
+    let parameters = [("rows", "5"), ("columns", "8"), ("hole", "25"), ("pitch", "40")];
     record(&visit, "Plate", &parameters).await;
     for _ in 0..2 {
         press(&visit, "[data-draft='repeat']").await;
@@ -313,6 +313,15 @@ async fn a_plate_is_rows_of_rows_of_holes() {
     assert!(text.contains(wanted), "{text}");
     visit.picture("plate").await;
     visit.book_picture("plate").await;
+    construct(&visit, "Rectangle").await;
+    for typed in ["0, 0", "columns * pitch", "rows * pitch"] {
+        enter(&visit, typed).await;
+    }
+    has(&visit, "Rectangle(corner: Point(0, 0), width: columns * pitch, height: rows * pitch)")
+        .await;
+    // to stop is one more
+    assert_eq!(visit.actions.get() + 1, 38);
+    press(&visit, "[data-draft='end']").await;
     // where steps stand, what defines a parameter is folded away
     press(&visit, "[data-draft='unfold']").await;
     define(&visit, "edge", "10").await;
@@ -322,7 +331,7 @@ async fn a_plate_is_rows_of_rows_of_holes() {
 #[tokio::test]
 async fn a_box_that_is_refused_is_not_checked() {
     let visit = hands::begin().await;
-    record(&visit, "Mark", &[("d", "6", "")]).await;
+    record(&visit, "Mark", &[("d", "6")]).await;
     branch(&visit, "d", &["≤", "9"]).await;
     construct(&visit, "Circle").await;
     for typed in ["10, 0", "d / 3"] {
@@ -353,8 +362,7 @@ async fn a_box_that_is_refused_is_not_checked() {
 #[tokio::test]
 async fn a_flange_counts_its_holes_by_a_plain_number_and_is_applied_by_its_questions() {
     let visit = hands::begin().await;
-    record(&visit, "Flange", &[("outer", "120", ""), ("round", "90", ""), ("holes", "6", "")])
-        .await;
+    record(&visit, "Flange", &[("outer", "120"), ("round", "90"), ("holes", "6")]).await;
     enlarge(&visit, 3).await;
     construct(&visit, "Circle").await;
     pick(&visit, 0.0, 0.0).await;
@@ -476,7 +484,7 @@ async fn a_washer_is_recorded_on_a_narrow_page() {
     let visit = hands::begin().await;
     visit.client.set_window_size(500, 844).await.expect("a narrow window");
     press(&visit, ".handles button").await;
-    record(&visit, "Washer", &[("inner", "84", ""), ("outer", "160", "")]).await;
+    record(&visit, "Washer", &[("inner", "84"), ("outer", "160")]).await;
     construct(&visit, "Circle").await;
     asked(&visit, "pick a point").await;
     // what is asked hides nothing of the picture
@@ -576,7 +584,7 @@ async fn a_recording_that_was_broken_off_goes_on_in_its_loop() {
     let visit = Visit::open_empty().await;
     visit.until("document.getElementById('picture')?.width > 10").await;
     hands::use_library(&visit, "contours").await;
-    record(&visit, "Flange", &[("pitch", "20", "")]).await;
+    record(&visit, "Flange", &[("pitch", "20")]).await;
     // a slot at the top, and three more around the middle
     construct(&visit, "Contour.slot(from,to,radius)").await;
     for typed in ["30<90", "@20<0", "4"] {

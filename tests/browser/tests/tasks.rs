@@ -4,29 +4,22 @@
 use browser::Visit;
 use browser::{drafting, hands};
 use fantoccini::actions::MOUSE_BUTTON_LEFT;
-use std::cell::Cell;
 use std::time::Duration;
 
-/// A hand that counts what it does.
+/// A hand that draws.
 struct Hand {
     visit: Visit,
-    actions: Cell<usize>,
 }
 
 impl Hand {
     async fn begin() -> Self {
         let visit = hands::begin().await;
         visit.script("document.querySelector('#tab-draw').click()").await;
-        Self { visit, actions: Cell::new(0) }
-    }
-
-    fn act(&self) {
-        self.actions.update(|n| n + 1);
+        Self { visit }
     }
 
     /// Chooses something by a click.
     async fn press(&self, selector: &str) {
-        self.act();
         drafting::press(&self.visit, selector).await;
         tokio::time::sleep(Duration::from_millis(60)).await;
     }
@@ -41,7 +34,6 @@ impl Hand {
 
     /// Types an operand.
     async fn enter(&self, typed: &str) {
-        self.act();
         drafting::enter(&self.visit, typed).await;
     }
 
@@ -53,19 +45,16 @@ impl Hand {
 
     /// Clicks where a place of the sheet is seen.
     async fn pick(&self, x: f64, y: f64) {
-        self.act();
         drafting::pick(&self.visit, x, y).await;
         tokio::time::sleep(Duration::from_millis(80)).await;
     }
 
     async fn keys(&self, all: &[&str]) {
-        self.actions.update(|n| n + all.len());
         drafting::calculate(&self.visit, all).await;
     }
 
     /// Begins a program with its parameters, each by a name, an example and *Define*.
     async fn record(&self, program: &str, parameters: &[(&str, &str)]) {
-        self.act();
         drafting::fill(&self.visit, "input[name='program']", program).await;
         self.draft("record").await;
         for (name, example) in parameters {
@@ -74,13 +63,11 @@ impl Hand {
     }
 
     async fn define(&self, name: &str, example: &str) {
-        self.actions.update(|n| n + 3);
         drafting::define(&self.visit, name, example).await;
     }
 
     /// Gives the example another value.
     async fn set(&self, parameter: &str, value: &str) {
-        self.act();
         drafting::set(&self.visit, parameter, value).await;
     }
 
@@ -107,7 +94,7 @@ async fn a_table_is_a_third_of_its_floor() {
     hand.press(".prompt [data-value='depth']").await;
     hand.draft("stop").await;
     hand.has("Rectangle(corner: rectangle.corner, width: width / 3, height: depth)").await;
-    assert_eq!(hand.actions.get(), 16);
+    assert_eq!(hand.visit.actions.get(), 16);
     hand.set("width", "120").await;
     hand.made("rectangle2", "(0, 0) to (40, 48)").await;
     hand.visit.picture("floor").await;
@@ -125,7 +112,7 @@ async fn an_arch_keeps_its_stones_as_thick() {
     hand.enter("@-stone, stone - height").await;
     hand.draft("stop").await;
     hand.has("rectangle3 = Rectangle.between(rectangle.corner2, ").await;
-    assert_eq!(hand.actions.get(), 19);
+    assert_eq!(hand.visit.actions.get(), 19);
     hand.set("stone", "40").await;
     hand.made("rectangle3", "80").await;
     hand.visit.picture("arch").await;
@@ -160,7 +147,7 @@ async fn a_scale_leans_to_the_heavier_side() {
     }
     hand.draft("stop").await;
     hand.has("tray2 = Tray(at: line3.p2, hang: 40, half: 20)").await;
-    assert_eq!(hand.actions.get(), 51);
+    assert_eq!(hand.visit.actions.get(), 51);
     // as heavy on both sides it is level
     hand.set("right", "30").await;
     hand.made("line3", "(84.5723, -30.7818)").await;
@@ -199,7 +186,7 @@ async fn a_sheet_is_folded_to_a_box_whose_volume_follows() {
     hand.draft("stop").await;
     hand.has("line4 = Line(rectangle3.corner4, shifted.corner4)").await;
     hand.has("map(nth => rectangle2.turned(about: rectangle.center, ").await;
-    assert_eq!(hand.actions.get(), 38);
+    assert_eq!(hand.visit.actions.get(), 38);
     hand.made("value2", "72000").await;
     hand.set("cut", "30").await;
     hand.made("value2", "48000").await;
@@ -223,7 +210,7 @@ async fn squares_along_both_diagonals_make_an_x() {
     }
     hand.draft("stop").await;
     hand.has("n: Integer = 3").await;
-    assert_eq!(hand.actions.get(), 26);
+    assert_eq!(hand.visit.actions.get(), 26);
     // the first of each pattern is there already
     hand.made("pattern4", "2 figures").await;
     hand.set("n", "5").await;
@@ -249,7 +236,7 @@ async fn terminals_become_workstations_wherever_they_stand() {
     }
     hand.draft("stop").await;
     hand.has("line2 = Line(terminal2.line.p2, terminal3.line.p1)").await;
-    assert_eq!(hand.actions.get(), 25);
+    assert_eq!(hand.visit.actions.get(), 25);
     // its screen is drawn anew, and stands on a foot
     hand.pick(9.0, 18.0).await;
     hand.draft("more").await;
@@ -262,7 +249,7 @@ async fn terminals_become_workstations_wherever_they_stand() {
     hand.draft("stop").await;
     hand.has("rectangle = Rectangle(corner: Point(at.x - 14, at.y + 10), width: 28, height: 20)")
         .await;
-    assert_eq!(hand.actions.get(), 25 + 11);
+    assert_eq!(hand.visit.actions.get(), 25 + 11);
     hand.visit.picture("workstations").await;
     plain_terminals(&hand).await;
 }
@@ -273,10 +260,10 @@ async fn plain_terminals(hand: &Hand) {
     let visit = &hand.visit;
     visit.script("location.hash = '#/plain.thing'").await;
     visit.until("window.__thinglab.state().path === 'plain.thing'").await;
-    hand.actions.set(0);
+    hand.visit.actions.set(0);
     let places = [(450.0, 250.0), (620.0, 350.0), (790.0, 250.0)];
     let drag = async |from: (f64, f64), to: (f64, f64)| {
-        hand.act();
+        hand.visit.act();
         hands::drag(visit, from, to).await;
     };
     for (x, y) in places {
@@ -292,29 +279,29 @@ async fn plain_terminals(hand: &Hand) {
         }
     }
     hand.has("line3: Line").await;
-    assert_eq!(hand.actions.get(), 12);
+    assert_eq!(hand.visit.actions.get(), 12);
     let around = async |(x, y): (f64, f64)| {
         drag((x - 25.0, y - 20.0), (x + 90.0, y + 80.0)).await;
     };
     around(places[0]).await;
-    hand.act();
+    hand.visit.act();
     hands::chord(visit, &[hands::key::SHIFT], 'C').await;
     visit.until("document.activeElement.id === 'asked'").await;
-    hand.act();
+    hand.visit.act();
     hands::keys(visit, "Terminal").await;
     hands::chord(visit, &[], hands::key::ENTER).await;
     hand.has("terminal: Terminal").await;
     for (place, thing) in places.iter().skip(1).zip(["terminal2", "terminal3"]) {
         around(*place).await;
-        hand.act();
+        hand.visit.act();
         hands::chord(visit, &[hands::key::SHIFT], 'R').await;
         hand.press(".recognised button:not([aria-label])").await;
         hand.has(&format!("{thing}: Terminal")).await;
     }
     // its prototype: the box stands on a foot
-    hand.act();
+    hand.visit.act();
     hands::point(visit, (places[0].0 + 20.0, places[0].1 + 60.0), MOUSE_BUTTON_LEFT).await;
-    hand.act();
+    hand.visit.act();
     hands::chord(visit, &[hands::key::SHIFT], 'E').await;
     visit
         .until(
@@ -327,12 +314,12 @@ async fn plain_terminals(hand: &Hand) {
     let ((from, y), (to, _), (_, up)) = (of("line.p1"), of("line.p2"), of("rectangle.corner"));
     hand.press("[data-action='tool-line']").await;
     for end in [up, y] {
-        hand.act();
+        hand.visit.act();
         hands::point(visit, (f64::midpoint(from, to), end), MOUSE_BUTTON_LEFT).await;
     }
     hand.has("constraint line2.p2 = line.midpoint").await;
     hand.press(".class-pane button").await;
-    assert_eq!(hand.actions.get(), 12 + 15);
+    assert_eq!(hand.visit.actions.get(), 12 + 15);
     for thing in ["terminal", "terminal2", "terminal3"] {
         visit
             .until(&format!(
@@ -394,7 +381,7 @@ async fn curve(hand: &Hand) {
 async fn the_snowflake_of_koch_is_three_curves_that_call_themselves() {
     let hand = Hand::begin().await;
     curve(&hand).await;
-    assert_eq!(hand.actions.get(), 52);
+    assert_eq!(hand.visit.actions.get(), 52);
     hand.record("Snowflake", &[("size", "90"), ("depth", "2")]).await;
     hand.construct("Point.polar(from,distance,angle)").await;
     hand.press("input[name='guide']").await;
@@ -414,7 +401,7 @@ async fn the_snowflake_of_koch_is_three_curves_that_call_themselves() {
     hand.draft("stop").await;
     hand.has("koch3 = Koch(from: Point(size, 0), to: Point(0, 0), depth: depth)").await;
     hand.has("depth: Integer = 2").await;
-    assert_eq!(hand.actions.get(), 77);
+    assert_eq!(hand.visit.actions.get(), 77);
     hand.set("depth", "3").await;
     hand.pick(-120.0, -60.0).await;
     hand.visit.book_picture("snowflake").await;
