@@ -10,7 +10,9 @@ use crate::scope::Scope;
 use crate::visible::Visible;
 use base::{Diagnostic, FileId, Name, Severity};
 use kernel::{ClassId, Document, Path, Term};
+use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
+use std::fmt;
 
 /// What the names of a text mean, once it is lowered.
 #[derive(Clone, Debug)]
@@ -33,18 +35,38 @@ pub(crate) struct Names {
 /// Expressions that were read alone.
 #[derive(Debug)]
 pub struct Alone {
-    /// The document of the text, with what the expressions made besides.
-    pub document: Document,
+    /// The document of the text with the classes that the expressions made besides; nothing where they made none.
+    pub document: Option<Document>,
     /// What each says; or what is wrong with it, with places in the expression's own text.
     pub terms: Vec<Result<Term, Vec<Diagnostic>>>,
 }
 
 /// Reads expressions as if each were the answer of a message of a class that the document's own text declares, or of
-/// the document. Cost: a copy of the document and of its names; the text is not looked at.
+/// the document. Cost: for the first ones a copy of the document and of its names; the text is not looked at.
 pub fn read_alone(lowered: &Lowered, class: ClassId, texts: &[String]) -> Alone {
-    let mut l = knowing(lowered);
+    let mut l = lowered.reader.0.take().unwrap_or_else(|| Box::new(knowing(lowered)));
     let terms = texts.iter().map(|text| l.read_alone(class, text)).collect();
-    Alone { document: l.document, terms }
+    if l.document.classes.len() > lowered.document.classes.len() {
+        return Alone { document: Some(l.document), terms };
+    }
+    lowered.reader.0.replace(Some(l));
+    Alone { document: None, terms }
+}
+
+/// What reads expressions over the names that a text meant, once it is asked to; kept while they make no class.
+#[derive(Default)]
+pub(crate) struct Reader(RefCell<Option<Box<Lowerer<'static>>>>);
+
+impl Clone for Reader {
+    fn clone(&self) -> Self {
+        Self::default()
+    }
+}
+
+impl fmt::Debug for Reader {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("Reader")
+    }
 }
 
 /// Returns what reads expressions over the names that a text meant.

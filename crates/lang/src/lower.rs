@@ -4,7 +4,7 @@
 //! classes named; superclasses are found; parts and messages are declared; at last everything that
 //! speaks of parts is lowered.
 
-use crate::alone::Names;
+use crate::alone::{Names, Reader};
 use crate::checks::Check;
 use crate::counts::Counts;
 use crate::families::Family;
@@ -86,6 +86,8 @@ pub struct Lowered {
     pub(crate) class_spans: Vec<Span>,
     /// What its names mean, for expressions that are read alone.
     pub(crate) names: Rc<Names>,
+    /// What reads them.
+    pub(crate) reader: Reader,
 }
 
 /// What members of classes are told apart by: class and name, in order of declaration.
@@ -417,6 +419,7 @@ impl<'l> Lowerer<'l> {
             parts: self.parts,
             added: self.added,
             used: self.next_used,
+            reader: Reader::default(),
             names: Rc::new(Names {
                 visible: self.visible,
                 object: self.object,

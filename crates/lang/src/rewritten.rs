@@ -5,7 +5,7 @@
 //! be another: a part that changed is not plain ([`crate::kept`]), is declared otherwise, or gives other parts of its
 //! own; something was wrong before or is now; what is used is another text.
 
-use crate::alone::knowing;
+use crate::alone::{Reader, knowing};
 use crate::checks::Check;
 use crate::kept::is_plain;
 use crate::lessons::Lesson;
@@ -77,6 +77,7 @@ pub(crate) fn rewritten(
         patches: Vec::new(),
         class_spans: before.class_spans.clone(),
         names: before.names.clone(),
+        reader: Reader::default(),
     };
     next.files[OWN].text = next.effective.clone();
     next.files[OWN].parse = next.effective_parse.clone();

@@ -184,10 +184,9 @@ pub(crate) fn try_all(
     };
     let alone = lang::read_alone(&state.lowered, class, texts);
     // what made no class besides is read with what was looked up before
-    let is_same = alone.document.classes.len() == state.lowered.document.classes.len();
-    let evaluator = match is_same {
-        true => state.evaluator(&state.values),
-        false => Evaluator::new(&alone.document, &state.structure, &state.values),
+    let evaluator = match &alone.document {
+        None => state.evaluator(&state.values),
+        Some(document) => Evaluator::new(document, &state.structure, &state.values),
     };
     let mut wrong = None;
     let mut any = false;
