@@ -4,6 +4,7 @@
 //! `if` makes is one of the block around it.
 
 mod steps;
+mod totals;
 
 use crate::kinds::Kind;
 use crate::lower::{ByName, Lowerer};
@@ -33,6 +34,8 @@ pub(crate) struct Programs {
     is_ready: bool,
     /// How many blocks there are around what is being lowered.
     depth: usize,
+    /// What loops of the program that is being lowered add up, each with the loop's name.
+    totals: BTreeSet<(Name, Name)>,
 }
 
 impl Programs {

@@ -1,6 +1,7 @@
 //! The steps of a program, lowered in order: each sees the parameters, and by name what the steps before it
 //! and the blocks around it made.
 
+use super::totals::totals_of;
 use super::{members_of, nothing, step_name, with_of};
 use crate::kinds::{Kind, measured};
 use crate::lower::Lowerer;
@@ -28,8 +29,12 @@ impl Lowerer<'_> {
         let parameters = params.filter_map(|p| self.asked(&scope, &p)).collect::<Vec<_>>();
         scope.is_program = true;
         let mut body = nothing(class);
+        // a call lowers another program in the midst of this one
+        let outer = std::mem::take(&mut self.programs.totals);
         self.steps(&mut scope, &mut body, &members_of(node.body()));
+        let totals = std::mem::replace(&mut self.programs.totals, outer);
         self.set_program(class, Program { parameters, demands: Vec::new(), body });
+        self.warn_of_totals(file, &node, &totals);
     }
 
     fn asked(&mut self, scope: &Scope, param: &ast::Param) -> Option<Asked> {
@@ -107,6 +112,7 @@ impl Lowerer<'_> {
                     };
                     let name = word.name();
                     let (says, kind) = self.step_says(scope, &value);
+                    self.programs.totals.extend(totals_of(&name, &value));
                     self.makes(scope, block.class, &name, kind);
                     block.steps.push(step(name, says, assign.is_guide()));
                 }

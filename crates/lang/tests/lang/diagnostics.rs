@@ -209,6 +209,11 @@ const WRONG: &[(&str, &str, &str)] = &[
     ("program P() { c = repeat 3 times { a = 1 }  d = a }", "not-visible", "a"),
     ("program P() { c = repeat { a = 1 } }", "open-block", "repeat { a = 1 }"),
     ("program P() { c = repeat 3 times { a = 1  next b = 2 } }", "not-carried", "b"),
+    (
+        "program P() { c = repeat 3 times with s = 0, n = 1 { next s = s + n, n = n + 1 }  d = c.last.s }",
+        "total-before-next",
+        "c.last.s",
+    ),
     ("program P() { a = 3  a = 4 }", "duplicate-name", "a"),
     ("program P() { a.b = 4 }", "not-a-step", "a.b"),
     ("program P(n: Length) { erase n }", "not-a-step", "n"),
@@ -308,6 +313,17 @@ const WRONG: &[(&str, &str, &str)] = &[
     ("a: Length\nconstraint a <= 3 V", "dimension-mismatch", "a <= 3 V"),
     ("a, b: Length\nconstraint if a < b { a = 3 V }", "dimension-mismatch", "a = 3 V"),
 ];
+
+#[test]
+fn what_the_last_turn_begins_with_is_no_total_where_a_turn_makes_use_of_it() {
+    for inside in ["a = s  next s = s + 1", "next s = 2", "if s > 1 { a = 1 }  next s = s + 1"] {
+        let text =
+            format!("program P() {{ c = repeat 3 times with s = 0 {{ {inside} }}  d = c.last.s }}");
+        assert_eq!(wrong(&text), [], "{text}");
+    }
+    let ends = "program P() { c = repeat with s = 0 { next s = s + 1 } until s > 9  d = c.last.s }";
+    assert_eq!(wrong(ends), []);
+}
 
 #[test]
 fn every_wrong_document_says_what_and_where() {
