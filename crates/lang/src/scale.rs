@@ -58,7 +58,9 @@ pub(crate) fn of<'a>(
     before: Option<Scale>,
 ) -> Counting {
     let stated = stated(parse);
-    let quantities: Vec<(f64, Dimension)> = stated.iter().filter_map(quantity).collect();
+    let with_units: Vec<NumberExpr> =
+        stated.iter().filter(|number| number.unit().is_some()).cloned().collect();
+    let quantities: Vec<(f64, Dimension)> = with_units.iter().filter_map(quantity).collect();
     let has_unit = parse.outline().any(|(kind, _)| kind == SyntaxKind::UnitLine);
     let any = |is: fn(Dimension) -> bool| quantities.iter().any(|(_, d)| is(*d));
     let read = constants_read(parse, used);
@@ -67,9 +69,10 @@ pub(crate) fn of<'a>(
     };
     let writes_lengths = !has_unit
         && (any(is_of_the_sheet)
-            || stated.iter().chain(&read).any(joins_a_length) && !has_bare_places(parse, &stated));
-    let usual = usual(parse, &stated);
-    let written = written_units(parse, &stated);
+            || with_units.iter().chain(&read).any(joins_a_length)
+                && !has_bare_places(parse, &stated));
+    let usual = usual(parse, &with_units);
+    let written = written_units(parse, &with_units);
     let customary = Customary::of(written.iter().map(|unit| &**unit));
     let quotients = kernel::quotients(&written);
     let keeps_length = has_unit || !any(|d| d == Dimension::LENGTH);
@@ -330,8 +333,11 @@ fn said<N: AstNode>(parse: &Parse) -> Vec<N> {
 /// Returns the numbers of the constants of other texts that a text reads: of `constants.h`, or of a part of one,
 /// `materials.copper.resistivity`.
 fn constants_read<'a>(parse: &Parse, used: impl Iterator<Item = &'a File>) -> Vec<NumberExpr> {
-    let texts: BTreeMap<&str, &File> =
-        used.filter_map(|file| Some((file.name.rsplit('.').next()?, file))).collect();
+    let has_constants = |file: &&File| constants(file).next().is_some();
+    let texts: BTreeMap<&str, &File> = used
+        .filter(has_constants)
+        .filter_map(|file| Some((file.name.rsplit('.').next()?, file)))
+        .collect();
     if texts.is_empty() {
         return Vec::new();
     }
@@ -345,14 +351,17 @@ fn constants_read<'a>(parse: &Parse, used: impl Iterator<Item = &'a File>) -> Ve
     numbers.collect()
 }
 
+/// Returns the constants at the top of a text.
+fn constants(file: &File) -> impl Iterator<Item = Part> {
+    file.members_of(&[SyntaxKind::Part]).into_iter().filter_map(|member| match member {
+        Member::Part(part) if part.is_constant() => Some(part),
+        _ => None,
+    })
+}
+
 /// Returns the value of a constant at the top of a text.
 fn constant(file: &File, name: &str) -> Option<Expr> {
-    let parts =
-        file.members_of(&[SyntaxKind::Part]).into_iter().filter_map(|member| match member {
-            Member::Part(part) if part.is_constant() => Some(part),
-            _ => None,
-        });
-    let mut named = parts.filter(|part| part.names().any(|word| word.text() == name));
+    let mut named = constants(file).filter(|part| part.names().any(|word| word.text() == name));
     named.next()?.value().and_then(Value::expr)
 }
 

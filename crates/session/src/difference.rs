@@ -78,14 +78,34 @@ fn says_all_of(text: &str, other: &str) -> bool {
     members(other).iter().all(|member| said.any(|one| one == member))
 }
 
+/// So many bytes are compared at once.
+const BLOCK: usize = 256;
+
+/// Returns how many bytes two texts have in common at the beginning.
+fn common_beginning(a: &[u8], b: &[u8]) -> usize {
+    let blocks = a.chunks_exact(BLOCK).zip(b.chunks_exact(BLOCK));
+    let same = BLOCK * blocks.take_while(|(x, y)| x == y).count();
+    same + a[same..].iter().zip(&b[same..]).take_while(|(x, y)| x == y).count()
+}
+
+/// Returns how many bytes two texts have in common at the end.
+fn common_end(a: &[u8], b: &[u8]) -> usize {
+    let blocks = a.rchunks_exact(BLOCK).zip(b.rchunks_exact(BLOCK));
+    let same = BLOCK * blocks.take_while(|(x, y)| x == y).count();
+    let rest = a[..a.len() - same].iter().rev().zip(b[..b.len() - same].iter().rev());
+    same + rest.take_while(|(x, y)| x == y).count()
+}
+
 /// Returns how many bytes two texts have in common in whole lines, at the beginning and at the end.
 fn common_ends(a: &str, b: &str) -> (usize, usize) {
     let most = a.len().min(b.len());
-    let same = a.bytes().zip(b.bytes()).take_while(|(x, y)| x == y).count();
+    let same = common_beginning(a.as_bytes(), b.as_bytes());
     let line = |bytes: &[u8]| bytes.iter().rposition(|&b| b == b'\n').map_or(0, |i| i + 1);
     let head = if a == b { same } else { line(&a.as_bytes()[..same]) };
-    let tail = a.bytes().rev().zip(b.bytes().rev()).take(most - head);
-    let tail = tail.take_while(|(x, y)| x == y).count();
+    let tail = common_end(
+        &a.as_bytes()[a.len() - (most - head)..],
+        &b.as_bytes()[b.len() - (most - head)..],
+    );
     let begins_line = |text: &str| {
         let at = text.len() - tail;
         at == head || text.as_bytes()[at - 1] == b'\n'
@@ -221,6 +241,17 @@ mod tests {
         let replaced: u32 = d.iter().map(|c| c.end - c.start).sum();
         let inserted: usize = d.iter().map(|c| c.insert.len()).sum();
         assert_eq!((replaced, inserted), (2, 6));
+    }
+    #[test]
+    fn one_letter_of_a_long_text_is_one_stretch_wherever_it_stands() {
+        let before = "abcdefg\n".repeat(2 * BLOCK / 8 + 5);
+        for at in (0..before.len()).filter(|at| at % 8 != 7) {
+            let mut after = before.clone();
+            after.replace_range(at..=at, "x");
+            let change =
+                TextChange { start: at as u32, end: at as u32 + 1, insert: String::from("x") };
+            assert_eq!(difference(&before, &after), [change]);
+        }
     }
     #[test]
     fn any_two_texts_differ_by_their_difference() {

@@ -24,23 +24,29 @@ pub(crate) fn forgotten(before: &State, state: &State) -> Vec<TextEdit> {
     if doubles.is_empty() {
         return Vec::new();
     }
-    let file = state.file();
-    let spans = |thing: &ThingId| {
-        let given = structure.given_apart(*thing)?;
-        Some(state.lowered.place(given.origin).span)
+    let root = state.file().syntax().clone();
+    let span = |thing: ThingId| {
+        let place = state.lowered.place(structure.given_apart(thing)?.origin);
+        (place.file == base::FileId(0)).then_some(place.span)
     };
-    let nodes = file.syntax().descendants().filter(|n| n.kind() == SyntaxKind::Assign);
-    let says = |node: &SyntaxNode, thing: &ThingId| {
+    let says = |node: &SyntaxNode, span: base::Span| {
         let of = syntax::span_of(node);
-        spans(thing).is_some_and(|span| of.start <= span.start && span.end <= of.end)
+        of.start <= span.start && span.end <= of.end
     };
+    let mut gone: Vec<SyntaxNode> = Vec::new();
+    for span in doubles.iter().filter_map(|&thing| span(thing)) {
+        let token = root.token_at_offset(span.start.into()).right_biased();
+        let around = token.into_iter().flat_map(|token| token.parent_ancestors());
+        let lines = around.filter(|n| n.kind() == SyntaxKind::Assign && says(n, span));
+        gone.extend(lines);
+    }
+    gone.sort_by_key(|node| (node.text_range().start(), node.text_range().end()));
+    gone.dedup();
     // a line goes where nothing of it counts
-    let all: Vec<ThingId> =
-        { structure.things.ids() }.filter(|&t| is_given(structure, t)).collect();
-    let gone: Vec<SyntaxNode> = nodes
-        .filter(|node| doubles.iter().any(|thing| says(node, thing)))
-        .filter(|node| all.iter().filter(|thing| says(node, thing)).all(|t| doubles.contains(t)))
-        .collect();
+    let given = structure.things.ids().filter(|&t| is_given(structure, t));
+    for span in given.filter(|t| !doubles.contains(t)).filter_map(span) {
+        gone.retain(|node| !says(node, span));
+    }
     let is_gone = |node: &SyntaxNode| gone.contains(node);
     let mut bodies: Vec<SyntaxNode> = Vec::new();
     let mut edits = Vec::new();
