@@ -46,6 +46,10 @@ impl Lowerer<'_> {
         value: &Expr,
     ) {
         self.hint_computed(before, target, value);
+        // where errors are many, each is told without what was perhaps meant
+        if !self.may_guess() {
+            return;
+        }
         let Expr::Name(name) = target else { return };
         let Some(word) = name.name() else { return };
         let unknown = |d: &Diagnostic| d.code == "unknown-name" && d.place.span == word.span();
