@@ -73,7 +73,7 @@ define_id!(ShapeId, "h", "What rules of one kind say.");
 pub(crate) type Position = u32;
 
 /// What a rule says, of slots of the document or of positions among those of a rule.
-#[derive(Clone, Debug)]
+#[derive(Clone, PartialEq, Debug)]
 pub(crate) struct Shape<S = Position> {
     pub(crate) level: Level,
     pub(crate) body: Body<S>,
@@ -86,14 +86,14 @@ pub(crate) struct Shape<S = Position> {
 }
 
 /// That a condition is true, or that it is false.
-#[derive(Clone, Debug)]
+#[derive(Clone, PartialEq, Debug)]
 pub(crate) struct When<S = Position> {
     pub(crate) condition: Condition<S>,
     pub(crate) truth: bool,
 }
 
 /// What is true or not, and decides whether a rule holds.
-#[derive(Clone, Debug)]
+#[derive(Clone, PartialEq, Debug)]
 pub(crate) enum Condition<S = Position> {
     /// One expression of numbers.
     Numbers(Formula<S>),
@@ -102,7 +102,7 @@ pub(crate) enum Condition<S = Position> {
 }
 
 /// A truth value that only the host can compute.
-#[derive(Clone, Debug)]
+#[derive(Clone, PartialEq, Debug)]
 pub(crate) struct ByHost<S = Position> {
     /// The pattern of a lone argument, which that truth value is.
     pub(crate) pattern: PatternId,
@@ -135,7 +135,7 @@ impl<S> When<S> {
 }
 
 /// What holds where a rule holds.
-#[derive(Clone, Debug)]
+#[derive(Clone, PartialEq, Debug)]
 pub(crate) enum Body<S = Position> {
     /// Equations that hold together.
     Equations(Vec<Formula<S>>),
@@ -152,7 +152,7 @@ pub(crate) enum Body<S = Position> {
 }
 
 /// What is true of numbers and of one that the host computes, as of how wide a text is.
-#[derive(Clone, Debug)]
+#[derive(Clone, PartialEq, Debug)]
 pub(crate) struct Beside<S = Position> {
     /// The one expression; its arguments without that number.
     pub(crate) truth: Formula<S>,
@@ -165,7 +165,7 @@ pub(crate) struct Beside<S = Position> {
 }
 
 /// A way to make a rule hold.
-#[derive(Clone, Debug)]
+#[derive(Clone, PartialEq, Debug)]
 pub(crate) struct RuleMethod<S = Position> {
     pub(crate) targets: Vec<S>,
     pub(crate) reads: Vec<S>,
@@ -173,7 +173,7 @@ pub(crate) struct RuleMethod<S = Position> {
 }
 
 /// How a method computes its targets.
-#[derive(Clone, Debug)]
+#[derive(Clone, PartialEq, Debug)]
 pub(crate) enum How<S = Position> {
     /// By a pattern of one expression for each target.
     Formulas(Formula<S>),
@@ -360,8 +360,11 @@ impl Rules {
     pub(crate) fn into_shapes(self) -> IdVec<ShapeId, Shape> {
         self.shapes
     }
+    /// Adds what a rule says. What the rule before it says as well, as those of a loop do, is one shape.
     pub(crate) fn add_shape(&mut self, shape: Shape) -> ShapeId {
-        self.shapes.push(shape)
+        let last = self.shapes.iter().next_back().filter(|(_, known)| **known == shape);
+        let known = last.map(|(id, _)| id);
+        known.unwrap_or_else(|| self.shapes.push(shape))
     }
     pub(crate) fn add(
         &mut self,
