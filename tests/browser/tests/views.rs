@@ -162,6 +162,10 @@ async fn no_page_is_wider_than_its_window() {
             visit.reference_picture(&format!("{name}-{size}")).await;
         }
     }
+    // a key leads into the inspector, which is folded away in a page this large
+    visit.until("!document.querySelector('.inspector').getClientRects().length").await;
+    chord(&visit, &[key::ALT], '5').await;
+    visit.until("document.activeElement.closest('.inspector')").await;
     // in a low window, with the reasons open, the tools stand beside each other over the picture
     visit.client.set_window_size(1440, 600).await.expect("a low window");
     visit.script("document.querySelector('.why-button').click()").await;

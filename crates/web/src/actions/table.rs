@@ -5,7 +5,7 @@ use super::conditions::{
 };
 use super::{Action, Context, Group};
 use crate::dialog::Wish;
-use crate::dock::Tab;
+use crate::dock::{Sheet, Tab};
 use crate::keyboard::focus;
 use crate::lab::{Drawer, Lab, Zoom};
 use crate::{drafting, js, route, structure, words};
@@ -619,11 +619,14 @@ pub const ACTIONS: &[Action] = &[
         label: words::GO_INSPECTOR,
         keys: &["Alt+5"],
         enabled: |lab| document(lab).map(drop),
-        run: |_| {
-            let field = ".inspector .field";
-            let is_there =
-                leptos::prelude::document().query_selector(field).ok().flatten().is_some();
-            focus(if is_there { field } else { ".inspector button" });
+        run: |lab| {
+            lab.sheet.set(Sheet::Inspector);
+            request_animation_frame(|| {
+                let field = ".inspector .field";
+                let is_there =
+                    leptos::prelude::document().query_selector(field).ok().flatten().is_some();
+                focus(if is_there { field } else { ".inspector button" });
+            });
         },
     },
     Action {
