@@ -6,6 +6,7 @@
 
 use browser::Visit;
 use browser::hands::{carry, grip, state};
+use serde_json::Value;
 use std::collections::BTreeSet;
 use std::io::{self, Write as _};
 use std::time::Duration;
@@ -78,7 +79,7 @@ async fn told(visit: &Visit, called: &mut BTreeSet<u64>) -> BTreeSet<u64> {
          })()";
     let told = visit.client.execute_async(script, Vec::new()).await.expect("the page tells");
     let keys = |of: usize| -> BTreeSet<u64> {
-        told[of].as_array().into_iter().flatten().filter_map(|key| key.as_u64()).collect()
+        told[of].as_array().into_iter().flatten().filter_map(Value::as_u64).collect()
     };
     called.extend(keys(1));
     keys(0)
