@@ -14,6 +14,10 @@ use std::time::Duration;
 /// What is opened and dragged, each in a visit of its own.
 const DRAGGED: [&str; 5] =
     ["lesson-1-first-minute", "quadrilateral", "bridge", "warren-truss", "resistor-grid"];
+/// A document of many things in a list, and of places of their own.
+const LINES: &str = "use geometry\nlines: List of 4000 Line\nfor i in 0..19 { for j in 0..199 { \
+                     lines[200*i+j] = Line(Point(7*j, 7*i), Point(7*j+5, 7*i+3)) } }\n\
+                     p: Point = (3, 4)\nq: Point = (5, 6)\n";
 /// After which nothing follows of itself.
 const SETTLED: Duration = Duration::from_secs(2);
 const PER_LINE: usize = 12;
@@ -30,6 +34,13 @@ async fn main() -> io::Result<()> {
         carry_first(&visit).await;
         told(&visit, &mut called).await;
     }
+    let visit = Visit::open(None).await;
+    visit.put("lines.thing", LINES);
+    let long = visit.address.replace("/#", "/?document=gallery/lines.thing#");
+    visit.client.goto("about:blank").await.expect("an empty page");
+    visit.client.goto(&long).await.expect("the page's address answers");
+    carry_first(&visit).await;
+    told(&visit, &mut called).await;
     let visit = Visit::open(None).await;
     let icon = visit.address.replace("/#", "/favicon.svg#");
     // a browser's first visit, then one to a document that was left unsaved
