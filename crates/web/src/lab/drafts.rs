@@ -113,8 +113,7 @@ impl Lab {
         let is_begun =
             self.journal.try_update_value(|journal| journal.put(place, draft)).unwrap_or(false);
         if is_begun {
-            // the browser has it at once, so what is seen need not wait for the server
-            js::after_painting(move || leptos::task::spawn_local(self.write_journal()));
+            leptos::task::spawn_local(self.write_journal());
         }
         theme::put(place, draft)
     }
