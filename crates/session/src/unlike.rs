@@ -10,7 +10,7 @@ use crate::yielding;
 use base::number::ROUNDING;
 use base::{Diagnostic, Place};
 use eval::Answer;
-use kernel::{GivenTerm, SlotId, Structure, Term, ThingId, Value};
+use kernel::{Class, GivenTerm, Path, SlotId, Structure, Term, ThingId, Value};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The code of the warning.
@@ -40,6 +40,7 @@ pub(crate) fn warnings(state: &State) -> Vec<Diagnostic> {
     let anchored: BTreeSet<ThingId> = anchors.map(|stay| stay.thing).collect();
     let is_anchored = |thing: ThingId| around(structure, thing).any(|t| anchored.contains(&t));
     let is_own = |(term, _): (&GivenTerm, ThingId)| state.lowered.is_own_given(term.origin);
+    let mut bodies = Bodies::of(state);
     let merged = structure.merged.iter().filter(|(t, _)| structure.is_merged(*t));
     for (thing, _) in merged {
         let Some(slot) = structure.slot_of(thing) else { continue };
@@ -60,12 +61,14 @@ pub(crate) fn warnings(state: &State) -> Vec<Diagnostic> {
         let counts = |t: &ThingId| structure.given_apart_in(*t) == Some(given);
         let Some(by) = structure.merged_with(thing).into_iter().find(counts) else { continue };
         let holds = is_anchored(thing) && is_anchored(by);
-        let is_held = || match anchoring(state, thing) {
-            Some(by) => holds || around(structure, by).any(|t| t == own.1),
-            None => holds && !is_own(given),
-        };
-        if !is_own(own) && (is_connected(state, thing, own.1) || !is_held()) {
-            continue;
+        if !is_own(own) {
+            let is_held = match bodies.anchoring(thing) {
+                Some(by) => holds || around(structure, by).any(|t| t == own.1),
+                None => holds && !is_own(given),
+            };
+            if !is_held || bodies.is_connected(thing, own.1) {
+                continue;
+            }
         }
         let (of_class, giver) = (!is_own(own), own.1);
         let (given, own) = (given.0, own.0);
@@ -111,34 +114,56 @@ fn merged_at(state: &State, thing: ThingId, other: ThingId) -> Option<Place> {
     found.map(|(_, merge)| state.lowered.place(merge.origin))
 }
 
-/// Returns what has a thing and anchors it by its class, the innermost; nothing where the document's own text does.
-///
-/// Cost: a look at every anchor of the classes of what has it.
-fn anchoring(state: &State, thing: ThingId) -> Option<ThingId> {
-    let (structure, document) = (&state.structure, &state.lowered.document);
-    let anchors = |host: &ThingId| {
-        let line = document.primary_line(structure.things[*host].class).into_iter();
-        let mut stays = line.flat_map(|class| &document.classes[class].stays);
-        stays.any(|stay| {
-            let part = structure.follow(*host, &stay.path).ok();
-            let is_of_class = stay.strength.is_none() && !state.lowered.is_own_given(stay.origin);
-            is_of_class && part.is_some_and(|part| around(structure, thing).any(|t| t == part))
-        })
-    };
-    around(structure, thing).find(anchors)
+/// What bodies say of parts, by the thing whose body it is: found once for each.
+struct Bodies<'a> {
+    state: &'a State,
+    connected: BTreeMap<ThingId, BTreeSet<ThingId>>,
+    anchored: BTreeMap<ThingId, BTreeSet<ThingId>>,
 }
 
-/// Returns true if a body of `giver`, or of what that is in, connects a thing with another.
-fn is_connected(state: &State, thing: ThingId, giver: ThingId) -> bool {
-    let (structure, document) = (&state.structure, &state.lowered.document);
-    around(structure, giver).any(|host| {
-        let line = document.primary_line(structure.things[host].class).into_iter();
-        let mut connections = line.flat_map(|class| &document.classes[class].connections);
-        connections.any(|connection| {
-            let part = structure.follow(host, &connection.path).ok();
-            part.is_some_and(|part| around(structure, thing).any(|t| t == part))
+impl<'a> Bodies<'a> {
+    fn of(state: &'a State) -> Self {
+        Self { state, connected: BTreeMap::new(), anchored: BTreeMap::new() }
+    }
+
+    /// Returns what has a thing and anchors it by its class, the innermost; nothing where the document's own text does.
+    fn anchoring(&mut self, thing: ThingId) -> Option<ThingId> {
+        let state = self.state;
+        around(&state.structure, thing).find(|&host| {
+            let parts = self.anchored.entry(host).or_insert_with(|| {
+                parts_of(state, host, |class| {
+                    let stays = class.stays.iter().filter(|stay| {
+                        stay.strength.is_none() && !state.lowered.is_own_given(stay.origin)
+                    });
+                    stays.map(|stay| &stay.path).collect()
+                })
+            });
+            around(&state.structure, thing).any(|t| parts.contains(&t))
         })
-    })
+    }
+
+    /// Returns true if a body of `giver`, or of what that is in, connects a thing with another.
+    fn is_connected(&mut self, thing: ThingId, giver: ThingId) -> bool {
+        let state = self.state;
+        around(&state.structure, giver).any(|host| {
+            let parts = self.connected.entry(host).or_insert_with(|| {
+                parts_of(state, host, |class| class.connections.iter().map(|c| &c.path).collect())
+            });
+            around(&state.structure, thing).any(|t| parts.contains(&t))
+        })
+    }
+}
+
+/// Returns the parts of a thing that its classes speak of.
+fn parts_of<'a>(
+    state: &'a State,
+    host: ThingId,
+    paths: impl Fn(&'a Class) -> Vec<&'a Path>,
+) -> BTreeSet<ThingId> {
+    let (structure, document) = (&state.structure, &state.lowered.document);
+    let line = document.primary_line(structure.things[host].class).into_iter();
+    let said = line.flat_map(|class| paths(&document.classes[class]));
+    said.filter_map(|path| structure.follow(host, path).ok()).collect()
 }
 
 /// Returns a thing and all that it is in: lists too, which own no part by its name.

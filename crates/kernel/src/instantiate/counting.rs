@@ -8,21 +8,34 @@ use super::body::Body;
 use crate::class::ClassId;
 use crate::document::Document;
 use crate::structure::{Form, GivenIn, Givens, ThingId};
+use std::cell::RefCell;
+use std::collections::BTreeMap;
+use std::rc::Rc;
 
 /// A thing, and what it is given.
 pub(super) type GivenTo = (ThingId, GivenIn);
 
+/// The parts that the body of a thing connects, each with how far above the thing's class the nearest class is that
+/// says so.
+type Connected = Rc<BTreeMap<ThingId, usize>>;
+
 /// What is asked of where values stand.
 pub(super) struct Counting<'s, 'd> {
-    pub(super) document: &'d Document,
-    pub(super) body: &'s Body,
-    pub(super) givens: &'s Givens,
+    document: &'d Document,
+    body: &'s Body,
+    givens: &'s Givens,
+    connected: RefCell<BTreeMap<ThingId, Connected>>,
 }
 
-impl Counting<'_, '_> {
+impl<'s, 'd> Counting<'s, 'd> {
+    pub(super) fn new(document: &'d Document, body: &'s Body, givens: &'s Givens) -> Self {
+        Self { document, body, givens, connected: RefCell::default() }
+    }
+
     /// Returns true if the value of the thing that is declared first counts, not that of the other.
     ///
-    /// `form` has the layouts. Cost: a look at what the classes of all that is around the two give and connect.
+    /// `form` has the layouts. Cost: a look at what the classes of all that is around the two give; what they connect
+    /// is found once.
     pub(super) fn is_first(&self, form: &Form, first: GivenTo, other: GivenTo) -> bool {
         let key =
             |(thing, given)| (self.is_replaced(form, thing, given), self.depth_of(form, given));
@@ -33,24 +46,42 @@ impl Counting<'_, '_> {
     fn is_replaced(&self, form: &Form, thing: ThingId, given: GivenIn) -> bool {
         let origin = self.givens[given.value].origin;
         self.around(given.me).any(|host| {
-            let line = self.document.primary_line(self.body.things[host].class).into_iter();
-            let line = line.map(|class| &self.document.classes[class]);
             // what the same body gives, or one nearer, is no default
-            let classes = line.take_while(|class| {
-                host != given.me || class.givens.iter().all(|given| given.origin != origin)
-            });
-            let mut connections = classes.flat_map(|class| &class.connections);
-            connections.any(|connection| {
-                let part = self.body.paths(&form.layouts).follow(host, &connection.path);
-                part.is_ok_and(|part| self.around(thing).any(|t| t == part))
-            })
+            let line = self.document.primary_line(self.body.things[host].class).into_iter();
+            let gives = |class: &ClassId| {
+                let mut givens = self.document.classes[*class].givens.iter();
+                host == given.me && givens.any(|given| given.origin == origin)
+            };
+            let nearer = line.take_while(|class| !gives(class)).count();
+            let connected = self.connected(form, host);
+            self.around(thing).any(|part| connected.get(&part).is_some_and(|&at| at < nearer))
         })
+    }
+
+    /// Returns the parts that the body of a thing connects.
+    fn connected(&self, form: &Form, host: ThingId) -> Connected {
+        if let Some(known) = self.connected.borrow().get(&host) {
+            return known.clone();
+        }
+        let line = self.document.primary_line(self.body.things[host].class).into_iter();
+        let paths = self.body.paths(&form.layouts);
+        let mut found = BTreeMap::new();
+        for (at, class) in line.enumerate() {
+            for connection in &self.document.classes[class].connections {
+                if let Ok(part) = paths.follow(host, &connection.path) {
+                    found.entry(part).or_insert(at);
+                }
+            }
+        }
+        let found = Rc::new(found);
+        self.connected.borrow_mut().insert(host, found.clone());
+        found
     }
 
     /// Returns how deep in the document the text stands that gives a value: 0 for what the document itself says, in
     /// the bodies of its parts as well; for what a class says, how deep its thing lies.
     fn depth_of(&self, form: &Form, given: GivenIn) -> usize {
-        let Self { document, body, givens } = self;
+        let Self { document, body, givens, .. } = self;
         let origin = givens[given.value].origin;
         let says = |class: &ClassId| {
             document.classes[*class].givens.iter().any(|given| given.origin == origin)

@@ -137,7 +137,7 @@ fn give_slots(
     let has_ranges = document.classes.iter().any(|(_, c)| has_range(c));
     let mut places: IdVec<ClassId, Option<usize>> = IdVec::filled(None, document.classes.len());
     let layout = of_layout(document, structure, body, order);
-    let counting = Counting { document, body, givens };
+    let counting = Counting::new(document, body, givens);
     // of every slot, what gives it its value
     let mut givers: IdVec<SlotId, ThingId> = IdVec::new();
     for &thing in order {
