@@ -275,6 +275,17 @@ pub enum BinaryOperator {
     In,
 }
 
+impl BinaryOperator {
+    /// Returns true for `<` and its like.
+    pub fn is_order(self) -> bool {
+        matches!(self, Self::Less | Self::LessEqual | Self::Greater | Self::GreaterEqual)
+    }
+    /// Returns true for `=`, `<` and their like.
+    pub fn is_comparison(self) -> bool {
+        self.is_order() || matches!(self, Self::Equal | Self::NotEqual)
+    }
+}
+
 impl Term {
     /// Returns the terms that it is directly made of, in order.
     pub fn operands(&self) -> Vec<&Self> {

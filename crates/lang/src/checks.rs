@@ -8,6 +8,7 @@ use crate::loops::{members_of, turn_of};
 use crate::lower::{Lowerer, OWN};
 use crate::paths::loose_path;
 use crate::scope::Scope;
+use crate::terms::operator_of;
 use base::{Name, Span};
 use kernel::{BinaryOperator, ClassId, Command, Literal, Path, Step, Term};
 use std::rc::Rc;
@@ -443,14 +444,7 @@ fn counted(
     op: ast::BinaryOp,
     n: &ast::Expr,
 ) -> Option<Counted> {
-    let operator = match op {
-        ast::BinaryOp::NotEqual => BinaryOperator::NotEqual,
-        ast::BinaryOp::Less => BinaryOperator::Less,
-        ast::BinaryOp::LessEqual => BinaryOperator::LessEqual,
-        ast::BinaryOp::Greater => BinaryOperator::Greater,
-        ast::BinaryOp::GreaterEqual => BinaryOperator::GreaterEqual,
-        _ => BinaryOperator::Equal,
-    };
+    let operator = operator_of(op).filter(|operator| operator.is_comparison())?;
     Some(Counted { operator, n: u64::try_from(l.constant(scope, n)?).ok()? })
 }
 

@@ -355,17 +355,8 @@ impl Lowerer<'_> {
         if let (Kind::List(_), Kind::List(_), Some(BinaryOperator::Add)) = (left, right, operator) {
             d = d.hint("what either list has, each once, is `xs.union(other: ys)`; numbers of two lists are added by `xs.zip(other: ys).map(pair => pair[0] + pair[1])`");
         }
-        if let (
-            Kind::List(_),
-            Kind::Number(_),
-            Some(
-                BinaryOperator::Less
-                | BinaryOperator::LessEqual
-                | BinaryOperator::Greater
-                | BinaryOperator::GreaterEqual
-                | BinaryOperator::Equal,
-            ),
-        ) = (left, right, operator)
+        if let (Kind::List(_), Kind::Number(_), Some(operator)) = (left, right, operator)
+            && (operator.is_order() || operator == BinaryOperator::Equal)
         {
             d = d.hint("a rule for each element is a loop: `for x in xs { constraint x > 0 }`");
         }

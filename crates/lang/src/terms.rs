@@ -72,7 +72,7 @@ impl Lowerer<'_> {
                 self.refer_by_position(scope.file, &left, &b.1);
                 self.refer_by_position(scope.file, &right, &a.1);
                 self.warn_of_misreading(scope, binary);
-                if is_comparison(op) {
+                if operator_of(op).is_some_and(BinaryOperator::is_comparison) {
                     self.warn_of_bare_angles(scope, &[left, right]);
                 }
                 self.combine(scope, op, e.span(), a, b)
@@ -561,25 +561,8 @@ impl Lowerer<'_> {
         (a, ka): (Term, Kind),
         (b, kb): (Term, Kind),
     ) -> Lowered {
-        let operator = match op {
-            BinaryOp::Or => BinaryOperator::Or,
-            BinaryOp::And => BinaryOperator::And,
-            BinaryOp::Equal => BinaryOperator::Equal,
-            BinaryOp::NotEqual => BinaryOperator::NotEqual,
-            BinaryOp::Less => BinaryOperator::Less,
-            BinaryOp::LessEqual => BinaryOperator::LessEqual,
-            BinaryOp::Greater => BinaryOperator::Greater,
-            BinaryOp::GreaterEqual => BinaryOperator::GreaterEqual,
-            BinaryOp::In => BinaryOperator::In,
-            BinaryOp::Add => BinaryOperator::Add,
-            BinaryOp::Subtract => BinaryOperator::Subtract,
-            BinaryOp::Multiply => BinaryOperator::Multiply,
-            BinaryOp::Divide => BinaryOperator::Divide,
-            BinaryOp::Remainder => BinaryOperator::Remainder,
-            BinaryOp::Power => BinaryOperator::Power,
-            BinaryOp::Subset | BinaryOp::Union => {
-                return self.combine_sets(scope, op, span, (a, ka), (b, kb));
-            }
+        let Some(operator) = operator_of(op) else {
+            return self.combine_sets(scope, op, span, (a, ka), (b, kb));
         };
         let has_parts = |k: &Kind| matches!(k, Kind::Thing(_) | Kind::Tuple(_));
         if has_parts(&ka) || has_parts(&kb) {
@@ -706,17 +689,26 @@ impl Lowerer<'_> {
     }
 }
 
-/// Returns true for an operator that compares numbers.
-fn is_comparison(op: BinaryOp) -> bool {
-    matches!(
-        op,
-        BinaryOp::Equal
-            | BinaryOp::NotEqual
-            | BinaryOp::Less
-            | BinaryOp::LessEqual
-            | BinaryOp::Greater
-            | BinaryOp::GreaterEqual
-    )
+/// Returns what a written operator does in a term; nothing for those of sets, which are sent.
+pub(crate) fn operator_of(op: BinaryOp) -> Option<BinaryOperator> {
+    Some(match op {
+        BinaryOp::Or => BinaryOperator::Or,
+        BinaryOp::And => BinaryOperator::And,
+        BinaryOp::Equal => BinaryOperator::Equal,
+        BinaryOp::NotEqual => BinaryOperator::NotEqual,
+        BinaryOp::Less => BinaryOperator::Less,
+        BinaryOp::LessEqual => BinaryOperator::LessEqual,
+        BinaryOp::Greater => BinaryOperator::Greater,
+        BinaryOp::GreaterEqual => BinaryOperator::GreaterEqual,
+        BinaryOp::In => BinaryOperator::In,
+        BinaryOp::Add => BinaryOperator::Add,
+        BinaryOp::Subtract => BinaryOperator::Subtract,
+        BinaryOp::Multiply => BinaryOperator::Multiply,
+        BinaryOp::Divide => BinaryOperator::Divide,
+        BinaryOp::Remainder => BinaryOperator::Remainder,
+        BinaryOp::Power => BinaryOperator::Power,
+        BinaryOp::Subset | BinaryOp::Union => return None,
+    })
 }
 
 /// Returns the unit of a number that is written with one.

@@ -251,7 +251,7 @@ impl<'a> Opening<'a> {
                 let (a, b) = (o.meaning(a, &frame)?, o.meaning(b, &frame)?);
                 o.binary(BinaryOperator::Subtract, &a, &b)
             }),
-            (Aspect::Error, Term::Binary(operator, a, b)) if is_order(*operator) => {
+            (Aspect::Error, Term::Binary(operator, a, b)) if operator.is_order() => {
                 self.deeper(|o| {
                     let (a, b) = (o.meaning(a, &frame)?, o.meaning(b, &frame)?);
                     let holds = o.binary(*operator, &a, &b)?;
@@ -717,10 +717,4 @@ pub(crate) fn kind(meaning: &Meaning<'_>) -> &'static str {
         Meaning::Lambda(_) => "a function",
         Meaning::Drawn(_) => "a drawing",
     }
-}
-
-/// Returns true for `<` and its like.
-pub(crate) fn is_order(operator: BinaryOperator) -> bool {
-    use BinaryOperator as B;
-    matches!(operator, B::Less | B::LessEqual | B::Greater | B::GreaterEqual)
 }

@@ -4,7 +4,7 @@
 //! equality (an inequality, alternatives) stays a truth; what stands under a condition is said for
 //! either case.
 
-use crate::evaluate::{Opening, bind_arguments, is_order};
+use crate::evaluate::{Opening, bind_arguments};
 use crate::fault::{FaultKind, Trouble};
 use crate::meaning::{Frame, Meaning, Opaque, collect_slots, slots_of_expression};
 use crate::rule::{How, RuleMethod, SideOf, Turns, Way};
@@ -103,7 +103,7 @@ pub(crate) fn say<'a>(
             }
             say_different(opening, &items, said)
         }
-        Term::Binary(operator, a, b) if is_order(*operator) => {
+        Term::Binary(operator, a, b) if operator.is_order() => {
             let a = opening.meaning(a, frame)?;
             let b = opening.meaning(b, frame)?;
             match turns.and_then(|turns| beside(opening, *operator, [&a, &b], turns)) {

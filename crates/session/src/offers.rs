@@ -620,17 +620,9 @@ pub(crate) fn in_degrees(radians: f64) -> String {
 fn is_truth(term: &Term) -> bool {
     match term {
         Term::Bool(_) | Term::IsA(..) | Term::Unary(UnaryOperator::Not, _) => true,
-        Term::Binary(operator, ..) => matches!(
-            operator,
-            BinaryOperator::Equal
-                | BinaryOperator::NotEqual
-                | BinaryOperator::Less
-                | BinaryOperator::LessEqual
-                | BinaryOperator::Greater
-                | BinaryOperator::GreaterEqual
-                | BinaryOperator::And
-                | BinaryOperator::Or
-        ),
+        Term::Binary(operator, ..) => {
+            operator.is_comparison() || matches!(operator, BinaryOperator::And | BinaryOperator::Or)
+        }
         Term::Let(_, _, inner) => is_truth(inner),
         Term::If(_, one, other) => is_truth(one) && is_truth(other),
         _ => false,

@@ -34,8 +34,7 @@ impl<'a> Run<'_, 'a> {
             Term::Binary(BinaryOperator::And, a, b) => {
                 Ok(self.broken(a, frame)?.or(self.broken(b, frame)?))
             }
-            Term::Binary(BinaryOperator::Or, ..) => Ok(Some(String::new())),
-            Term::Binary(_, a, b) => {
+            Term::Binary(operator, a, b) if *operator != BinaryOperator::Or => {
                 let [a, b] = [self.evaluator.term(a, frame)?, self.evaluator.term(b, frame)?];
                 let [a, b] = [self.evaluator.in_words(&a), self.evaluator.in_words(&b)];
                 Ok(Some(format!(": left is {a}, right is {b}")))
@@ -46,34 +45,32 @@ impl<'a> Run<'_, 'a> {
 }
 
 /// The required bounds of a made thing of a class that nothing switches, with the class that says each.
-fn bounds(document: &Document, class: ClassId) -> impl Iterator<Item = (ClassId, &Constraint)> {
+fn bounds(document: &Document, class: ClassId) -> Vec<(ClassId, &Constraint)> {
     let line = document.primary_line(class);
-    (0..line.len()).flat_map(move |depth| {
-        let says = &document.classes[line[depth]];
-        let (nearer, class) = (line[..depth].to_vec(), line[depth]);
-        let up_to_here = line[..=depth].to_vec();
-        says.constraints.iter().filter_map(move |constraint| {
-            let is_switched = up_to_here.iter().any(|&c| {
-                let switches = &document.classes[c].switches;
-                switches.iter().any(|s| Some(&s.name) == constraint.name.as_ref())
+    let mut all = Vec::new();
+    for (above, &of) in line.iter().enumerate() {
+        for constraint in &document.classes[of].constraints {
+            let is_switched = line[..=above].iter().any(|&nearer| {
+                let switches = &document.classes[nearer].switches;
+                switches.iter().any(|switch| Some(&switch.name) == constraint.name.as_ref())
             });
-            let is_wanted = constraint.strength == Strength::Required
+            if constraint.strength == Strength::Required
                 && is_bound(&constraint.rule)
                 && !is_switched
-                && !document.is_masked(&nearer, constraint.name.as_ref());
-            is_wanted.then_some((class, constraint))
-        })
-    })
+                && !document.is_masked(&line[..above], constraint.name.as_ref())
+            {
+                all.push((of, constraint));
+            }
+        }
+    }
+    all
 }
 
 /// Whether a rule says of numbers which is the greater one.
 fn is_bound(rule: &Term) -> bool {
-    use BinaryOperator::{And, Greater, GreaterEqual, Less, LessEqual, Or};
     match rule {
-        Term::Binary(And | Or, a, b) => is_bound(a) && is_bound(b),
-        Term::Binary(operator, ..) => {
-            matches!(operator, Less | LessEqual | Greater | GreaterEqual)
-        }
+        Term::Binary(BinaryOperator::And | BinaryOperator::Or, a, b) => is_bound(a) && is_bound(b),
+        Term::Binary(operator, ..) => operator.is_order(),
         _ => false,
     }
 }

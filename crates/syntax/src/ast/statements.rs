@@ -175,15 +175,15 @@ impl Expect {
     /// Returns what is expected.
     pub fn expectation(&self) -> Expectation {
         let keyword = super::words(&self.syntax, SyntaxKind::Keyword).nth(1);
-        let count = || {
+        let counted = |of: fn(BinaryOp, Option<Expr>) -> Expectation| {
             let op = operators(&self.syntax).next().map_or(BinaryOp::Equal, |(op, _)| op);
-            (op, child(&self.syntax))
+            of(op, child(&self.syntax))
         };
         match keyword.as_ref().map(Word::text) {
             Some("satisfied") => Expectation::Satisfied,
             Some("moved") => Expectation::Moved(children(&self.syntax).collect()),
-            Some("free") => Expectation::Free(count().0, count().1),
-            Some("solutions") => Expectation::Solutions(count().0, count().1),
+            Some("free") => counted(Expectation::Free),
+            Some("solutions") => counted(Expectation::Solutions),
             Some("plan") => Expectation::Plan(word(&self.syntax, SyntaxKind::Ident)),
             Some("error") => Expectation::Error(word(&self.syntax, SyntaxKind::Text)),
             _ => Expectation::Holds {
