@@ -53,9 +53,9 @@ pub(crate) fn build(compiler: &WasmCompiler, effort: Effort) -> Result<Option<Ma
 const COMPRESSED: [&str; 7] =
     ["codemirror.js", "host.js", "page.js", "painter.js", "rest.js", "stamps.js", "style.css"];
 
-/// Which functions of the page come after a first drag; `cargo run -p xtask -- figures later` writes it.
-pub(crate) fn later() -> PathBuf {
-    top().join("crates/web/later.txt")
+/// Which functions of the page come after a first drag; `cargo run -p xtask -- figures rest` writes it.
+pub(crate) fn rest() -> PathBuf {
+    top().join("crates/web/rest.txt")
 }
 
 /// Compiles a package's program of the same name for the browser; gives the folder of its module: `NAME.js`, and
@@ -82,7 +82,7 @@ pub(crate) fn module(
         |(name, file): (&str, &PathBuf)| is_older(&module.join(format!("{name}.br")), file);
     let code = module.join(format!("{package}_bg.wasm"));
     if is_older(&code, &made)
-        || is_divided && is_older(&code, &later())
+        || is_divided && is_older(&code, &rest())
         || COMPRESSED.into_iter().zip(&compressed).any(is_stale)
     {
         say!("page: making its module");
@@ -100,7 +100,7 @@ pub(crate) fn module(
             Effort::Followed => _ = bindgen.args(["--quick", "--followed"]),
         }
         if is_divided {
-            bindgen.arg("--later").arg(later());
+            bindgen.arg("--rest").arg(rest());
         }
         bindgen.arg(&made).arg(&module).args(&compressed);
         run("the page's module was not made", quiet(&mut bindgen))?;

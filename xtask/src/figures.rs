@@ -1,5 +1,5 @@
 //! What `cargo bench-table browser` calls: builds the page of figures and reads it in a browser. And what
-//! `cargo bench-table lab` calls: builds the lab and visits it. `figures later` visits it too, and keeps which of its
+//! `cargo bench-table lab` calls: builds the lab and visits it. `figures rest` visits it too, and keeps which of its
 //! functions a first drag does not run.
 
 use std::path::{Path, PathBuf};
@@ -18,7 +18,7 @@ pub(crate) enum Of {
     /// The lab's, as people get it.
     Lab,
     /// None: which functions of the page come after a first drag, kept for its next making.
-    Later,
+    Rest,
 }
 
 /// Reads the command line.
@@ -28,7 +28,7 @@ pub(crate) enum Of {
 pub(crate) fn parse(arguments: &[String]) -> Result<(Of, Missing), String> {
     let (of, rest) = match arguments.split_first() {
         Some((first, rest)) if first == "lab" => (Of::Lab, rest),
-        Some((first, rest)) if first == "later" => (Of::Later, rest),
+        Some((first, others)) if first == "rest" => (Of::Rest, others),
         _ => (Of::Browser, arguments),
     };
     match rest {
@@ -46,9 +46,9 @@ pub(crate) fn run((of, missing): (Of, Missing)) -> ExitCode {
     };
     let told = match of {
         Of::Lab => visited(&compiler, &browser, Effort::Full, "lab-figures"),
-        Of::Later => visited(&compiler, &browser, Effort::Followed, "lab-later").and_then(|list| {
-            fs::write(bundle::later(), list).map_err(|error| format!("not written: {error}"))?;
-            Ok(format!("{} is new", bundle::later().display()))
+        Of::Rest => visited(&compiler, &browser, Effort::Followed, "lab-rest").and_then(|list| {
+            fs::write(bundle::rest(), list).map_err(|error| format!("not written: {error}"))?;
+            Ok(format!("{} is new", bundle::rest().display()))
         }),
         Of::Browser => {
             bundle::module("figures", &compiler, Effort::Full).and_then(|(module, _)| {

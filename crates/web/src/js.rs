@@ -1,6 +1,7 @@
 //! What the browser's scripts do for the page: `assets/host.js` (the server), `assets/painter.js`
-//! (the canvas), `assets/page.js` (small things), `assets/worker.js` (long jobs), `assets/rest.js` (the code that comes later) and `assets/codemirror.js` (the text
-//! editor, built from `assets/editor/editor.src.js`, fetched by `assets/editor.js`).
+//! (the canvas), `assets/page.js` (small things), `assets/worker.js` (long jobs), `assets/rest.js` (the code that comes
+//! last) and `assets/codemirror.js` (the text editor, built from `assets/editor/editor.src.js`, fetched by
+//! `assets/editor.js`).
 //!
 //! All offsets are UTF-8 byte offsets into the editor's text.
 

@@ -1,7 +1,7 @@
-//! `bindgen [--quick] [--named] [--later LIST | --followed] PAGE.wasm FOLDER [FILE…]`: writes the module `PAGE.js` and
+//! `bindgen [--quick] [--named] [--rest LIST | --followed] PAGE.wasm FOLDER [FILE…]`: writes the module `PAGE.js` and
 //! its `PAGE_bg.wasm` into the folder, and beside them, compressed by brotli as `NAME.br`, these two and further files.
 //! `--quick` compresses them little; `--named` keeps the names of functions for whoever looks where time goes, a sixth
-//! of the module. `--later` leaves the functions of a list to `PAGE_rest.wasm`; `--followed` has the module mark which
+//! of the module. `--rest` leaves the functions of a list to `PAGE_rest.wasm`; `--followed` has the module mark which
 //! of them are called, and writes to `PAGE.functions` where, and their keys.
 
 mod split;
@@ -16,7 +16,7 @@ use std::{fs, io};
 use wasm_bindgen_cli_support::Bindgen;
 
 const USAGE: &str =
-    "bindgen [--quick] [--named] [--later LIST | --followed] PAGE.wasm FOLDER [FILE…]";
+    "bindgen [--quick] [--named] [--rest LIST | --followed] PAGE.wasm FOLDER [FILE…]";
 
 /// What becomes of the module that bindgen makes.
 enum Then {
@@ -51,7 +51,7 @@ fn parsed() -> Result<Wish, String> {
     let is_named = is_asked("--named");
     let then = if is_asked("--followed") {
         Then::Followed
-    } else if is_asked("--later") {
+    } else if is_asked("--rest") {
         let list = arguments.next().ok_or(USAGE)?;
         let text = fs::read_to_string(&list).map_err(|error| format!("{list}: {error}"))?;
         Then::Divided(split::keys(&text))
@@ -90,8 +90,8 @@ fn run(wish: &Wish) -> Result<(), String> {
     let mut files = vec![module.clone(), beside(".js")];
     match &wish.then {
         Then::AsItIs => {}
-        Then::Divided(later) => {
-            let parts = split::split(&fs::read(&module).map_err(told)?, later, wish.is_named)?;
+        Then::Divided(rest) => {
+            let parts = split::split(&fs::read(&module).map_err(told)?, rest, wish.is_named)?;
             fs::write(&module, parts.first).map_err(told)?;
             files.push(beside("_rest.wasm"));
             fs::write(beside("_rest.wasm"), parts.rest).map_err(told)?;

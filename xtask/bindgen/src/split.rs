@@ -1,9 +1,9 @@
-//! A module in two parts: the functions that a first drag runs, and the others, which may come later.
+//! A module in two parts: the functions that a first drag runs, and the rest, which may come after it.
 //!
-//! The first part has everything but the bodies of the later functions. In their place stand stubs, which have the
+//! The first part has everything but the bodies of the rest's functions. In their place stand stubs, which have the
 //! second part loaded when it is not there yet and call through the table. The second part imports the first one's
 //! memory, tables, globals and functions, and puts its own into the table when it is instantiated. Which functions are
-//! later decides only what is sent when: any division is correct. `crates/web/later.txt` lists them by [`key`], as an
+//! of the rest decides only what is sent when: any division is correct. `crates/web/rest.txt` lists them by [`key`], as an
 //! instrumented page ([`follow`]) was seen not to call them; what is not listed is of the first part.
 
 use std::collections::BTreeSet;
@@ -69,18 +69,18 @@ fn read(bytes: &[u8], is_named: bool) -> Result<Module, String> {
 ///
 /// # Errors
 /// A module that is none, or that does not import what loads its second part.
-pub(crate) fn split(bytes: &[u8], later: &BTreeSet<u32>, is_named: bool) -> Result<Parts, String> {
+pub(crate) fn split(bytes: &[u8], rest: &BTreeSet<u32>, is_named: bool) -> Result<Parts, String> {
     let mut one = read(bytes, is_named)?;
     let mut two = read(bytes, is_named)?;
-    let is_later = |function: &walrus::Function| {
+    let is_of_rest = |function: &walrus::Function| {
         let name = function.name.as_deref();
         matches!(function.kind, FunctionKind::Local(_))
-            && name.is_some_and(|name| later.contains(&key(name)))
+            && name.is_some_and(|name| rest.contains(&key(name)))
     };
-    let later: Vec<bool> = one.funcs.iter().map(is_later).collect();
+    let rest: Vec<bool> = one.funcs.iter().map(is_of_rest).collect();
     let table = function_table(&one)?;
     let slots = one.tables.get(table).initial;
-    let count = later.iter().filter(|&&is_later| is_later).count() as u64;
+    let count = rest.iter().filter(|&&is_of_rest| is_of_rest).count() as u64;
     for module in [&mut one, &mut two] {
         let table = function_table(module)?;
         let table = module.tables.get_mut(table);
@@ -90,8 +90,8 @@ pub(crate) fn split(bytes: &[u8], later: &BTreeSet<u32>, is_named: bool) -> Resu
     let zero = ConstExpr::Value(Value::I32(0));
     let is_loaded = one.globals.add_local(walrus::ValType::I32, true, false, zero);
     let build = format!("of_{:08x}", bytes.iter().fold(BASIS, |hash, &byte| hashed(hash, byte)));
-    stand_in(&mut one, &later, slots, is_loaded)?;
-    detach(&mut two, &later, slots)?;
+    stand_in(&mut one, &rest, slots, is_loaded)?;
+    detach(&mut two, &rest, slots)?;
     share(&mut one, &mut two, is_loaded, &build)?;
     Ok(Parts { first: one.emit_wasm(), rest: two.emit_wasm() })
 }
@@ -101,10 +101,10 @@ fn function_table(module: &Module) -> Result<TableId, String> {
     table.ok_or_else(|| String::from("the module has no table of functions"))
 }
 
-/// Puts stubs in the place of the later functions.
+/// Puts stubs in the place of the rest's functions.
 fn stand_in(
     module: &mut Module,
-    later: &[bool],
+    rest: &[bool],
     slots: u64,
     is_loaded: GlobalId,
 ) -> Result<(), String> {
@@ -126,8 +126,8 @@ fn stand_in(
         builder.finish(Vec::new(), &mut module.funcs)
     };
     let ids: Vec<FunctionId> = module.funcs.iter().map(walrus::Function::id).collect();
-    let later = ids.into_iter().zip(later).filter(|&(_, &is_later)| is_later);
-    for ((id, _), slot) in later.zip(slots..) {
+    let rest = ids.into_iter().zip(rest).filter(|&(_, &is_of_rest)| is_of_rest);
+    for ((id, _), slot) in rest.zip(slots..) {
         let kind = module.funcs.get(id).ty();
         let (params, results) = module.types.params_results(kind);
         let (params, results) = (params.to_vec(), results.to_vec());
@@ -144,8 +144,8 @@ fn stand_in(
     Ok(())
 }
 
-/// Leaves of a module its later functions, in their slots of the table; all else is imported.
-fn detach(module: &mut Module, later: &[bool], slots: u64) -> Result<(), String> {
+/// Leaves of a module the rest's functions, in their slots of the table; all else is imported.
+fn detach(module: &mut Module, rest: &[bool], slots: u64) -> Result<(), String> {
     module.start = None;
     for export in module.exports.iter().map(Export::id).collect::<Vec<_>>() {
         module.exports.delete(export);
@@ -173,8 +173,8 @@ fn detach(module: &mut Module, later: &[bool], slots: u64) -> Result<(), String>
             GlobalKind::Import(imports.add(FIRST, &format!("g{i}"), id));
     }
     let mut own = Vec::new();
-    for ((i, function), is_later) in module.funcs.iter_mut().enumerate().zip(later) {
-        match (&mut function.kind, is_later) {
+    for ((i, function), is_of_rest) in module.funcs.iter_mut().enumerate().zip(rest) {
+        match (&mut function.kind, is_of_rest) {
             (_, true) => own.push(function.id()),
             (FunctionKind::Import(imported), _) => {
                 let import = imports.get_mut(imported.import);

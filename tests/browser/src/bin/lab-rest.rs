@@ -1,7 +1,7 @@
 //! Which functions of the page can come after a first drag: those that none of these visits calls.
 //!
 //! In: the command with a page that marks what is called, and the browser, named in the environment as for the tests.
-//! Out: the functions' keys (`xtask/bindgen/src/split.rs`), in hexadecimal. The command `figures later` of
+//! Out: the functions' keys (`xtask/bindgen/src/split.rs`), in hexadecimal. The command `figures rest` of
 //! `xtask` builds what this needs, runs it and keeps what it tells.
 
 use browser::Visit;
@@ -55,13 +55,13 @@ async fn main() -> io::Result<()> {
         visit.client.release_actions().await.expect("the mouse lets go");
         tokio::time::sleep(SETTLED).await;
     }
-    let later: Vec<_> = all.difference(&called).map(|key| format!("{key:08x}")).collect();
+    let rest: Vec<_> = all.difference(&called).map(|key| format!("{key:08x}")).collect();
     let out = &mut io::stdout().lock();
     writeln!(
         out,
-        "# Functions of the page that a first drag does not run. `cargo run -p xtask -- figures later` writes this list."
+        "# Functions of the page that a first drag does not run. `cargo run -p xtask -- figures rest` writes this list."
     )?;
-    for line in later.chunks(PER_LINE) {
+    for line in rest.chunks(PER_LINE) {
         writeln!(out, "{}", line.join(" "))?;
     }
     Ok(())
