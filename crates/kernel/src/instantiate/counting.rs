@@ -8,8 +8,9 @@ use super::body::Body;
 use crate::class::ClassId;
 use crate::document::Document;
 use crate::structure::{Form, GivenIn, Givens, ThingId};
+use crate::term::OriginId;
 use std::cell::RefCell;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 
 /// A thing, and what it is given.
@@ -19,17 +20,19 @@ pub(super) type GivenTo = (ThingId, GivenIn);
 /// says so.
 type Connected = Rc<BTreeMap<ThingId, usize>>;
 
-/// What is asked of where values stand.
+/// What is asked of where values stand. What bodies connect and what classes give is found once, where it is asked for.
 pub(super) struct Counting<'s, 'd> {
     document: &'d Document,
     body: &'s Body,
     givens: &'s Givens,
     connected: RefCell<BTreeMap<ThingId, Connected>>,
+    given_by: RefCell<BTreeMap<ClassId, BTreeSet<OriginId>>>,
 }
 
 impl<'s, 'd> Counting<'s, 'd> {
     pub(super) fn new(document: &'d Document, body: &'s Body, givens: &'s Givens) -> Self {
-        Self { document, body, givens, connected: RefCell::default() }
+        let (connected, given_by) = Default::default();
+        Self { document, body, givens, connected, given_by }
     }
 
     /// Returns true if the value of the thing that is declared first counts, not that of the other.
@@ -46,27 +49,26 @@ impl<'s, 'd> Counting<'s, 'd> {
     fn is_replaced(&self, form: &Form, thing: ThingId, given: GivenIn) -> bool {
         let origin = self.givens[given.value].origin;
         self.around(given.me).any(|host| {
+            let line = self.document.primary_line(self.body.things[host].class);
+            if line.iter().all(|&class| self.document.classes[class].connections.is_empty()) {
+                return false;
+            }
+            let connected = self.connected(form, host, &line);
+            let nearest = self.around(thing).filter_map(|part| connected.get(&part)).min();
             // what the same body gives, or one nearer, is no default
-            let line = self.document.primary_line(self.body.things[host].class).into_iter();
-            let gives = |class: &ClassId| {
-                let mut givens = self.document.classes[*class].givens.iter();
-                host == given.me && givens.any(|given| given.origin == origin)
-            };
-            let nearer = line.take_while(|class| !gives(class)).count();
-            let connected = self.connected(form, host);
-            self.around(thing).any(|part| connected.get(&part).is_some_and(|&at| at < nearer))
+            let gives = |&class: &ClassId| host == given.me && self.does_give(class, origin);
+            nearest.is_some_and(|&at| !line.iter().take(at + 1).any(gives))
         })
     }
 
-    /// Returns the parts that the body of a thing connects.
-    fn connected(&self, form: &Form, host: ThingId) -> Connected {
+    /// Returns the parts that the body of a thing connects whose class has this line.
+    fn connected(&self, form: &Form, host: ThingId, line: &[ClassId]) -> Connected {
         if let Some(known) = self.connected.borrow().get(&host) {
             return known.clone();
         }
-        let line = self.document.primary_line(self.body.things[host].class).into_iter();
         let paths = self.body.paths(&form.layouts);
         let mut found = BTreeMap::new();
-        for (at, class) in line.enumerate() {
+        for (at, &class) in line.iter().enumerate() {
             for connection in &self.document.classes[class].connections {
                 if let Ok(part) = paths.follow(host, &connection.path) {
                     found.entry(part).or_insert(at);
@@ -78,14 +80,20 @@ impl<'s, 'd> Counting<'s, 'd> {
         found
     }
 
+    /// Returns true if a class itself gives a value.
+    fn does_give(&self, class: ClassId, origin: OriginId) -> bool {
+        let mut given_by = self.given_by.borrow_mut();
+        let givens = || self.document.classes[class].givens.iter().map(|given| given.origin);
+        let given = given_by.entry(class).or_insert_with(|| givens().collect());
+        given.contains(&origin)
+    }
+
     /// Returns how deep in the document the text stands that gives a value: 0 for what the document itself says, in
     /// the bodies of its parts as well; for what a class says, how deep its thing lies.
     fn depth_of(&self, form: &Form, given: GivenIn) -> usize {
         let Self { document, body, givens, .. } = self;
         let origin = givens[given.value].origin;
-        let says = |class: &ClassId| {
-            document.classes[*class].givens.iter().any(|given| given.origin == origin)
-        };
+        let says = |&class: &ClassId| self.does_give(class, origin);
         let mut thing = given.me;
         let line = document.primary_line(body.things[thing].class).into_iter();
         let mut said = line.filter(|&c| document.classes[c].is_of_one).find(says);
