@@ -10,16 +10,17 @@ let isThere = false
 
 const isMissing = () => !isThere && "is_divided" in initSync()
 
-// Fetches it while the page goes on; where the server does not answer, later again.
+// Fetches it while the page goes on; where the server does not answer, later again. Returns whether it has come.
 export async function fetchRest() {
-  if (!isMissing()) return
+  if (!isMissing()) return isThere
   try {
     begin(await WebAssembly.compileStreaming(fetch(address)))
+    return true
   } catch (error) {
     // what is of another build never fits; its first call says so
-    if (error instanceof WebAssembly.LinkError) return
+    if (error instanceof WebAssembly.LinkError) return false
     await new Promise((resolve) => setTimeout(resolve, AGAIN_MS))
-    await fetchRest()
+    return fetchRest()
   }
 }
 

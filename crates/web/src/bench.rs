@@ -77,11 +77,14 @@ pub fn Bench(
 }
 
 fn frame(mut run: Run) {
-    if run.frame == FRAMES {
-        return finish(&run);
-    }
     if run.frame == 0 {
         run.begun = now();
+    } else {
+        // what the step before came to is painted with this frame
+        run.in_frames += run.lab.painted_in.get_value();
+    }
+    if run.frame == FRAMES {
+        return finish(&run);
     }
     let turn = |step: u32| f64::from(run.frame * STEPS + step) / f64::from(FRAMES * STEPS);
     let Some(id) = run.lab.id() else { return };

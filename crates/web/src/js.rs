@@ -27,9 +27,10 @@ extern "C" {
 
 #[wasm_bindgen(raw_module = "./rest.js")]
 extern "C" {
-    /// Fetches the code that a first drag does not run, while the page goes on.
+    /// Fetches the code that a first drag does not run, while the page goes on; tells in the end whether it has come: a page
+    /// may be whole.
     #[wasm_bindgen(js_name = fetchRest)]
-    pub fn fetch_rest();
+    pub async fn fetch_rest() -> JsValue;
 
     /// Fetches it at once. Functions that are not there yet call it of themselves.
     #[wasm_bindgen(js_name = loadRest)]

@@ -89,13 +89,15 @@ pub enum Notice {
 #[derive(Clone, Copy)]
 pub struct Lab {
     session: StoredValue<Session, LocalStorage>,
-    files: StoredValue<FileSet>,
+    pub(crate) files: StoredValue<FileSet>,
     opened: StoredValue<BTreeMap<String, Opened>>,
     pending_text: StoredValue<Option<String>>,
     typing: StoredValue<u32>,
     /// How often tables were asked for again: only what came of the last time counts.
     renewals: StoredValue<u32>,
     listing: StoredValue<views::Rows, LocalStorage>,
+    /// How many milliseconds the picture's last frame took to paint.
+    pub painted_in: StoredValue<f64>,
     /// The path of the document that is shown; none in the gallery.
     pub current: RwSignal<Option<String>>,
     /// Whether the page has begun with a document that is still to come.
@@ -314,6 +316,7 @@ impl Lab {
             typing: StoredValue::new(0),
             renewals: StoredValue::new(0),
             listing: StoredValue::new_local(views::Rows::default()),
+            painted_in: StoredValue::new(0.0),
             current: RwSignal::new(None),
             arriving: RwSignal::new(false),
             coming: StoredValue::new((0, None)),

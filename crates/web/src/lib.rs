@@ -43,6 +43,7 @@ pub mod plot;
 pub mod printed;
 pub mod probe;
 pub mod rail;
+pub mod rehearsal;
 pub mod route;
 pub mod server;
 pub mod splitter;

@@ -77,7 +77,7 @@ pub fn Page() -> impl IntoView {
     Effect::new(move |was_there: Option<bool>| {
         let is_there = ready.get() && !lab.arriving.get();
         if is_there && was_there == Some(false) {
-            js::after_painting(js::fetch_rest);
+            js::after_painting(move || leptos::task::spawn_local(lab.fetch_rest()));
         }
         is_there || was_there == Some(true)
     });

@@ -196,42 +196,78 @@ fn lists(lab: Lab) -> Lists {
     (still, list)
 }
 
-/// Paints a frame whenever something in it is another.
+/// Paints with the page's next frame whenever something is another, so that what is done at once is painted once. A
+/// canvas of another size is blank: it is painted at once.
 fn keep_painted(
     lab: Lab,
     painter: StoredValue<Option<Painter>, LocalStorage>,
     size: RwSignal<(f64, f64)>,
-    (still, list): Lists,
+    lists: Lists,
 ) {
-    Effect::new(move |last: Option<Painted>| {
-        lab.colors.changes.track();
-        let grid_of = |view: &View| match lab.grid.get() {
-            true => grid(view, size.get()),
-            false => Vec::new(),
-        };
-        let (view, still, last) = (lab.view.get(), still.get(), last.unwrap_or_default());
-        let looks = lab.colors.changes.get_untracked();
-        let under =
-            still.map(|list| Under { list, view, size: size.get(), grid: lab.grid.get(), looks });
-        painter
-            .with_value(|painter| {
-                let painter = painter.as_ref()?;
-                let mut last = last;
-                match &under {
-                    Some(now) if last.under.as_ref() != Some(now) => {
-                        painter.forget();
-                        last.texts = paint(painter, &now.list, grid_of(&view), &view, last.texts);
-                        painter.keep();
-                    }
-                    Some(_) => {}
-                    None => painter.forget(),
-                }
-                let lines = if under.is_some() { Vec::new() } else { grid_of(&view) };
-                let texts = list.with(|list| paint(painter, list, lines, &view, last.texts));
-                Some(Painted { texts, under })
+    let last = StoredValue::new_local(Painted::default());
+    let is_due = StoredValue::new(false);
+    let paint_now = move || {
+        // the panel may have gone with its document
+        if is_due.try_get_value().is_none() {
+            return;
+        }
+        is_due.set_value(false);
+        let begun = js::now();
+        painter.with_value(|painter| {
+            let painter = painter.as_ref()?;
+            last.try_update_value(|last| {
+                paint_lists(lab, painter, size.get_untracked(), (lists, last))
             })
-            .unwrap_or_default()
+        });
+        lab.painted_in.set_value(js::now() - begun);
+    };
+    let paint_if_due = move || {
+        if is_due.try_get_value() == Some(true) {
+            paint_now();
+        }
+    };
+    Effect::new(move |before: Option<(f64, f64)>| {
+        lab.colors.changes.track();
+        lab.grid.track();
+        lab.view.track();
+        lists.0.track();
+        lists.1.track();
+        let now = size.get();
+        if before != Some(now) {
+            paint_now();
+        } else if !is_due.get_value() {
+            is_due.set_value(true);
+            request_animation_frame(paint_if_due);
+        }
+        now
     });
+}
+
+/// Paints the picture's lists as they are now.
+fn paint_lists(
+    lab: Lab,
+    painter: &Painter,
+    size: (f64, f64),
+    ((still, list), last): (Lists, &mut Painted),
+) {
+    let (view, is_ruled) = (lab.view.get_untracked(), lab.grid.get_untracked());
+    let looks = lab.colors.changes.get_untracked();
+    let grid = || if is_ruled { grid(&view, size) } else { Vec::new() };
+    let under = still.get_untracked();
+    let under = under.map(|list| Under { list, view, size, grid: is_ruled, looks });
+    match &under {
+        Some(now) if last.under.as_ref() != Some(now) => {
+            painter.forget();
+            last.texts = paint(painter, &now.list, grid(), &view, std::mem::take(&mut last.texts));
+            painter.keep();
+        }
+        Some(_) => {}
+        None => painter.forget(),
+    }
+    let lines = if under.is_some() { Vec::new() } else { grid() };
+    let texts = std::mem::take(&mut last.texts);
+    last.texts = list.with_untracked(|list| paint(painter, list, lines, &view, texts));
+    last.under = under;
 }
 
 /// What the painter has painted last.

@@ -1,8 +1,9 @@
 //! Views: what of them is made anew after a command, and when.
 //!
-//! At once there are the picture, the status line and the rows in sight. All rows follow while the page rests, a few
-//! at a time, where no more than values are others or no list of them is in the page; whoever has to know them all before asks for them by
-//! [`Lab::list`]. During a drag only what is in sight is made.
+//! At once there are the picture, the status line and, where no more than values are others, the rows in sight. All
+//! rows follow while the page rests, a few at a time; where others are to be seen, a short list of them is there at
+//! once. Whoever has to know them all before asks for them by [`Lab::list`]. During a drag only what is in sight is
+//! made.
 
 use super::jobs::{Kind, Told};
 use super::{Lab, Zoom};
@@ -18,6 +19,8 @@ use std::time::Duration;
 const A_WHILE: f64 = 8.0;
 /// So many rows are made between two looks at the clock.
 const BETWEEN_LOOKS: u32 = 16;
+/// A list of so many rows is short.
+const SHORT: u32 = 400;
 /// While something is dragged, they wait so long.
 const PAUSE: Duration = Duration::from_millis(100);
 
@@ -58,10 +61,11 @@ impl Lab {
         let number = self.begin_listing(id);
         if is_anew {
             let is_in_sight = |rows: StoredValue<Vec<usize>>| rows.with_value(|at| !at.is_empty());
-            if is_in_sight(self.shown_things) || is_in_sight(self.shown_values) {
+            let is_seen = is_in_sight(self.shown_things) || is_in_sight(self.shown_values);
+            if is_seen && self.make_short_list() {
                 return self.list();
             }
-            // nobody looks at a list of them: the picture comes first
+            // the picture comes first
             return js::after_painting(move || self.go_on_listing(number));
         }
         self.renew_rows(id);
@@ -138,6 +142,19 @@ impl Lab {
             rows.number
         });
         number.unwrap_or_default()
+    }
+
+    /// Makes as many rows as a short list has; returns true where these are all.
+    fn make_short_list(self) -> bool {
+        let mut made = 0_u32;
+        let mut is_short = || {
+            made += 1;
+            made < SHORT
+        };
+        let is_done = self.listing.try_update_value(|rows| {
+            rows.listing.as_mut().is_none_or(|listing| listing.go_on(&mut is_short))
+        });
+        is_done == Some(true)
     }
 
     /// Goes on for a while, and again later until all rows are made or others have taken their place.
