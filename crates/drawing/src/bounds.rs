@@ -1,7 +1,7 @@
 //! Bounds: the smallest upright box around a drawing.
 
 use crate::curve;
-use crate::element::{Drawing, Element, Placement, Point, Shape, Vertical};
+use crate::element::{Drawing, Element, Lie, Placement, Point, Shape, Vertical};
 use crate::{metrics, spline};
 use base::number::{cos, sin};
 use std::f64::consts::{FRAC_PI_2, TAU};
@@ -102,7 +102,8 @@ fn corners(element: &Element, vertical: Vertical, say: &mut dyn FnMut(Point)) {
             Placement::OnScreen(_) => say(*at),
             Placement::OnSheet(size) => {
                 let width = metrics::text_width(text, *size);
-                let (left, down) = anchoring.start(text, *size);
+                let (left, down) =
+                    anchoring.start(text, *size, Lie { at: *at, turn: *turn, vertical });
                 let lines_below = text.split('\n').count() as f64 - 1.0;
                 let above = metrics::ASCENT * size - down;
                 let below = down + (metrics::DESCENT + lines_below * metrics::LINE_HEIGHT) * size;
@@ -199,5 +200,25 @@ mod tests {
             *turn = FRAC_PI_2;
         }
         near(of(upright).unwrap(), [-7.18, -8.33, 2.07, 8.33]);
+    }
+    #[test]
+    fn words_beyond_a_place_lie_nowhere_across() {
+        for vertical in [Vertical::Up, Vertical::Down] {
+            for (step, turn) in (0..24).zip([0.0, 0.4].into_iter().cycle()) {
+                let angle = f64::from(step) * PI / 12.0;
+                let (x, y) = (cos(angle), sin(angle));
+                let text = |turn, anchoring| {
+                    let (text, placement) = (String::from("750 mV"), Placement::OnSheet(10.0));
+                    let at = Point { x: 20.0 * x, y: 20.0 * y };
+                    let shape = Shape::Text { at, text, anchoring, placement, turn };
+                    let mut corners = Vec::new();
+                    super::corners(&Element::new(shape), vertical, &mut |p| corners.push(p));
+                    // how far its nearest corner is beyond the line across; letters may reach below their base line
+                    corners.into_iter().map(|p| p.x * x + p.y * y).fold(f64::INFINITY, f64::min)
+                };
+                let away = text(turn, crate::Anchoring::Away(ORIGIN));
+                assert!((20.0..=23.5 + 1e-9).contains(&away), "{away} at {angle} and {turn}");
+            }
+        }
     }
 }

@@ -12,7 +12,7 @@ mod doubles;
 
 use crate::bounds::bounds;
 use crate::element::{
-    Anchoring, Color, Corner, Drawing, Element, Line, Placement, Point, Shape, Tag, Vertical,
+    Anchoring, Color, Corner, Drawing, Element, Lie, Line, Placement, Point, Shape, Tag, Vertical,
 };
 use crate::spline;
 use base::number::{cos, sin};
@@ -433,10 +433,27 @@ impl Writer {
                 };
                 let first = match anchoring {
                     Anchoring::Center => 0.5 - 0.5 * text.lines().count() as f64,
-                    Anchoring::Start | Anchoring::Middle | Anchoring::End => 0.0,
+                    Anchoring::Start | Anchoring::Middle | Anchoring::End | Anchoring::Away(_) => {
+                        0.0
+                    }
+                };
+                let (x, y) = (self.length(at.x), self.sign * self.length(at.y));
+                let turned = self.sign * turn;
+                let at = match anchoring {
+                    Anchoring::Away(from) => {
+                        let vertical = if self.sign < 0.0 { Vertical::Down } else { Vertical::Up };
+                        let lie = Lie { at: *at, turn: *turn, vertical };
+                        let (right, down) = Anchoring::Away(*from).held(text, height, lie);
+                        let (c, s) = (cos(turned), sin(turned));
+                        (x + right * c + down * s, y + right * s - down * c)
+                    }
+                    Anchoring::Start | Anchoring::Middle | Anchoring::End | Anchoring::Center => {
+                        (x, y)
+                    }
                 };
                 for (i, line) in text.lines().enumerate().filter(|(_, line)| !line.is_empty()) {
-                    self.words(element, *at, (line, *anchoring, *turn), (height, first + i as f64));
+                    let row = first + i as f64;
+                    self.words(element, at, (line, *anchoring, turned), (height, row));
                 }
             }
         }
@@ -524,14 +541,13 @@ impl Writer {
     fn words(
         &mut self,
         element: &Element,
-        at: Point,
+        (x, y): (f64, f64),
         (line, anchoring, turn): (&str, Anchoring, f64),
         (height, row): (f64, f64),
     ) {
         /// How far lines of words are apart, as a part of their height.
         const LEADING: f64 = 5.0 / 3.0;
-        let (x, y) = (self.length(at.x), self.sign * self.length(at.y));
-        let (down, turn) = (LEADING * height * row, self.sign * turn);
+        let down = LEADING * height * row;
         let (x, y) = (x + down * sin(turn), y - down * cos(turn));
         let place = |w: &mut Self, code: u16| {
             w.real(code, x);
@@ -547,7 +563,7 @@ impl Writer {
         }
         let justified = match anchoring {
             Anchoring::Start => 0,
-            Anchoring::Middle | Anchoring::Center => 1,
+            Anchoring::Middle | Anchoring::Center | Anchoring::Away(_) => 1,
             Anchoring::End => 2,
         };
         if justified > 0 {
@@ -720,6 +736,21 @@ mod tests {
         let aligned = "72\n1\n11\n1.0\n21\n4.5\n31\n0.0\n100\nAcDbText\n73\n2\n";
         assert!(out.contains(aligned), "{out}");
         assert!(out.contains("21\n-0.5\n"), "{out}");
+    }
+    #[test]
+    fn words_beyond_a_place_are_told_by_their_middle() {
+        let text = Shape::Text {
+            at: Point { x: 1.0, y: 5.0 },
+            text: "MM".into(),
+            anchoring: Anchoring::Away(Point { x: 1.0, y: 0.0 }),
+            placement: Placement::OnSheet(10.0),
+            turn: 0.0,
+        };
+        let up = drawn(text.clone(), Vertical::Up);
+        assert!(up.contains("72\n1\n11\n1.0\n21\n8.5\n"), "{up}");
+        // down is up in a drawing of DXF turned over: the base line lies 3.5 and a capital's height below
+        let down = drawn(text, Vertical::Down);
+        assert!(down.contains("72\n1\n11\n1.0\n21\n-15.68\n"), "{down}");
     }
     #[test]
     fn a_group_is_a_block_that_is_inserted_once() {

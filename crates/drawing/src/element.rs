@@ -1,6 +1,7 @@
 //! Elements: what a drawing is made of.
 
 use crate::metrics;
+use base::number::{cos, hypot, sin};
 use std::sync::Arc;
 
 /// A point on the sheet.
@@ -125,7 +126,7 @@ pub struct Dimension {
 }
 
 /// Which point of a text lies at its position.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+#[derive(Clone, Copy, PartialEq, Debug, Default)]
 pub enum Anchoring {
     /// The left end of the base line.
     #[default]
@@ -136,23 +137,68 @@ pub enum Anchoring {
     End,
     /// The middle both ways, between the top of the first line's capitals and the last base line.
     Center,
+    /// None: all of it lies beyond the position, as seen from another point, with a little room between.
+    Away(Point),
 }
+
+/// How a text lies: at which position, how far it is turned around that, and which way `y` runs.
+#[derive(Clone, Copy, Debug)]
+pub struct Lie {
+    /// Its position.
+    pub at: Point,
+    /// How far it is turned from the x axis towards the y axis, in radians.
+    pub turn: f64,
+    /// Which way `y` runs on its sheet.
+    pub vertical: Vertical,
+}
+
+/// The room between a position and a text beyond it, in multiples of the text's size.
+const ROOM: f64 = 0.35;
 
 impl Anchoring {
     /// Returns how far to the right of a text's position its first line begins, and how far below its position the
     /// first base line is; both as the text is read, in the units of `size`.
-    pub fn start(self, text: &str, size: f64) -> (f64, f64) {
-        let width = metrics::text_width(text, size);
-        let more_lines = text.split('\n').count() as f64 - 1.0;
+    pub fn start(self, text: &str, size: f64, lie: Lie) -> (f64, f64) {
+        let before = match self {
+            Self::Start => 0.0,
+            Self::Middle | Self::Center | Self::Away(_) => 0.5,
+            Self::End => 1.0,
+        };
+        let (right, down) = self.held(text, size, lie);
+        (right - before * metrics::text_width(text, size), down)
+    }
+
+    /// Returns where the point of the first base line is by which the text is held, its left end, middle or right end:
+    /// how far to the right of the position, and how far below, as the text is read, in the units of `size`.
+    pub fn held(self, text: &str, size: f64, lie: Lie) -> (f64, f64) {
+        let below = (text.split('\n').count() as f64 - 1.0) * metrics::LINE_HEIGHT * size;
+        let above = metrics::ASCENT * size;
+        let centered = (above - below) / 2.0;
         match self {
-            Self::Start => (0.0, 0.0),
-            Self::Middle => (-width / 2.0, 0.0),
-            Self::End => (-width, 0.0),
-            Self::Center => {
-                let down = (metrics::ASCENT - more_lines * metrics::LINE_HEIGHT) * size / 2.0;
-                (-width / 2.0, down)
+            Self::Start | Self::Middle | Self::End => (0.0, 0.0),
+            Self::Center => (0.0, centered),
+            Self::Away(from) => {
+                let (right, down) = lie.seen(from);
+                let (width, height) = (metrics::text_width(text, size), above + below);
+                let reach = 0.5 * (width * right.abs() + height * down.abs()) + ROOM * size;
+                (reach * right, centered + reach * down)
             }
         }
+    }
+}
+
+impl Lie {
+    /// Returns the direction from a point to the text's position, as the text is read: how much of it goes to the
+    /// right, and how much down. It has no length where both are one.
+    fn seen(self, from: Point) -> (f64, f64) {
+        let (x, y) = (self.at.x - from.x, self.at.y - from.y);
+        let length = hypot(x, y);
+        if length == 0.0 || !length.is_finite() {
+            return (0.0, 0.0);
+        }
+        let (c, s) = (cos(self.turn), sin(self.turn));
+        let (right, along) = ((x * c + y * s) / length, (y * c - x * s) / length);
+        (right, if self.vertical == Vertical::Up { -along } else { along })
     }
 }
 
@@ -275,8 +321,12 @@ impl Shape {
                     visit(&mut corner.bulge);
                 }
             }
-            Self::Text { at, text: _, anchoring: _, placement, turn } => {
+            Self::Text { at, text: _, anchoring, placement, turn } => {
                 point(at);
+                match anchoring {
+                    Anchoring::Away(from) => point(from),
+                    Anchoring::Start | Anchoring::Middle | Anchoring::End | Anchoring::Center => {}
+                }
                 match placement {
                     Placement::OnSheet(height) | Placement::OnScreen(height) => visit(height),
                 }

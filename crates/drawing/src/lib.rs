@@ -16,6 +16,6 @@ pub mod svg;
 pub use bounds::{Bounds, bounds, bounds_of};
 pub use color::{color_of, components};
 pub use element::{
-    Anchoring, Color, Corner, Dimension, DimensionKind, Drawing, Element, Layer, Line, Placement,
-    Point, Shape, Style, Tag, Vertical,
+    Anchoring, Color, Corner, Dimension, DimensionKind, Drawing, Element, Layer, Lie, Line,
+    Placement, Point, Shape, Style, Tag, Vertical,
 };

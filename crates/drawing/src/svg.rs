@@ -5,7 +5,8 @@
 
 use crate::bounds::{Bounds, bounds, point_on_circle};
 use crate::element::{
-    Anchoring, Color, Corner, Drawing, Element, Line, Placement, Point, Shape, Style, Tag, Vertical,
+    Anchoring, Color, Corner, Drawing, Element, Lie, Line, Placement, Point, Shape, Style, Tag,
+    Vertical,
 };
 use crate::{curve, metrics, spline};
 use base::number::{atan2, rounded, shortest, significant};
@@ -207,7 +208,6 @@ fn write_element(
             line(out, format_args!(r#"<path d="{data}" fill-rule="evenodd"{look}/>"#));
         }
         Shape::Text { at, text, anchoring, placement, turn } => {
-            let (x, y) = p(*at);
             let size = match placement {
                 Placement::OnSheet(size) => *size,
                 Placement::OnScreen(pixels) => pixels / options.pixels_per_unit,
@@ -225,11 +225,13 @@ fn write_element(
             } else {
                 let turn = if vertical == Vertical::Up { -turn } else { *turn };
                 let turn = shortest(turn.to_degrees());
+                let (x, y) = p(*at);
                 format!(r#" transform="rotate({turn} {x} {y})""#)
             };
             // `y` runs down here, and what is turned is turned around its position
             let sign = if vertical == Vertical::Up { -1.0 } else { 1.0 };
-            let line = shortest(sign * at.y + anchoring.start(text, size).1);
+            let (right, down) = anchoring.held(text, size, Lie { at: *at, turn: *turn, vertical });
+            let (x, line) = (shortest(at.x + right), shortest(sign * at.y + down));
             let look = format!("{width}{turned}{look}");
             write_text(out, (&x, &line), text, *anchoring, size, &look);
         }
@@ -292,12 +294,14 @@ fn ellipse_data(
 /// Widens a box by words of a constant size on the screen, as large as they are in this file.
 fn with_labels(around: Bounds, drawing: &Drawing, options: &SvgOptions<'_>) -> Bounds {
     drawing.elements.iter().fold(around, |around, element| match &element.shape {
-        Shape::Text { at, text, anchoring, placement: Placement::OnScreen(pixels), .. } => {
+        Shape::Text { at, text, anchoring, placement: Placement::OnScreen(pixels), turn } => {
             let size = pixels / options.pixels_per_unit;
             let width = metrics::text_width(text, size);
-            let (left, _) = anchoring.start(text, size);
-            let corner = Point { x: at.x + left, y: at.y };
-            around.with(corner).with(Point { x: corner.x + width, y: at.y })
+            let lie = Lie { at: *at, turn: *turn, vertical: drawing.vertical };
+            let (left, down) = anchoring.start(text, size, lie);
+            let down = if drawing.vertical == Vertical::Up { -down } else { down };
+            let corner = Point { x: at.x + left, y: at.y + down };
+            around.with(corner).with(Point { x: corner.x + width, ..corner })
         }
         Shape::Text { .. }
         | Shape::Dot(_)
@@ -321,7 +325,7 @@ fn write_text(
 ) {
     let anchor = match anchoring {
         Anchoring::Start => "",
-        Anchoring::Middle | Anchoring::Center => r#" text-anchor="middle""#,
+        Anchoring::Middle | Anchoring::Center | Anchoring::Away(_) => r#" text-anchor="middle""#,
         Anchoring::End => r#" text-anchor="end""#,
     };
     let step = shortest(metrics::LINE_HEIGHT * size);
@@ -482,6 +486,24 @@ mod tests {
         let out = drawn(Element::new(text), Vertical::Up);
         assert!(out.contains(r#"y="-1.41"#), "{out}");
         assert!(out.contains(r#"transform="rotate(-90 0 -5)""#), "{out}");
+    }
+    #[test]
+    fn words_beyond_a_place_are_told_by_their_middle() {
+        let text = |from| Shape::Text {
+            at: p(1.0, 5.0),
+            text: "MM".into(),
+            anchoring: Anchoring::Away(from),
+            placement: Placement::OnSheet(10.0),
+            turn: 0.0,
+        };
+        // half as wide as they are, 16.66, and 3.5 between
+        let out = drawn(Element::new(text(p(0.0, 5.0))), Vertical::Up);
+        assert!(out.contains(r#"<text x="12.83" y="-1.41"#), "{out}");
+        assert!(out.contains(r#"text-anchor="middle""#), "{out}");
+        let above = drawn(Element::new(text(p(1.0, 0.0))), Vertical::Up);
+        assert!(above.contains(r#"<text x="1" y="-8.5" "#), "{above}");
+        let below = drawn(Element::new(text(p(1.0, 0.0))), Vertical::Down);
+        assert!(below.contains(r#"<text x="1" y="15.68" "#), "{below}");
     }
     #[test]
     fn a_colour_is_no_way_into_the_markup() {

@@ -14,7 +14,7 @@ use kernel::builtin::{
     Builtin, Domain, FUNCTIONS, Function, LIST_MESSAGES, ListMessage, NUMBER_MESSAGES,
     NumberMessage, PICTURE_MESSAGES, TEXT_MESSAGES, THING_MESSAGES, ThingMessage, find,
 };
-use kernel::{ClassKind, Quantity, ThingId};
+use kernel::{ClassKind, Quantity, ThingId, Vertical};
 
 /// More decimals than a number has say nothing.
 const MOST_DIGITS: i64 = 17;
@@ -80,6 +80,10 @@ impl<'a> Evaluator<'a> {
             Function::Min => self.least(&self.several(&arguments)?, Binary::Min),
             Function::Max => self.least(&self.several(&arguments)?, Binary::Max),
             Function::Pi => Ok(Answer::plain(std::f64::consts::PI)),
+            Function::Upward => Ok(Answer::plain(match self.document.vertical {
+                Vertical::Up => 1.0,
+                Vertical::Down => -1.0,
+            })),
             Function::AllDifferent => self.all_different(&self.several(&arguments)?),
             Function::Rgb => {
                 let part = |at: usize| Ok(self.number(&arguments[at])?.0);

@@ -116,6 +116,7 @@ impl<'a> Evaluator<'a> {
             | Function::Min
             | Function::Max
             | Function::Pi
+            | Function::Upward
             | Function::Rgb
             | Function::AllDifferent => {
                 return Err(Fault::wrong("a number where a picture is wanted"));
@@ -296,6 +297,10 @@ impl<'a> Evaluator<'a> {
             PictureMessage::Turned => self.number(&arguments[0])?.0,
             _ => 0.0,
         };
+        let away = match message {
+            PictureMessage::Away => Some(self.place(&arguments[0])?),
+            _ => None,
+        };
         let color = match message {
             PictureMessage::Colored | PictureMessage::Filled => arguments.first(),
             _ => None,
@@ -332,10 +337,9 @@ impl<'a> Evaluator<'a> {
                         *turn += turned;
                     }
                 }
-                PictureMessage::Centered => {
-                    if let Shape::Text { anchoring, .. } = &mut element.shape {
-                        *anchoring = Anchoring::Center;
-                    }
+                PictureMessage::Centered => anchor(element, Anchoring::Center),
+                PictureMessage::Away => {
+                    away.into_iter().for_each(|from| anchor(element, Anchoring::Away(from)))
                 }
             }
         }
@@ -394,6 +398,13 @@ impl<'a> Evaluator<'a> {
             }),
             other => Err(Fault::wrong(format!("{} where a colour is wanted", self.kind(other)))),
         }
+    }
+}
+
+/// Says which point of a text lies at its place.
+fn anchor(element: &mut Element, how: Anchoring) {
+    if let Shape::Text { anchoring, .. } = &mut element.shape {
+        *anchoring = how;
     }
 }
 

@@ -206,6 +206,7 @@ table! {
     Min "min" Any [many("x", Kind::Numbers)] Same "The smallest of some numbers, or of a list.";
     Max "max" Any [many("x", Kind::Numbers)] Same "The largest of some numbers, or of a list.";
     Pi "pi" Any [] Plain "Half the circumference of a circle of radius 1.";
+    Upward "upward" Any [] Plain "1 where y runs up the sheet, and -1 where it runs down.";
     AllDifferent "allDifferent" Any [many("x", Kind::Any)] Bool "Whether no two of some values, or of a list, are equal.";
     Rgb "rgb" Any [one("red", Kind::Plain), one("green", Kind::Plain), one("blue", Kind::Plain)] Color "The colour of so much red, green and blue, each from 0 to 1.";
     Dot "dot" Any [one("x", Kind::Any), perhaps("y", Kind::Length)] Picture "A dot at a place, or at x and y.";
@@ -305,6 +306,7 @@ table! {
     Measured "measured" Picture [one("kind", Kind::Text), one("points", Kind::List)] Picture "The picture as a dimension of what is exported as DXF: `aligned`, `linear`, `radius`, `diameter` or `angle`, with the points that such a one has.";
     Turned "turned" Picture [one("by", Kind::Plain)] Picture "The picture with its words turned to the left by an angle, each around its place.";
     Centered "centered" Picture [] Picture "The picture with the middle of its words at their places.";
+    Away "away" Picture [one("from", Kind::Place)] Picture "The picture with its words beyond their places, as seen from a point: above, below or beside them, and never across.";
 }
 
 table! {

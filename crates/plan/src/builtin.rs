@@ -7,7 +7,7 @@ use base::Name;
 use expr::dimension::Dimension;
 use expr::{Binary, ExprId, Unary};
 use kernel::builtin::{THING_MESSAGES, find};
-use kernel::{BinaryOperator, ClassId, ClassKind, Primitive};
+use kernel::{BinaryOperator, ClassId, ClassKind, Primitive, Vertical};
 
 /// So many numbers are sorted by comparisons in the rule, for which it has about as many squared.
 const MOST_SORTED: usize = 32;
@@ -21,6 +21,10 @@ impl<'a> Opening<'a> {
         }
         match (name.as_str(), arguments.as_slice()) {
             ("pi", []) => Ok(self.number(std::f64::consts::PI)),
+            ("upward", []) => Ok(self.number(match self.document.vertical {
+                Vertical::Up => 1.0,
+                Vertical::Down => -1.0,
+            })),
             ("atan2", [y, x]) => self.fold(Binary::Atan2, &[y.clone(), x.clone()]),
             ("ceil", [x]) => self.ceil(x),
             ("hypot", [x, y]) => {

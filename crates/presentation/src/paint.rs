@@ -26,7 +26,9 @@ mod note;
 mod reach;
 
 use crate::sheet::View;
-use drawing::{Anchoring, Color, Drawing, Element, Layer, Line, Placement, Point, Shape, Style};
+use drawing::{
+    Anchoring, Color, Drawing, Element, Layer, Lie, Line, Placement, Point, Shape, Style, Vertical,
+};
 pub(crate) use note::note;
 use reach::Reach;
 use session::view::{Caught, Freedom, MovedView, PictureView, Velocity};
@@ -42,6 +44,8 @@ pub struct DisplayList {
     pub words: Vec<String>,
     /// The colours that the document names; they are numbered after the page's own.
     pub colors: Vec<String>,
+    /// Which way `y` runs on the sheet.
+    vertical: Vertical,
     /// The numbers of the latest style: what has the same follows in one path.
     style: Option<[f64; 5]>,
 }
@@ -144,7 +148,7 @@ const POINT: f64 = 4.75;
 /// Returns the list for a part of a picture. Grips are painted as points where the picture itself has none; `marks`
 /// are those of its tags and then of its grips.
 pub fn display_list(picture: &PictureView, part: Part<'_>, marks: &[Mark]) -> DisplayList {
-    let mut list = DisplayList::default();
+    let mut list = DisplayList { vertical: picture.drawing.vertical, ..DisplayList::default() };
     let all = &picture.drawing.elements;
     let own: Vec<&Element> = part.elements(picture).into_iter().map(|at| &all[at]).collect();
     let grips = part.grips(picture);
@@ -561,10 +565,11 @@ fn shape(list: &mut DisplayList, shape: &Shape) {
         Shape::Text { at, text, anchoring, placement, turn } => {
             let word = list.words.len() as f64;
             list.words.push(text.clone());
-            let (_, down) = anchoring.start(text, 1.0);
+            let lie = Lie { at: *at, turn: *turn, vertical: list.vertical };
+            let (right, down) = anchoring.held(text, 1.0, lie);
             let anchoring = match anchoring {
                 Anchoring::Start => 0.0,
-                Anchoring::Middle | Anchoring::Center => 1.0,
+                Anchoring::Middle | Anchoring::Center | Anchoring::Away(_) => 1.0,
                 Anchoring::End => 2.0,
             };
             // words on the sheet are never wider than the measure that the document goes by
@@ -574,7 +579,7 @@ fn shape(list: &mut DisplayList, shape: &Shape) {
                 }
                 Placement::OnScreen(height) => (*height, 0.0),
             };
-            out.extend([6.0, word, at.x, at.y, anchoring, height, width, *turn, down]);
+            out.extend([6.0, word, at.x, at.y, anchoring, height, width, *turn, right, down]);
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::paths::covers;
 use crate::sheet::View;
-use drawing::{Element, Placement, Point, Shape};
+use drawing::{Element, Lie, Placement, Point, Shape};
 use session::view::PictureView;
 
 /// Returns the path of what lies within `reach` pixels of a place on the screen; of what a program drew, at
@@ -89,7 +89,8 @@ fn word_at<'p>(picture: &'p PictureView, view: &View, (x, y): (f64, f64)) -> Opt
             Placement::OnScreen(height) => *height,
         };
         let width = drawing::metrics::text_width(text, height);
-        let (ahead, down) = anchoring.start(text, height);
+        let lie = Lie { at: *at, turn: *turn, vertical: view.vertical };
+        let (ahead, down) = anchoring.start(text, height, lie);
         let (left, top) = (left + ahead, top + down);
         (left..=left + width + 8.0).contains(&x)
             && (top - 1.2 * height..=top + 0.6 * height).contains(&y)

@@ -215,9 +215,10 @@ pub fn with_words(drawing: &Drawing, view: View, size: (f64, f64)) -> View {
 fn nearer_with_words(drawing: &Drawing, view: View, (width, height): (f64, f64)) -> View {
     let [mut left, mut right, mut above, mut below] = [0.0_f64; 4];
     for element in &drawing.elements {
-        let Shape::Text { at, text, anchoring, placement, .. } = &element.shape else { continue };
+        let Shape::Text { at, text, anchoring, placement, turn } = &element.shape else { continue };
         let drawing::Placement::OnScreen(size) = placement else { continue };
-        let (at, start) = (view.screen_from_sheet(*at), anchoring.start(text, *size));
+        let lie = drawing::Lie { at: *at, turn: *turn, vertical: drawing.vertical };
+        let (at, start) = (view.screen_from_sheet(*at), anchoring.start(text, *size, lie));
         let (start, base) = (at.0 + start.0, at.1 + start.1);
         let end = start + drawing::metrics::text_width(text, *size);
         left = left.max(BESIDE - start);
@@ -270,7 +271,9 @@ pub fn bounds(drawing: &Drawing) -> Bounds {
             Shape::Ellipse { .. } | Shape::Spline(_) | Shape::Region(_) => {
                 add_whole(element, drawing.vertical, &mut add);
             }
-            Shape::Text { turn, .. } if *turn != 0.0 => {
+            Shape::Text { turn, anchoring, .. }
+                if *turn != 0.0 || matches!(anchoring, drawing::Anchoring::Away(_)) =>
+            {
                 add_whole(element, drawing.vertical, &mut add);
             }
             Shape::Text { at, text, anchoring, placement, .. } => {
@@ -279,7 +282,8 @@ pub fn bounds(drawing: &Drawing) -> Bounds {
                     drawing::Placement::OnScreen(_) => 0.0,
                 };
                 let width = drawing::metrics::text_width(text, height);
-                let left = at.x + anchoring.start(text, height).0;
+                let lie = drawing::Lie { at: *at, turn: 0.0, vertical: drawing.vertical };
+                let left = at.x + anchoring.start(text, height, lie).0;
                 add(left, at.y - height);
                 add(left + width, at.y + height);
             }

@@ -246,18 +246,19 @@ export function createPainter(canvas, onSize) {
               c.translate(-left, -top)
             }
             const lines = (words[list[i]] ?? "").split("\n")
-            const first = top + list[i + 7] * size
+            const begin = left + list[i + 7] * size
+            const first = top + list[i + 8] * size
             lines.forEach((text, n) => {
               if (label) {
                 c.strokeStyle = colors[PAPER]
                 c.lineWidth = 3
                 c.setLineDash([])
-                c.strokeText(text, left, first + 1.2 * size * n)
+                c.strokeText(text, begin, first + 1.2 * size * n)
               }
-              c.fillText(text, left, first + 1.2 * size * n, widest)
+              c.fillText(text, begin, first + 1.2 * size * n, widest)
             })
             onSheet()
-            i += 8
+            i += 9
             break
           }
           case 7: {

@@ -30,8 +30,19 @@ fn words_seen(lab: Lab, (left, top): (f64, f64)) -> Array {
     let view = lab.view.get_untracked();
     lab.picture.with_untracked(|picture| {
         let word = |element: &drawing::Element| {
-            let drawing::Shape::Text { at, text: shown, .. } = &element.shape else { return None };
+            let drawing::Shape::Text { at, text: shown, anchoring, placement, turn } =
+                &element.shape
+            else {
+                return None;
+            };
+            let size = match placement {
+                drawing::Placement::OnSheet(height) => height * view.scale,
+                drawing::Placement::OnScreen(height) => *height,
+            };
+            let lie = drawing::Lie { at: *at, turn: *turn, vertical: view.vertical };
+            let (right, down) = anchoring.start(shown, size, lie);
             let (x, y) = view.screen_from_sheet(*at);
+            let (x, y) = (x + right, y + down);
             let path = picture.paths.get(element.tag.0 as usize)?;
             // where a pointer hits it: a little to the right of where it begins
             Some(object(&[

@@ -110,3 +110,48 @@ fn parts_without_places_do_not_lie_on_one_another() {
         }
     }
 }
+
+/// Where a circuit's words and its earth are seen, with `y` up and with `y` down: how far to the right, and how far up.
+fn circuit_seen(vertical: &str) -> Vec<(String, f64, f64)> {
+    let text = format!(
+        "use circuits\n{vertical}\nr: Resistor {{ a.node.at = (0, 0)  b.node.at = (100, 0) }}\n\
+         b: Battery {{ a.node.at = (0, 0)  b.node.at = (0, 100) }}\n\
+         s: Resistor {{ a.node.at = (100, 0)  b.node.at = (0, 100) }}\n\
+         g: Ground {{ lead.node.at = (0, 100) }}\n"
+    );
+    let drawing = Desk::of(&text).session.picture(session::DocumentId(0)).drawing;
+    let up = if drawing.vertical == drawing::Vertical::Up { 1.0 } else { -1.0 };
+    let least = drawing.elements.iter().filter_map(|element| match &element.shape {
+        // the shortest line of the earth
+        drawing::Shape::Segment(p, q) if (q.x - p.x - 4.0).abs() < 1e-9 => {
+            Some((String::from("earth"), p.x + 2.0, up * (p.y - 100.0)))
+        }
+        drawing::Shape::Text { at, text, anchoring: drawing::Anchoring::Away(from), .. } => {
+            Some((text.clone(), at.x - from.x, up * (at.y - from.y)))
+        }
+        _ => None,
+    });
+    least.collect()
+}
+
+#[test]
+fn a_circuit_with_y_upward_has_its_words_above_and_beside_what_they_are_of() {
+    let half = 14.0 / f64::sqrt(2.0);
+    let lies = |vertical, slanted: (f64, f64)| {
+        let expected = [
+            ("100 Ω", 0.0, 14.0),
+            ("1.5 V", 13.0, 0.0),
+            ("100 Ω", slanted.0, slanted.1),
+            ("earth", 0.0, -22.0),
+        ];
+        let seen = circuit_seen(vertical);
+        assert_eq!(seen.len(), expected.len(), "{seen:?}");
+        for ((text, x, y), (words, right, above)) in seen.iter().zip(expected) {
+            let is_near = (x - right).abs() < 1e-9 && (y - above).abs() < 1e-9;
+            assert!(text == words && is_near, "{vertical}: {seen:?}");
+        }
+    };
+    // what is slanted goes down to the right in one, and up in the other
+    lies("", (half, half));
+    lies("y down", (-half, half));
+}
