@@ -103,7 +103,7 @@ impl Session {
     }
 
     /// Returns what has to be asked before something is said by hand that contradicts what holds: the ways out, each
-    /// tried. Nothing where it would hold, or where the document does not hold anyway.
+    /// tried. Nothing where it would hold, or where no more would be broken than is.
     pub fn over_constrained(&self, id: DocumentId, command: &Command) -> Option<Question> {
         let beside = Beside::of(&*self.host, &self.documents, id);
         let open = self.document(id);

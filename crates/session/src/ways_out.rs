@@ -1,6 +1,6 @@
 //! Over-constraining: what a person may want instead of a constraint that contradicts others.
 //!
-//! In: a document that holds, and a command that says something of it. Out: nothing where it would go on holding;
+//! In: a document, and a command that says something of it. Out: nothing where no more is broken than was;
 //! else a question with the ways out, each tried in a copy: a reference dimension that only reads, one of the others
 //! replaced, the new one kept switched off, or kept as a conflict.
 
@@ -20,6 +20,7 @@ use crate::{views, words};
 use base::Name;
 use kernel::{Command, Path, Step, ThingId};
 use plan::Plans;
+use solve::Level;
 use std::collections::BTreeSet;
 use syntax::ast::{AstNode, Member, Merge};
 use syntax::edit::TextEdit;
@@ -52,23 +53,37 @@ pub(crate) fn of_prototype(open: &Open, host: &dyn Host, command: &Command) -> O
     Some(question)
 }
 
+/// How many of the constraints that must hold do not.
+fn broken(open: &Open) -> usize {
+    open.status.unmet.iter().filter(|unmet| unmet.level == Level::Required).count()
+}
+
 /// Asks what is meant by what contradicts what holds.
 fn contradiction(open: &Open, host: &dyn Host, command: &Command) -> Option<Question> {
     let Command::Edit { target, members } = command else { return None };
     let things = open.state.structure.things.len();
-    if !target.is_empty() || !open.status.satisfied || things > MOST_THINGS {
+    if !target.is_empty() || things > MOST_THINGS {
         return None;
     }
+    let (was_broken, rule) = (broken(open), members.strip_prefix("constraint "));
     let mut trial = copy(open, host);
     apply::apply(&mut trial, host, command).ok()?;
-    if trial.status.satisfied {
+    if broken(&trial) <= was_broken {
         return None;
     }
     let was = constraints(&open.state);
     let new: Vec<String> = constraints(&trial.state).difference(&was).cloned().collect();
     let contradictions = views::analysis::view(&mut trial).contradictions;
-    let against = contradictions.iter().flat_map(|c| c.constraints.iter());
-    let others: Vec<String> = against.filter(|name| was.contains(*name)).cloned().collect();
+    // where others contradict each other already, that is not what is asked
+    let is_of_new =
+        |names: &[String]| was_broken == 0 || names.iter().any(|name| new.contains(name));
+    let against = contradictions.iter().map(|c| &c.constraints).filter(|names| is_of_new(names));
+    let mut others: Vec<String> = Vec::new();
+    for name in against.flatten().filter(|name| was.contains(*name)) {
+        if !others.contains(name) {
+            others.push(name.clone());
+        }
+    }
     let mut choices = Vec::new();
     if let Some(command) = only_read(open, host, members) {
         let label = "reference dimension: it only reads".into();
@@ -79,7 +94,8 @@ fn contradiction(open: &Open, host: &dyn Host, command: &Command) -> Option<Ques
         let mut replaced = copy(open, host);
         let gone = apply::apply(&mut replaced, host, &Command::Delete(path));
         let said = gone.and_then(|_| apply::apply(&mut replaced, host, command));
-        if said.is_ok() && replaced.status.satisfied {
+        let is_said = || rule.is_none_or(|rule| offers::holds(&replaced.state, host, &[rule]));
+        if said.is_ok() && broken(&replaced) <= was_broken && is_said() {
             let command = Command::Text(replaced.state.text.clone());
             let label = format!("instead of {}", in_words(&open.state, other));
             choices.push(Choice { label, command });
@@ -91,7 +107,7 @@ fn contradiction(open: &Open, host: &dyn Host, command: &Command) -> Option<Ques
         let Some(path) = parse_path(name) else { continue };
         done &= apply::apply(&mut off, host, &Command::Enable { path, on: false }).is_ok();
     }
-    if done && off.status.satisfied {
+    if done && broken(&off) <= was_broken {
         let command = Command::Text(off.state.text.clone());
         choices.push(Choice { label: "keep it switched off".into(), command });
     }

@@ -144,6 +144,37 @@ fn what_contradicts_is_asked_about_with_ways_out_that_hold() {
 }
 
 #[test]
+fn a_dimension_beside_a_contradiction_is_asked_of_only_where_it_is_one_more() {
+    let mut desk = Desk::of(
+        "use geometry\na: Line { p1 = (0, 0)  p2 = (100, 0) }\nb: Line { p1 = (0, 50)  p2 = (30, 90) }\n\
+         constraint a.length = 100\nconstraint a.length = 150\n",
+    );
+    let dimension = |desk: &Desk, line: &str, value: &str| {
+        let offers = desk.session.offers(desk.id, &[at(line)]);
+        let offer = offers.iter().find(|offer| offer.label.starts_with("length")).expect("offered");
+        offer.command(Some(value))
+    };
+    let apart = dimension(&desk, "b", "60");
+    assert_eq!(desk.session.over_constrained(desk.id, &apart), None);
+    let third = dimension(&desk, "a", "120");
+    let asked = desk.session.over_constrained(desk.id, &third).expect("it breaks one more");
+    let labels: Vec<&str> = asked.choices.iter().map(|c| c.label.as_str()).collect();
+    assert!(labels.starts_with(&["reference dimension: it only reads"]), "{labels:?}");
+    assert!(labels.ends_with(&["keep it switched off", "keep it as a conflict"]), "{labels:?}");
+    desk.apply(&asked.choices[0].command).expect("it was tried");
+    let reading = desk.number("referenceDistance.reading");
+    assert!((reading - desk.number("a.length")).abs() < 1e-9, "{}", desk.text());
+    desk.apply(&apart).expect("nothing is against it");
+    assert!((desk.number("b.length") - 60.0).abs() < 1e-9, "{}", desk.text());
+    // what is offered instead of others leaves no more broken than was, and says what was typed
+    for choice in asked.choices.iter().filter(|choice| choice.label.starts_with("instead of")) {
+        desk.apply(&choice.command).expect("it was tried");
+        assert!((desk.number("a.length") - 120.0).abs() < 1e-9, "{}", desk.text());
+        desk.apply(&Command::Undo).expect("a step");
+    }
+}
+
+#[test]
 fn a_coordinate_of_an_anchored_place_is_typed() {
     let mut desk = Desk::of("use bridges\nj: FixedJoint { at = (3, 4) }\n");
     desk.type_in("j.at.x", "160").expect("the place as a whole may be set");
