@@ -116,6 +116,12 @@ fn show_newest() {
         let frames = [found(LIST), next.and_then(|_| found(".drawer .drawing"))];
         frames.into_iter().flatten().for_each(|frame| bring_into(&frame, &step));
     }
+    // rows that come push down what has the keyboard
+    let drawer = found(".drawer .drawing");
+    let has_keyboard = document().active_element();
+    if let Some((drawer, field)) = drawer.zip(has_keyboard).filter(|(d, f)| d.contains(Some(f))) {
+        bring_into(&drawer, &field);
+    }
 }
 
 /// Scrolls a frame so far that something in it is in sight.
