@@ -114,6 +114,7 @@ fn class(found: &dxf::Found) -> (&'static str, &'static str) {
         Figure::Ellipse { sweep: Some(_), .. } => ("EllipticArc", "ellipse"),
         Figure::Words { .. } => ("Note", "note"),
         Figure::Curves(_) => ("Bezier", "curve"),
+        Figure::Rational(_) => ("Nurbs", "curve"),
         Figure::Surface(_) => ("Surface", "surface"),
         Figure::Dimension(Measured { what, .. }) => match what {
             What::Aligned { .. } => ("LinearDimension", "size"),
@@ -139,9 +140,11 @@ fn points(figure: &Figure) -> Vec<Point> {
             What::Radius { center, .. } => vec![*center],
             What::Angle { from, to, .. } => vec![from.0, from.1, to.0, to.1],
         },
-        Figure::Ellipse { .. } | Figure::Words { .. } | Figure::Curves(_) | Figure::Surface(_) => {
-            Vec::new()
-        }
+        Figure::Ellipse { .. }
+        | Figure::Words { .. }
+        | Figure::Curves(_)
+        | Figure::Rational(_)
+        | Figure::Surface(_) => Vec::new(),
     }
 }
 
@@ -173,6 +176,19 @@ fn body(figure: &Figure, thing: &str, merging: &mut Merging) -> String {
         Figure::Curves(poles) => {
             let poles: Vec<String> = poles.iter().map(|p| place(*p)).collect();
             format!("poles = [{}]", poles.join(", "))
+        }
+        Figure::Rational(curve) => {
+            let poles: Vec<String> = curve.poles().iter().map(|p| place(*p)).collect();
+            let list = |numbers: &[f64]| -> String {
+                numbers.iter().map(|x| shortest(*x)).collect::<Vec<_>>().join(", ")
+            };
+            format!(
+                "poles = [{}]  weights = [{}]  degree = {}  knots = [{}]",
+                poles.join(", "),
+                list(curve.weights()),
+                curve.degree(),
+                list(curve.knots())
+            )
         }
         // it is no thing of its own
         Figure::Surface(_) => String::new(),

@@ -109,6 +109,7 @@ const RICH: &str = "use drafting
 use contours
 unit mm
 wave: Spline { places = [(0, 0), (10, 5), (20, 0), (30, 5)] }
+pulled: Nurbs { poles = [(10, 0), (10, 10), (0, 10)]  weights = [1, 0.5, 1] }
 wide: HorizontalDimension { from = (0, 20) to = (30, 25) aside = 8 }
 low: HorizontalDimension { from = (0, 20) to = (30, 25) aside = -6 }
 high: VerticalDimension { from = (0, 20) to = (30, 45) aside = -9 }
@@ -135,6 +136,7 @@ fn splines_dimensions_and_surfaces_come_back() {
     for wanted in [
         "note1: Note { at = (0, 60)  words = \"turned\"  size = 3.5  angle = 1.5707963267948966 }",
         "curve1: Bezier { poles = [(0, 0),",
+        "curve2: Nurbs { poles = [(10, 0), (10, 10), (0, 10)]  weights = [1, 0.5, 1]  degree = 2  knots = [0, 0, 0, 1, 1, 1] }",
         "HorizontalDimension { from = (0, 20)  to = (30, 25)  aside = 8  size = 3.5 }",
         "HorizontalDimension { from = (0, 20)  to = (30, 25)  aside = -6  size = 3.5 }",
         "VerticalDimension { from = (0, 20)  to = (30, 45)  aside = -9  size = 3.5 }",

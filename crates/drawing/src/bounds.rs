@@ -40,7 +40,7 @@ impl Bounds {
 
 /// Returns the smallest box around a drawing; nothing if it is empty.
 ///
-/// Exact for segments, circles and arcs; line widths are not counted. What has a constant size on
+/// Exact for segments, circles and arcs, within [`crate::nurbs::TOLERANCE`] for rational splines; line widths are not counted. What has a constant size on
 /// the screen counts as the point where it lies; words on the sheet are as large as
 /// [`metrics`] says.
 ///
@@ -86,13 +86,8 @@ fn corners(element: &Element, vertical: Vertical, say: &mut dyn FnMut(Point)) {
             let extremes = curve::extremes(*major, *ratio, *start, *sweep).into_iter();
             extremes.map(|at| curve::on_ellipse(*center, *major, *ratio, at)).for_each(say);
         }
-        Shape::Spline(poles) => {
-            for piece in spline::pieces(poles) {
-                say(piece[0]);
-                say(piece[3]);
-                spline::extremes(piece).map(|t| spline::at(piece, t)).for_each(&mut *say);
-            }
-        }
+        Shape::Spline(poles) => spline_corners(poles, say),
+        Shape::Nurbs(curve) => spline_corners(&curve.cubics(), say),
         Shape::Region(rings) => {
             for shape in rings.iter().flat_map(|ring| curve::edges(ring)) {
                 corners(&Element::new(shape), vertical, say);
@@ -118,6 +113,15 @@ fn corners(element: &Element, vertical: Vertical, say: &mut dyn FnMut(Point)) {
                 }
             }
         },
+    }
+}
+
+/// Names the ends of Bézier curves, and where they are furthest along an axis.
+fn spline_corners(poles: &[Point], say: &mut dyn FnMut(Point)) {
+    for piece in spline::pieces(poles) {
+        say(piece[0]);
+        say(piece[3]);
+        spline::extremes(piece).map(|t| spline::at(piece, t)).for_each(&mut *say);
     }
 }
 

@@ -14,6 +14,7 @@ use crate::bounds::bounds;
 use crate::element::{
     Anchoring, Color, Corner, Drawing, Element, Lie, Line, Placement, Point, Shape, Tag, Vertical,
 };
+use crate::nurbs::Nurbs;
 use crate::spline;
 use base::number::{cos, sin};
 use blocks::Block;
@@ -418,6 +419,7 @@ impl Writer {
                 self.ellipse(element, (*center, *major, *ratio), (*start, *sweep));
             }
             Shape::Spline(poles) => self.spline(element, poles),
+            Shape::Nurbs(curve) => self.nurbs(element, curve),
             Shape::Region(rings) => {
                 if element.style.fill.is_some() {
                     self.hatch(element, rings);
@@ -482,19 +484,37 @@ impl Writer {
         if pieces == 0 {
             return;
         }
+        let times = |knot| if knot == 0 || knot == pieces { 4 } else { 3 };
+        let knots: Vec<f64> =
+            (0..=pieces).flat_map(|knot| vec![knot as f64; times(knot)]).collect();
+        self.b_spline(element, (3, &knots), &poles[..=3 * pieces], &[]);
+    }
+    /// Writes a rational B-spline as one, unless its weights are all alike.
+    fn nurbs(&mut self, element: &Element, curve: &Nurbs) {
+        let weights = curve.weights();
+        let is_rational = weights.windows(2).any(|w| w[0] != w[1]);
+        let weights = if is_rational { weights } else { &[] };
+        self.b_spline(element, (curve.degree(), curve.knots()), curve.poles(), weights);
+    }
+    /// Writes a B-spline; with weights it is rational.
+    fn b_spline(
+        &mut self,
+        element: &Element,
+        (degree, knots): (usize, &[f64]),
+        poles: &[Point],
+        weights: &[f64],
+    ) {
         self.begin("SPLINE", "AcDbSpline", element);
         self.pair(210, "0.0\n220\n0.0\n230\n1.0");
-        // in a plane
-        self.pair(70, 8);
-        self.pair(71, 3);
-        self.pair(72, 3 * pieces + 5);
-        self.pair(73, 3 * pieces + 1);
+        // in a plane, rational
+        self.pair(70, if weights.is_empty() { 8 } else { 8 + 4 });
+        self.pair(71, degree);
+        self.pair(72, knots.len());
+        self.pair(73, poles.len());
         self.pair(74, 0);
-        for knot in 0..=pieces {
-            let times = if knot == 0 || knot == pieces { 4 } else { 3 };
-            (0..times).for_each(|_| self.real(40, knot as f64));
-        }
-        poles[..=3 * pieces].iter().for_each(|p| self.at(10, *p));
+        knots.iter().for_each(|knot| self.real(40, *knot));
+        weights.iter().for_each(|weight| self.real(41, *weight));
+        poles.iter().for_each(|p| self.at(10, *p));
     }
     /// Writes a closed ring, its arcs as arcs.
     fn ring(&mut self, element: &Element, ring: &[Corner]) {
@@ -714,6 +734,20 @@ mod tests {
             text.contains(&format!("70\n8\n71\n3\n72\n11\n73\n7\n74\n0\n{knots}10\n0.0\n")),
             "{text}"
         );
+    }
+    #[test]
+    fn a_rational_spline_has_its_weights() {
+        let poles = [(1.0, 0.0), (1.0, 1.0), (0.0, 1.0)].map(|(x, y)| Point { x, y }).to_vec();
+        let curve = |middle| {
+            let weights = vec![1.0, middle, 1.0];
+            Nurbs::new(2, vec![0.0, 0.0, 0.0, 1.0, 1.0, 1.0], poles.clone(), weights).unwrap()
+        };
+        let text = drawn(Shape::Nurbs(curve(0.5)), Vertical::Up);
+        let head = "70\n12\n71\n2\n72\n6\n73\n3\n74\n0\n40\n0.0\n";
+        assert!(text.contains(head), "{text}");
+        assert!(text.contains("40\n1.0\n41\n1.0\n41\n0.5\n41\n1.0\n10\n1.0\n20\n0.0\n"), "{text}");
+        let plain = drawn(Shape::Nurbs(curve(1.0)), Vertical::Up);
+        assert!(plain.contains("70\n8\n71\n2\n") && !plain.contains("41\n1.0\n41"), "{plain}");
     }
     #[test]
     fn an_ellipse_runs_to_the_left() {

@@ -1,6 +1,7 @@
 //! Elements: what a drawing is made of.
 
 use crate::metrics;
+use crate::nurbs::Nurbs;
 use base::number::{cos, hypot, sin};
 use std::sync::Arc;
 
@@ -268,6 +269,8 @@ pub enum Shape {
     },
     /// Cubic Bézier curves, each from where the one before ends: poles in threes after the first.
     Spline(Vec<Point>),
+    /// A rational B-spline.
+    Nurbs(Nurbs),
     /// Closed rings of segments and arcs; what an odd number of them surrounds is inside.
     Region(Vec<Vec<Corner>>),
     /// A text in one or more lines.
@@ -301,6 +304,7 @@ impl Shape {
             Self::Polyline { points, closed: _ } | Self::Spline(points) => {
                 points.iter_mut().for_each(point);
             }
+            Self::Nurbs(curve) => curve.each_number(visit),
             Self::Circle { center, radius } => {
                 point(center);
                 visit(radius);
@@ -361,6 +365,7 @@ impl Element {
             | Shape::Arc { .. }
             | Shape::Ellipse { .. }
             | Shape::Spline(_)
+            | Shape::Nurbs(_)
             | Shape::Region(_) => Layer::Lines,
         };
         Self { shape, style: Style::default(), layer, tag: Tag::default() }

@@ -195,12 +195,10 @@ fn write_element(
             line(out, format_args!(r#"<path d="{data}"{look}/>"#));
         }
         Shape::Spline(poles) => {
-            let Some(first) = poles.first() else { return };
-            let mut data = format!("M{}", placed(*first, vertical));
-            for [_, p, q, r] in spline::pieces(poles) {
-                let [p, q, r] = [p, q, r].map(|p| placed(p, vertical));
-                data += &format!("C{p} {q} {r}");
-            }
+            line(out, format_args!(r#"<path d="{}"{look}/>"#, spline_data(poles, vertical)));
+        }
+        Shape::Nurbs(curve) => {
+            let data = spline_data(&curve.cubics(), vertical);
             line(out, format_args!(r#"<path d="{data}"{look}/>"#));
         }
         Shape::Region(rings) => {
@@ -258,6 +256,17 @@ fn arc_data(
     format!("A{rx} {ry} {turned} {long} {clockwise} {end}")
 }
 
+/// Returns Bézier curves as a path.
+fn spline_data(poles: &[Point], vertical: Vertical) -> String {
+    let Some(first) = poles.first() else { return String::new() };
+    let mut data = format!("M{}", placed(*first, vertical));
+    for [_, p, q, r] in spline::pieces(poles) {
+        let [p, q, r] = [p, q, r].map(|p| placed(p, vertical));
+        data += &format!("C{p} {q} {r}");
+    }
+    data
+}
+
 /// Returns a closed ring as a path.
 fn ring_data(ring: &[Corner], vertical: Vertical) -> String {
     let Some(first) = ring.first() else { return String::new() };
@@ -311,6 +320,7 @@ fn with_labels(around: Bounds, drawing: &Drawing, options: &SvgOptions<'_>) -> B
         | Shape::Arc { .. }
         | Shape::Ellipse { .. }
         | Shape::Spline(_)
+        | Shape::Nurbs(_)
         | Shape::Region(_) => around,
     })
 }

@@ -99,6 +99,7 @@ impl<'a> Evaluator<'a> {
             | Function::Ellipse
             | Function::Spline
             | Function::Bezier
+            | Function::Nurbs
             | Function::Region
             | Function::Label
             | Function::Text

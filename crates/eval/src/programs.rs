@@ -264,10 +264,18 @@ impl<'a> Evaluator<'a> {
 
     /// Returns what something draws that is no thing of the document.
     pub fn elements(&self, of: &Answer<'a>) -> Vec<drawing::Element> {
+        self.pictured(of).unwrap_or_default()
+    }
+
+    /// Returns what an answer draws.
+    ///
+    /// # Errors
+    /// Why it cannot be drawn.
+    pub fn pictured(&self, of: &Answer<'a>) -> Result<Vec<drawing::Element>> {
         self.begin();
-        match self.send(of, &self.tables.picture, Vec::new(), None, kernel::DOCUMENT) {
-            Ok(Answer::Picture(elements)) => elements.to_vec(),
-            Ok(_) | Err(_) => Vec::new(),
+        match self.send(of, &self.tables.picture, Vec::new(), None, kernel::DOCUMENT)? {
+            Answer::Picture(elements) => Ok(elements.to_vec()),
+            _ => Ok(Vec::new()),
         }
     }
 

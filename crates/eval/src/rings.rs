@@ -33,6 +33,7 @@ impl Piece {
             | Shape::Circle { .. }
             | Shape::Ellipse { .. }
             | Shape::Spline(_)
+            | Shape::Nurbs(_)
             | Shape::Region(_)
             | Shape::Text { .. } => None,
         }

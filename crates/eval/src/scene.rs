@@ -362,6 +362,11 @@ fn fingerprint(element: &Element) -> u64 {
         Shape::Polyline { points, .. } | Shape::Spline(points) => {
             points.iter().for_each(|p| point(*p));
         }
+        Shape::Nurbs(curve) => {
+            curve.poles().iter().for_each(|p| point(*p));
+            let numbers = curve.weights().iter().chain(curve.knots());
+            numbers.for_each(|x| point(Point { x: *x, y: 0.0 }));
+        }
         Shape::Ellipse { center, major, ratio, start, sweep } => {
             point(*center);
             point(*major);

@@ -8,7 +8,7 @@ use crate::rings;
 use base::Name;
 use drawing::{
     Anchoring, Color, Corner, Dimension, DimensionKind, Element, Layer, Line, Placement, Point,
-    Shape, Tag, curve, spline,
+    Shape, Tag, curve, nurbs::Nurbs, spline,
 };
 use kernel::builtin::{Function, PictureMessage};
 use kernel::{ClassKind, ThingId};
@@ -72,6 +72,7 @@ impl<'a> Evaluator<'a> {
                 }
                 Shape::Spline(poles)
             }
+            Function::Nurbs => self.nurbs(arguments)?,
             Function::Region => {
                 let ring = |ring: &Answer<'a>| {
                     self.items(ring)?.iter().map(|corner| self.bent(corner)).collect::<Result<_>>()
@@ -128,6 +129,23 @@ impl<'a> Evaluator<'a> {
 
     fn corners(&self, arguments: &[Answer<'a>], closed: bool) -> Result<Shape> {
         Ok(Shape::Polyline { points: self.places(arguments)?, closed })
+    }
+
+    /// Reads poles, weights, the degree and knots.
+    fn nurbs(&self, arguments: &[Answer<'a>]) -> Result<Shape> {
+        let numbers = |i: usize| -> Result<Vec<f64>> {
+            self.items(&arguments[i])?.iter().map(|x| Ok(self.number(x)?.0)).collect()
+        };
+        let poles = self.items(&arguments[0])?;
+        let poles: Result<Vec<Point>> = poles.iter().map(|p| self.plain(self.place(p)?)).collect();
+        let (degree, _) = self.number(&arguments[2])?;
+        if !(degree >= 1.0 && degree.fract() == 0.0) {
+            return Err(Fault::wrong(format!(
+                "a degree of {degree}, where it is 1, 2, 3 and so on"
+            )));
+        }
+        let curve = Nurbs::new(degree as usize, numbers(3)?, poles?, numbers(1)?);
+        curve.map(Shape::Nurbs).map_err(Fault::wrong)
     }
 
     /// Reads places: each an argument, or all in one list.

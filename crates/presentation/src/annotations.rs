@@ -184,9 +184,11 @@ fn seen<'a>(all: &'a [Annotation], picture: &PictureView, view: &View) -> BTreeM
                 [a, b, ..] => Some(Seen::Way(screen(*a), screen(*b))),
                 _ => None,
             },
-            Shape::Ellipse { .. } | Shape::Spline(_) | Shape::Region(_) | Shape::Text { .. } => {
-                None
-            }
+            Shape::Ellipse { .. }
+            | Shape::Spline(_)
+            | Shape::Nurbs(_)
+            | Shape::Region(_)
+            | Shape::Text { .. } => None,
         };
     }
     wanted.into_iter().filter_map(|(path, seen)| Some((path, seen?))).collect()

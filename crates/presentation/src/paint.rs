@@ -267,6 +267,7 @@ pub fn ghosts(list: &mut DisplayList, drawn: &[Drawing]) {
             | Shape::Arc { .. }
             | Shape::Ellipse { .. }
             | Shape::Spline(_)
+            | Shape::Nurbs(_)
             | Shape::Region(_) => {
                 begin(list, Hue::Faint as i32, -1, Line::Dashed, USUAL_WIDTH, Space::Sheet);
                 shape(list, &element.shape);
@@ -401,6 +402,7 @@ fn halos(list: &mut DisplayList, elements: &[&Element], marks: &[Mark], mark: Ma
             | Shape::Arc { .. }
             | Shape::Ellipse { .. }
             | Shape::Spline(_)
+            | Shape::Nurbs(_)
             | Shape::Region(_) => {
                 begin(list, color, -1, Line::Solid, 9.0, Space::Sheet);
                 shape(list, &element.shape);
@@ -525,6 +527,13 @@ fn number_in(texts: &mut Vec<String>, text: &str) -> usize {
     })
 }
 
+fn curves(out: &mut Vec<f64>, poles: &[Point]) {
+    out.extend(poles.first().into_iter().flat_map(|p| [9.0, p.x, p.y]));
+    for [_, p, q, r] in drawing::spline::pieces(poles) {
+        out.extend([14.0, p.x, p.y, q.x, q.y, r.x, r.y]);
+    }
+}
+
 fn shape(list: &mut DisplayList, shape: &Shape) {
     let out = &mut list.numbers;
     match shape {
@@ -545,12 +554,8 @@ fn shape(list: &mut DisplayList, shape: &Shape) {
                 (drawing::curve::half_axis(*major), base::number::atan2(major.y, major.x));
             out.extend([8.0, center.x, center.y, length, ratio * length, turned, *start, *sweep]);
         }
-        Shape::Spline(poles) => {
-            out.extend(poles.first().into_iter().flat_map(|p| [9.0, p.x, p.y]));
-            for [_, p, q, r] in drawing::spline::pieces(poles) {
-                out.extend([14.0, p.x, p.y, q.x, q.y, r.x, r.y]);
-            }
-        }
+        Shape::Spline(poles) => curves(out, poles),
+        Shape::Nurbs(curve) => curves(out, &curve.cubics()),
         Shape::Region(rings) => {
             out.extend([13.0, 1.0]);
             for ring in rings {

@@ -139,15 +139,8 @@ fn from_shape(p: Point, shape: &Shape) -> f64 {
             let at = |i| drawing::curve::on_ellipse(*center, *major, *ratio, part(i));
             (0..PARTS).map(|i| from_segment(p, at(i), at(i + 1))).fold(f64::INFINITY, f64::min)
         }
-        Shape::Spline(poles) => {
-            /// Each of its curves is picked as so many segments.
-            const PARTS: u32 = 24;
-            let pieces = drawing::spline::pieces(poles).flat_map(|piece| {
-                let at = move |i| drawing::spline::at(piece, f64::from(i) / f64::from(PARTS));
-                (0..PARTS).map(move |i| from_segment(p, at(i), at(i + 1)))
-            });
-            pieces.fold(f64::INFINITY, f64::min)
-        }
+        Shape::Spline(poles) => from_curves(p, poles),
+        Shape::Nurbs(curve) => from_curves(p, &curve.cubics()),
         Shape::Region(rings) => {
             let edges = rings.iter().flat_map(|ring| drawing::curve::edges(ring));
             edges.map(|edge| from_shape(p, &edge)).fold(f64::INFINITY, f64::min)
@@ -163,6 +156,17 @@ fn from_shape(p: Point, shape: &Shape) -> f64 {
             }
         }
     }
+}
+
+/// The distance of a point from Bézier curves.
+fn from_curves(p: Point, poles: &[Point]) -> f64 {
+    /// Each of the curves is picked as so many segments.
+    const PARTS: u32 = 24;
+    let pieces = drawing::spline::pieces(poles).flat_map(|piece| {
+        let at = move |i| drawing::spline::at(piece, f64::from(i) / f64::from(PARTS));
+        (0..PARTS).map(move |i| from_segment(p, at(i), at(i + 1)))
+    });
+    pieces.fold(f64::INFINITY, f64::min)
 }
 
 #[cfg(test)]

@@ -268,7 +268,7 @@ pub fn bounds(drawing: &Drawing) -> Bounds {
                 add(center.x - radius, center.y - radius);
                 add(center.x + radius, center.y + radius);
             }
-            Shape::Ellipse { .. } | Shape::Spline(_) | Shape::Region(_) => {
+            Shape::Ellipse { .. } | Shape::Spline(_) | Shape::Nurbs(_) | Shape::Region(_) => {
                 add_whole(element, drawing.vertical, &mut add);
             }
             Shape::Text { turn, anchoring, .. }

@@ -9,6 +9,7 @@ mod spline;
 mod words;
 
 use base::number::{cos, sin};
+use drawing::nurbs::Nurbs;
 use drawing::{Corner, Point, Shape, curve};
 use std::cell::Cell;
 use std::collections::BTreeMap;
@@ -56,6 +57,8 @@ pub(crate) enum Figure {
     },
     /// Bézier curves, by their poles.
     Curves(Vec<Point>),
+    /// A rational B-spline.
+    Rational(Nurbs),
     /// What the first ring surrounds, without what the others do.
     Surface(Vec<Vec<Corner>>),
     Dimension(Measured),

@@ -9,7 +9,7 @@ use super::{Home, compound, outcome, synonyms, text};
 use crate::recognise;
 use crate::state::State;
 use base::{Name, Span};
-use kernel::{Class, ClassId, ClassKind, Document, Message, Primitive, Term};
+use kernel::{Class, ClassId, ClassKind, Document, Message, PartRef, Primitive, Term};
 use std::collections::BTreeSet;
 use syntax::ast::{AstNode, Expr, span_without_doc};
 
@@ -187,6 +187,8 @@ pub(crate) struct Slot {
     also: Vec<Name>,
     /// What can fill it.
     pub(crate) kind: SlotKind,
+    /// Whether many values are wanted, one after the other.
+    pub(crate) is_list: bool,
     /// The options of the choice that it is one of.
     pub(crate) options: Vec<String>,
     /// What a program asks of it.
@@ -237,6 +239,7 @@ impl Slot {
             label,
             class: found.name.clone(),
             also: discs.map(|c| document.classes[c].name.clone()).into_iter().collect(),
+            is_list: is_list && kind == SlotKind::Value,
             kind,
             options: options.iter().map(Name::to_string).collect(),
             asks: None,
@@ -582,17 +585,23 @@ fn value(document: &Document) -> Option<Tool> {
 fn constructor(document: &Document, id: ClassId, is_program: bool) -> Option<Tool> {
     let class = &document.classes[id];
     let name = class.name.to_string();
-    let is_by_place = compound::is_of_places(document, id)
-        || matches!(name.as_str(), "Point" | "Line" | "Axis" | "Arc" | "ClockwiseArc");
+    let is_of_places = compound::is_of_places(document, id);
+    let is_by_place =
+        is_of_places || matches!(name.as_str(), "Point" | "Line" | "Axis" | "Arc" | "ClockwiseArc");
     let is_plain = is_by_place || name == "Circle" || compound::of(document, id).is_some();
     if !is_program && !is_plain {
         return None;
     }
     let slot = |field| {
         let name = document.field_name(field).to_string();
-        let label = (!is_by_place).then(|| name.clone());
-        Slot::of(document, &name, label, document.field_class(field))
+        let slot = Slot::of(document, &name, None, document.field_class(field));
+        // what comes behind many places is told from them
+        let is_plain = is_by_place && !(is_of_places && slot.kind != SlotKind::Places);
+        Slot { label: (!is_plain).then_some(name), ..slot }
     };
+    // what such a class says itself is not asked for
+    let is_asked =
+        |f: &PartRef| !is_of_places || !compound::is_given(document, id, document.field_name(*f));
     if name == "Point" {
         // a place is picked, or typed, at once
         return Some(Tool {
@@ -612,7 +621,7 @@ fn constructor(document: &Document, id: ClassId, is_program: bool) -> Option<Too
         base: small(&name),
         doc: class.doc.clone(),
         call: Call::Make,
-        slots: document.layout(id).into_iter().map(slot).collect(),
+        slots: document.layout(id).into_iter().filter(is_asked).map(slot).collect(),
     })
 }
 

@@ -246,7 +246,8 @@ pub(crate) fn set(
     let (found, _) = find(&source, program, (address, slot)).ok_or_else(none)?;
     // the text goes on from what stands twice, from what a message is sent to, and from a count
     let is_gone_on_from = found.again.is_some() || matches!(slot, "what" | "count");
-    let listed = is_edges(slot, &found.first).then(|| edges::as_list(typed)).flatten();
+    // of a list the elements are typed
+    let listed = found.first.starts_with('[').then(|| edges::as_list(typed)).flatten();
     let typed = listed.as_deref().unwrap_or(typed);
     let typed = if is_gone_on_from { catalogue::bracketed(typed) } else { typed.into() };
     let mut edited = source.to_string();

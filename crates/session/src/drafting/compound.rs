@@ -2,7 +2,7 @@
 //! a pick of a side may mean the whole.
 
 use base::Name;
-use kernel::{ClassId, ClassKind, Document, PartRef};
+use kernel::{ClassId, ClassKind, Document, PartRef, Path, Step};
 
 /// What a figure that is made of others is picked by.
 #[derive(Debug)]
@@ -45,14 +45,31 @@ pub(crate) fn of(document: &Document, class: ClassId) -> Option<&'static Compoun
     ALL.iter().find(is_it)
 }
 
-/// Whether things of a class are drawn through places, as many as there are: a spline.
+/// Whether things of a class are drawn through places, as many as there are, and by numbers at most besides: a spline.
 pub(crate) fn is_of_places(document: &Document, class: ClassId) -> bool {
-    let is_places = |field: &PartRef| match document.classes[document.field_class(*field)].kind {
-        ClassKind::List(element) => *document.classes[element].name == *"Point",
+    let kind = |field: &PartRef| &document.classes[document.field_class(*field)].kind;
+    let is_places = |field: &PartRef| match kind(field) {
+        ClassKind::List(element) => *document.classes[*element].name == *"Point",
         _ => false,
     };
+    let is_number = |field: &PartRef| match kind(field) {
+        ClassKind::List(element) => {
+            matches!(document.classes[*element].kind, ClassKind::Primitive(_))
+        }
+        kind => matches!(kind, ClassKind::Primitive(_)),
+    };
     let is_drawn = || document.find_message(class, &Name::new("picture"), None).is_some();
-    matches!(document.layout(class).as_slice(), [field] if is_places(field)) && is_drawn()
+    match document.layout(class).split_first() {
+        Some((places, rest)) => is_places(places) && rest.iter().all(is_number) && is_drawn(),
+        None => false,
+    }
+}
+
+/// Whether a class itself says what a part is, unless something else is said.
+pub(crate) fn is_given(document: &Document, class: ClassId, part: &Name) -> bool {
+    let path = Path(vec![Step::Part(part.clone())]);
+    let says = |class: &ClassId| document.classes[*class].givens.iter().any(|g| g.path == path);
+    document.lineage(class).iter().any(says)
 }
 
 /// Whether things of a class are drawn as figures: it is one, made of others, or drawn through places.

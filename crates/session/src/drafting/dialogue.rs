@@ -119,6 +119,9 @@ impl Dialogue {
                     1 => "1 place; pick or type the next, Enter ends it".to_string(),
                     n => format!("{n} places; pick or type the next, Enter ends it"),
                 },
+                SlotKind::Value if slot.is_list => {
+                    "type a value for each, as `1, 2, 1`".to_string()
+                }
                 SlotKind::Value if *slot.class == *"Bool" => "type `yes` or `no`".to_string(),
                 SlotKind::Value if *slot.class == *"Text" => "type the words".to_string(),
                 SlotKind::Value if !slot.options.is_empty() => {

@@ -165,8 +165,9 @@ fn operands_of(value: &Expr) -> Vec<(String, Expr)> {
     };
     let Some(list) = list else { return vec![("value".into(), value.clone())] };
     // what goes through places has each of them as an operand
-    if let (Expr::Call(_), Some(places)) = (value, sole_list(&list)) {
-        return places.enumerate().map(|(i, place)| (ordinal(i), place)).collect();
+    if let (Expr::Call(_), Some((places, rest))) = (value, places_first(&list)) {
+        let places = places.enumerate().map(|(i, place)| (ordinal(i), place));
+        return places.chain(rest).collect();
     }
     // `line.mirrored(about: axis)` is sent to what stands before the word
     let receiver = receiver.filter(|r| !is_class(&r.syntax().text().to_string()));
@@ -178,12 +179,17 @@ fn operands_of(value: &Expr) -> Vec<(String, Expr)> {
     receiver.into_iter().chain(list.args().enumerate().filter_map(one)).collect()
 }
 
-/// The elements of a list that is all that a class is given: `Spline([start, Point(w, 0)])`.
-fn sole_list(list: &syntax::ast::ArgList) -> Option<impl Iterator<Item = Expr> + use<>> {
+/// The elements of a list that a class is given first, and what else it is given by a label: `Spline([start, Point(w, 0)])`.
+#[expect(clippy::type_complexity, reason = "what is said and how it is called")]
+fn places_first(
+    list: &syntax::ast::ArgList,
+) -> Option<(impl Iterator<Item = Expr> + use<>, Vec<(String, Expr)>)> {
     let mut all = list.args();
-    let only = all.next().filter(|only| all.next().is_none() && only.label().is_none())?;
-    match only.value()? {
-        Expr::List(list) => Some(list.elements().collect::<Vec<_>>().into_iter()),
+    let first = all.next().filter(|first| first.label().is_none())?;
+    let labelled = |a: syntax::ast::Arg| Some((a.label()?.text().to_string(), a.value()?));
+    let rest = all.map(labelled).collect::<Option<Vec<_>>>()?;
+    match first.value()? {
+        Expr::List(list) => Some((list.elements().collect::<Vec<_>>().into_iter(), rest)),
         _ => None,
     }
 }

@@ -6,7 +6,7 @@
 use super::catalogue::{Call, Slot, SlotKind, Tool};
 use super::dialogue::Operand;
 use super::scene::{Curve, elements_of};
-use super::{Home, text};
+use super::{Home, compound, text};
 use crate::state::State;
 use crate::view::Refusal;
 use crate::views::values;
@@ -51,6 +51,10 @@ pub(crate) fn choose(
                 return;
             }
         };
+        if let Some(fault) = undrawn(evaluator, &answer) {
+            why.get_or_insert(fault.message);
+            return;
+        }
         let curve = Curve::of(evaluator, &answer);
         let away = curve.map_or(0.0, |c| picks.iter().map(|&p| c.distance(p)).sum());
         let elements = elements_of(evaluator, &answer);
@@ -76,6 +80,13 @@ pub(crate) fn choose(
     Ok(all.swap_remove(at).2)
 }
 
+/// Why a curve through places cannot be drawn: of weights there may be too few.
+fn undrawn<'a>(evaluator: &Evaluator<'a>, answer: &Answer<'a>) -> Option<eval::Fault> {
+    let class = evaluator.class_of(answer)?;
+    let is_it = compound::is_of_places(evaluator.document, class);
+    evaluator.pictured(answer).err().filter(|_| is_it)
+}
+
 /// Checks that an operand is what a slot wants.
 ///
 /// # Errors
@@ -97,6 +108,7 @@ pub(crate) fn fits(
         let (class, kind) = (&slot.class, slot.kind);
         outcome = match answer {
             Err(fault) => Err(words::refuse(format!("{operand}: {}", fault.message))),
+            Ok(Answer::List(_)) if slot.is_list => Ok(()),
             Ok(Answer::Number(..) | Answer::Bool(_) | Answer::Option(..))
                 if kind == SlotKind::Value && **class != *"Text" =>
             {

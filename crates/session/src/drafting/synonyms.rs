@@ -39,6 +39,7 @@ const ALSO: &[(&str, &str)] = &[
     ("Line.tangent", "tangent touches touching"),
     ("Rectangle", "rectangle box square rect"),
     ("TurnedRectangle", "rectangle box rotated three points slanted"),
+    ("Nurbs", "rational spline control points weights poles"),
     ("Spline", "smooth curve freehand interpolation"),
     ("RegularPolygon", "polygon hexagon triangle pentagon"),
     ("Point.dividing", "ratio division section"),

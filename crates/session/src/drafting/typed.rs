@@ -41,6 +41,9 @@ pub(crate) fn operand(slot: &Slot, typed: &str, last: Option<&str>) -> Result<St
         }
         return Err(words::refuse(format!("{} is wanted", slot.name)));
     }
+    if slot.is_list {
+        return Ok(if typed.starts_with('[') { typed.into() } else { format!("[{typed}]") });
+    }
     if matches!(said(typed), Said::Pair(..))
         && let Some(wanted) = instead_of_a_place(slot)
     {

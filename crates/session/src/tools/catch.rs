@@ -228,6 +228,7 @@ fn at_shape(sight: &Sight<'_>, pointer: &Pointer) -> Option<Catch> {
             | Shape::Arc { .. }
             | Shape::Ellipse { .. }
             | Shape::Spline(_)
+            | Shape::Nurbs(_)
             | Shape::Region(_)
             | Shape::Text { .. } => None,
         };

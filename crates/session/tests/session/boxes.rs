@@ -401,3 +401,50 @@ fn a_spline_is_drawn_through_places_that_are_picked_and_typed() {
     assert_eq!(desk.session.value_parameters(desk.id), ["width"]);
     assert_eq!(desk.wrong(), []);
 }
+
+#[test]
+fn a_curve_by_poles_is_drawn_with_its_weights() {
+    let mut desk = Desk::of("use drafting\nuse contours\nunit mm\n");
+    desk.session.record(desk.id, "Bow").expect("a new program");
+    let pull =
+        NewParameter { name: "pull".into(), example: "0.5".into(), ..NewParameter::default() };
+    desk.session.define_parameter(desk.id, &pull).expect("it is new");
+    begin(&mut desk, "Nurbs");
+    for place in ["10,0", "10,10", "0,10"] {
+        enter(&mut desk, place);
+    }
+    match desk.session.enter(desk.id, "").expect("the weights are left") {
+        Turn::Wants(prompt) => {
+            assert_eq!(prompt.words, "weights: type a value for each, as `1, 2, 1`");
+        }
+        other => panic!("{other:?}"),
+    }
+    let few = desk.session.enter(desk.id, "1, pull").expect_err("there are three poles");
+    assert!(few.message.contains("2 weights, where there are 3 poles"), "{}", few.message);
+    let drawn = text(enter(&mut desk, "1, pull, 1"));
+    assert_eq!(
+        drawn,
+        "Nurbs([Point(10, 0), Point(10, 10), Point(0, 10)], weights: [1, pull, 1]); pull is a plain number now"
+    );
+    // (10 + 2 * 0.5 * 10) / 3
+    begin(&mut desk, "Point");
+    enter(&mut desk, "nurbs.at(parameter: 0.5)");
+    assert_eq!(value(&desk, "bow.point"), "(6.6667, 6.6667)");
+    // each pole and the weights are changed by themselves
+    desk.session.begin_change(desk.id, ("nurbs", "weights")).expect("it has some");
+    enter(&mut desk, "1, 3 * pull, 1");
+    desk.session.begin_change(desk.id, ("nurbs", "second")).expect("it has three");
+    enter(&mut desk, "20,20");
+    assert!(
+        desk.text()
+            .contains("[Point(10, 0), Point(20, 20), Point(0, 10)], weights: [1, 3 * pull, 1])"),
+        "{}",
+        desk.text()
+    );
+    // it is picked by its curve, here at a quarter: (0.5625 (10, 0) + 0.5625 (20, 20) + 0.0625 (0, 10)) / 1.1875
+    begin(&mut desk, "Point:mirrored");
+    let on_it = Pointer { at: (14.2, 10.0), reach: 1.0, ..Pointer::default() };
+    assert_eq!(desk.session.hover(desk.id, &on_it, "").finds.as_deref(), Some("nurbs"));
+    desk.session.give_up(desk.id);
+    assert_eq!(desk.wrong(), [], "{}", desk.text());
+}

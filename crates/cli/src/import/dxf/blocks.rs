@@ -125,6 +125,7 @@ impl Placing {
                 self.ellipse(*center, (major, *across), *sweep)
             }
             Figure::Curves(poles) => Figure::Curves(poles.iter().map(|p| self.place(*p)).collect()),
+            Figure::Rational(curve) => Figure::Rational(curve.moved(|p| self.place(p))),
             Figure::Surface(rings)
                 if self.is_stretched() && rings.iter().flatten().any(|c| c.bulge != 0.0) =>
             {

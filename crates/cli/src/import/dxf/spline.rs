@@ -1,6 +1,7 @@
-//! Splines: B-splines without weights, as the Bézier curves that they are.
+//! Splines: B-splines without weights up to degree 3, as the Bézier curves that they are, and others as they are.
 
 use super::{Entity, Figure, Read, found};
+use drawing::nurbs::Nurbs;
 use drawing::{Point, spline};
 
 /// Reads a SPLINE.
@@ -20,8 +21,13 @@ pub(super) fn curves(entity: &Entity<'_>, scale: f64, read: &mut Read) {
         read.notes.push("SPLINE that does not lie flat on the sheet".into());
         return;
     }
-    if weights.windows(2).any(|w| w[0] != w[1]) {
-        read.notes.push("SPLINE with weights, which is not understood".into());
+    let is_rational = weights.windows(2).any(|w| w[0] != w[1]);
+    if !poles.is_empty() && (is_rational || degree > 3) {
+        let weights = if is_rational { weights } else { vec![1.0; poles.len()] };
+        match Nurbs::new(degree, knots, poles, weights) {
+            Ok(curve) => read.found.push(found(Figure::Rational(curve))),
+            Err(why) => read.notes.push(format!("SPLINE with {why}")),
+        }
         return;
     }
     let curves = match (poles.is_empty(), points(11)) {
@@ -32,9 +38,6 @@ pub(super) fn curves(entity: &Entity<'_>, scale: f64, read: &mut Read) {
     };
     match curves {
         Some(poles) => read.found.push(found(Figure::Curves(poles))),
-        None if degree > 3 => {
-            read.notes.push(format!("SPLINE of degree {degree}, which is not understood"));
-        }
         None => read.notes.push("SPLINE without all of its numbers".into()),
     }
 }

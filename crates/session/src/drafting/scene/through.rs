@@ -5,6 +5,7 @@ use crate::drafting::compound;
 use drawing::{Point, Shape, spline};
 use eval::Answer;
 use kernel::ClassId;
+use std::borrow::Cow;
 
 /// A curve between two places is picked as so many chords.
 const CHORDS: u32 = 16;
@@ -21,8 +22,12 @@ impl<'a> Scene<'a> {
             return;
         }
         for element in self.evaluator.elements(of) {
-            let Shape::Spline(poles) = &element.shape else { continue };
-            for curve in chords(poles) {
+            let cubics = match &element.shape {
+                Shape::Spline(poles) => Cow::Borrowed(poles.as_slice()),
+                Shape::Nurbs(curve) => Cow::Owned(curve.cubics()),
+                _ => continue,
+            };
+            for curve in chords(&cubics) {
                 self.found.push(Found {
                     text: text.into(),
                     class,
