@@ -137,6 +137,12 @@ pub fn read_literal(
     let parse = syntax::parse_expression(OWN, in_full.as_deref().unwrap_or(typed.trim()));
     let broken = || Diagnostic::error("not-a-value", place, format!("`{typed}` is no value"));
     if let Some(d) = parse.diagnostics().first() {
+        if let (Some(number), Some(Primitive::Real(_) | Primitive::Integer) | None) =
+            (with_point(typed), primitive)
+        {
+            let hint = format!("the tenths of a number stand after a point: `{number}`");
+            return Err(broken().hint(hint));
+        }
         return Err(match crate::files::word_for_unit(&parse, d) {
             Some(word) if matches!(primitive, None | Some(Primitive::Real(_))) => {
                 let unit = crate::hints::unknown_unit(place, word.text());
@@ -221,6 +227,15 @@ pub fn unit_typed(typed: &str, class: ClassId, document: &Document) -> Option<Na
     let parse = syntax::parse_expression(OWN, in_full.as_deref().unwrap_or(typed.trim()));
     let unit = unit_of(&parse.file().expression()?)?;
     (!is_of_the_sheet(dimension)).then_some(unit)
+}
+
+/// Returns `8.5 mm` for `8,5 mm`.
+fn with_point(typed: &str) -> Option<String> {
+    let (whole, rest) = typed.trim().split_once(',')?;
+    let digits = whole.trim_start_matches(['-', '+']);
+    let is_number = !digits.is_empty() && digits.bytes().all(|b| b.is_ascii_digit());
+    let goes_on = rest.starts_with(|c: char| c.is_ascii_digit()) && !rest.contains(',');
+    (is_number && goes_on).then(|| format!("{whole}.{rest}"))
 }
 
 /// Why an expression is no value for what is wanted.

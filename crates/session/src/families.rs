@@ -301,7 +301,7 @@ fn read_table(
 
 /// Reads what is typed as a value of a class.
 fn literal(document: &Document, class: ClassId, typed: &str) -> Result<Literal, String> {
-    lang::read_literal(typed, Wanted::Class(class), document).map_err(|d| d.message)
+    lang::read_literal(typed, Wanted::Class(class), document).map_err(words::with_hint)
 }
 
 /// Notes names that stand twice, and rows that say the same.

@@ -692,8 +692,15 @@ pub(crate) fn read_typed(state: &State, path: &Path, typed: &str) -> Result<Lite
         return Ok(Literal::Path(other));
     }
     let kind = class.map_or(lang::Wanted::Anything, lang::Wanted::Class);
-    lang::read_literal(typed, kind, &state.lowered.document)
-        .map_err(|d| refuse(d.hint.map_or(d.message.clone(), |h| format!("{}; {h}", d.message))))
+    lang::read_literal(typed, kind, &state.lowered.document).map_err(|d| refuse(with_hint(d)))
+}
+
+/// What a diagnostic says, and its hint.
+pub(crate) fn with_hint(d: Diagnostic) -> String {
+    match d.hint {
+        Some(hint) => format!("{}; {hint}", d.message),
+        None => d.message,
+    }
 }
 
 /// Returns true for a part that names another: a `Path to C`, or an element of a list of such.

@@ -97,6 +97,10 @@ fn a_word_that_is_no_unit_is_told_as_one() {
         message,
         "`5 kohn` is no value; kohn is no unit that is known here; did you mean `kohm`?"
     );
+    assert_eq!(
+        refused(&mut desk, "8,5"),
+        "`8,5` is no value; the tenths of a number stand after a point: `8.5`"
+    );
     assert!(refused(&mut desk, "5 mm +").starts_with("`5 mm +` is no value; found"));
 }
 
