@@ -15,6 +15,7 @@ mod catalogue;
 mod changing;
 mod choice;
 pub(crate) mod compound;
+mod counted;
 mod demonstrating;
 mod dialogue;
 mod edges;

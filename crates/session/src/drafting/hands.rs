@@ -6,7 +6,7 @@ use super::view::{
     Computed, ConstructionRow, Ends, Hover, MeasureKind, OlderUse, Prompt, Turn, Wants,
 };
 use super::{
-    Home, blocks, catalogue, changing, choice, edges, measure, older, outcome, parameters,
+    Home, blocks, catalogue, changing, choice, counted, edges, measure, older, outcome, parameters,
     patterns, recording, remove, repeat, scene, steps, text, typed,
 };
 use crate::document::Open;
@@ -741,17 +741,13 @@ fn entered(open: &mut Open, host: &dyn Host, typed: &str) -> Result<Turn, Refusa
             }
             give(open, host, Operand::new(text.clone(), None))
         };
-        return again(open).or_else(|refused| {
-            parameters::retried(open, host, (&home, &text, &wanted.class), refused, &again)
-        });
+        return counted::given(open, host, (&home, &text, &wanted), &again);
     }
     match blocks::prompt(open).map(|prompt| prompt.wants) {
-        Some(Wants::Recurrence(_)) if typed.trim().is_empty() => Err(words::refuse(
-            "pick an object of the turn before, type one, or press `The same`".into(),
-        )),
         Some(Wants::Recurrence(question)) => {
-            let typed = repeat::as_typed(&open.state, &home, &question, typed)?;
-            answered(open, host, (Some(&typed), None))
+            let closed = repeat::answer_typed(open, host, (&home, &question), typed)?;
+            open.picking = super::Picking::default();
+            Ok(turn_of(open, closed, String::new()))
         }
         Some(Wants::Ends(ends)) => {
             let again = |open: &mut Open| {

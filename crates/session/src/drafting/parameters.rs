@@ -630,12 +630,60 @@ fn class_of_example(state: &State, example: &str) -> Result<String, Refusal> {
 }
 
 /// A parameter that may be something else than a length: what it would be, and the text that says so.
-struct Other {
+pub(super) struct Other {
     name: String,
     class: &'static str,
     text: String,
     /// Why it stays a length.
     stays: Option<String>,
+}
+
+impl Other {
+    /// A parameter as a count.
+    pub(super) fn count(source: &text::Source, of: &Declared) -> Self {
+        let (range, example) = (of.range.clone(), of.example.clone());
+        let said = Said { class: "Integer".into(), range, example, prompt: of.prompt.clone() };
+        let text = said.instead_of(source, of);
+        Self { name: of.name.clone(), class: "Integer", text, stays: None }
+    }
+
+    /// Does something with the parameter as that; one step, which says so.
+    ///
+    /// # Errors
+    /// What is refused then, and whether the parameter could be that.
+    pub(super) fn tried(
+        &self,
+        open: &mut Open,
+        host: &dyn Host,
+        again: &dyn Fn(&mut Open) -> Result<Turn, Refusal>,
+    ) -> Result<Turn, (Refusal, bool)> {
+        let since = open.done.len();
+        let dialogue = open.dialogue.clone();
+        let now = format!("{} is {}", self.name, class_in_words(self.class));
+        let mut stood = None;
+        let done = open.tried(|open| {
+            stood = Some(recording::retext(open, host, self.text.clone(), now.clone())?);
+            again(open)
+        });
+        match done {
+            Ok(Turn::Made { change, name, text, next }) => {
+                open.one_step(since);
+                let next = next.map(|p| Prompt { words: format!("{now} now. {}", p.words), ..p });
+                Ok(Turn::Made { change, name, text: format!("{text}; {now} now"), next })
+            }
+            // further operands are wanted: what it is now stands
+            Ok(Turn::Wants(prompt)) => {
+                let words = format!("{now} now. {}", prompt.words);
+                let change = Box::new(stood.unwrap_or_default());
+                let next = Some(Prompt { words, ..prompt });
+                Ok(Turn::Made { change, name: now, text: String::new(), next })
+            }
+            Err(refusal) => {
+                open.dialogue = dialogue;
+                Err((refusal, stood.is_some()))
+            }
+        }
+    }
 }
 
 /// Lists what the parameters that an expression speaks of may be where a class is wanted: those that were defined by a
@@ -698,32 +746,12 @@ pub(crate) fn retried(
     again: &dyn Fn(&mut Open) -> Result<Turn, Refusal>,
 ) -> Result<Turn, Refusal> {
     let others = others(&open.state, home, typed, wanted);
-    let since = open.done.len();
-    let dialogue = open.dialogue.clone();
     let mut why = None;
     for other in others.iter().filter(|other| other.stays.is_none()) {
-        let now = format!("{} is {}", other.name, class_in_words(other.class));
-        let mut stood = None;
-        let done = open.tried(|open| {
-            stood = Some(recording::retext(open, host, other.text.clone(), now.clone())?);
-            again(open)
-        });
-        match done {
-            Ok(Turn::Made { change, name, text, next }) => {
-                open.one_step(since);
-                let next = next.map(|p| Prompt { words: format!("{now} now. {}", p.words), ..p });
-                return Ok(Turn::Made { change, name, text: format!("{text}; {now} now"), next });
-            }
-            // further operands are wanted: what it is now stands
-            Ok(Turn::Wants(prompt)) => {
-                let words = format!("{now} now. {}", prompt.words);
-                let change = Box::new(stood.unwrap_or_default());
-                let next = Some(Prompt { words, ..prompt });
-                return Ok(Turn::Made { change, name: now, text: String::new(), next });
-            }
-            Err(refusal) => {
-                open.dialogue.clone_from(&dialogue);
-                if stood.is_some() {
+        match other.tried(open, host, again) {
+            Ok(turn) => return Ok(turn),
+            Err((refusal, stood)) => {
+                if stood {
                     why.get_or_insert(refusal);
                 }
             }

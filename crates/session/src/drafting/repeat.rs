@@ -31,6 +31,8 @@ pub(crate) struct Loop {
     asked: Vec<Asked>,
     /// The set that it goes over, if it does.
     each: Option<Each>,
+    /// How far on a place of a step was said to be last: the step, and what was typed.
+    onward: Option<(String, String)>,
 }
 
 /// A set that a loop goes over.
@@ -116,6 +118,11 @@ impl Loop {
         })
     }
 
+    /// How far on a place of a step was said to be, where the last answer said so.
+    fn onward_of(&self, step: &str) -> Option<&str> {
+        self.onward.as_ref().filter(|(of, _)| of == step).map(|(_, typed)| typed.as_str())
+    }
+
     /// What is waited for, once the turn is drawn.
     pub(crate) fn prompt(&self) -> Option<Prompt> {
         if let Some(question) = self.question() {
@@ -134,7 +141,10 @@ impl Loop {
                 ),
                 // what a block in the turn carries on goes on from a place within it
                 None if place.is_some() && !is_next => format!(
-                    "{operand} of {step} was {first}: the same, which object of the turn before, or how far on, `@dx,dy`?"
+                    "{operand} of {step} was {first}: the same, which object of the turn before, or how far on, `@dx,dy`?{}",
+                    self.onward_of(&question.step).map_or(String::new(), |typed| format!(
+                        " Enter takes `{typed}` for all places left of {step}"
+                    ))
                 ),
                 None => {
                     let what = if question.is_value { "value" } else { "object" };
@@ -468,11 +478,49 @@ fn of_each(state: &State, (opened, first): (&Opened, &str), answer: &str) -> Opt
     opened.it.in_turn(first).filter(|_| answer == of_second)
 }
 
+/// Answers the open question by what is typed. Nothing takes how far on the last place was for all places left of the
+/// step.
+///
+/// # Errors
+/// Nothing is typed and no place was said to be further on; the answer does not fit.
+pub(crate) fn answer_typed(
+    open: &mut Open,
+    host: &dyn Host,
+    (home, question): (&Home, &RecurrenceQuestion),
+    typed: &str,
+) -> Result<Option<Change>, Refusal> {
+    let step = &question.step;
+    if !typed.trim().is_empty() {
+        let text = as_typed(&open.state, home, question, typed)?;
+        let closed = answer(open, host, (Some(&text), None))?;
+        if let (None, Ok(Opened { mut it, .. })) = (&closed, opened(open)) {
+            it.onward = typed::goes_from(typed).then(|| (step.clone(), typed.trim().into()));
+            keep(open, it);
+        }
+        return Ok(closed);
+    }
+    let none = "pick an object of the turn before, type one, or press `The same`";
+    let it = opened(open)?.it;
+    let typed = it.onward_of(step).ok_or_else(|| words::refuse(none.into()))?;
+    let mut left = Some(question.clone());
+    let is_place = |open: &Open, next: &RecurrenceQuestion| {
+        next.step == *step && outcome::place(&open.state, home, &next.first).is_some()
+    };
+    while let Some(place) = left.filter(|next| is_place(open, next)) {
+        let text = as_typed(&open.state, home, &place, typed)?;
+        if let Some(closed) = answer(open, host, (Some(&text), None))? {
+            return Ok(Some(closed));
+        }
+        left = opened(open)?.it.question();
+    }
+    Ok(None)
+}
+
 /// Returns an answer that is typed as the language writes it. A place goes on from where it was in the turn before.
 ///
 /// # Errors
 /// It goes on from a place that nothing of that turn has.
-pub(crate) fn as_typed(
+fn as_typed(
     state: &State,
     home: &Home,
     question: &RecurrenceQuestion,

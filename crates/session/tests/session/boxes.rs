@@ -359,9 +359,15 @@ fn each_place_of_a_spline_is_asked_about_and_changed_by_itself() {
     }
     text(enter(&mut desk, ""));
     desk.session.end_turn(desk.id, Ends::Times).expect("it is drawn");
-    for _ in 0..3 {
-        enter(&mut desk, "@40,0");
+    assert!(desk.session.enter(desk.id, "").is_err(), "nothing was said of a place yet");
+    match enter(&mut desk, "@40,0") {
+        Turn::Wants(prompt) => {
+            let offered = "Enter takes `@40,0` for all places left of spline";
+            assert!(prompt.words.contains(offered), "{}", prompt.words);
+        }
+        other => panic!("{other:?}"),
     }
+    enter(&mut desk, "");
     enter(&mut desk, "3");
     assert_eq!(desk.wrong(), [], "{}", desk.text());
     assert_eq!(value(&desk, "waves.turns[2].spline.places[1]"), "(100, 15)");

@@ -1287,7 +1287,7 @@ fn the_curve_of_koch_is_drawn_by_applying_the_program_within_itself() {
     let mut desk = Desk::of("use geometry\nunit mm\n");
     desk.session.record(desk.id, "Koch").expect("a new program");
     for (name, class, example) in
-        [("from", "Point", "(0, 0)"), ("to", "Point", "(90, 0)"), ("depth", "Integer", "0")]
+        [("from", "Point", "(0, 0)"), ("to", "Point", "(90, 0)"), ("depth", "", "0")]
     {
         let new = NewParameter { class: class.into(), ..parameter(name, example, "") };
         desk.session.define_parameter(desk.id, &new).expect("it is new");
@@ -1317,6 +1317,8 @@ fn the_curve_of_koch_is_drawn_by_applying_the_program_within_itself() {
         enter(&mut desk, from);
         enter(&mut desk, to);
         made(enter(&mut desk, "depth - 1"));
+        // what counts the calls is no length, which it was defined as
+        assert!(desk.text().contains("    depth: Integer = 0,\n"), "{}", desk.text());
     }
     desk.session.end_choice(desk.id).expect("it is open");
     assert_eq!(desk.wrong(), [], "{}", desk.text());
