@@ -17,7 +17,7 @@ use deciding::{Deciding, Known, deciding};
 use kernel::{ClassId, ClassKind, OriginId, Path, Stay, Step, Superclass, Term};
 use std::collections::{BTreeMap, BTreeSet};
 use syntax::ast::{self, AstNode, Expr, Member, TypeShape};
-use syntax::{SyntaxKind, SyntaxNode};
+use syntax::{SyntaxKind, SyntaxNode, WalkEvent};
 
 /// How many classes may be made for other counts; beyond, a thing is of the class as it is.
 const MOST_MADE: usize = 10_000;
@@ -620,20 +620,25 @@ fn own_name(assign: &ast::Assign) -> Option<Name> {
 
 /// Returns the names that the counts of lists and the ranges of loops speak of.
 fn names_of_counts(node: &SyntaxNode) -> impl Iterator<Item = Name> {
-    let counts = node.descendants().filter_map(|n| {
+    let mut counts = Vec::new();
+    let mut walk = node.preorder();
+    while let Some(event) = walk.next() {
+        let WalkEvent::Enter(n) = event else { continue };
         if let Some(each) = ast::For::cast(n.clone()) {
-            return each.range().filter(|r| matches!(r, Expr::Range(_)));
-        }
-        if let Some(choice) = ast::If::cast(n.clone()) {
+            counts.extend(each.range().filter(|r| matches!(r, Expr::Range(_))));
+        } else if let Some(choice) = ast::If::cast(n.clone()) {
             let in_program = n.ancestors().any(|above| above.kind() == SyntaxKind::Program);
-            return choice.condition().filter(|_| !in_program);
+            counts.extend(choice.condition().filter(|_| !in_program));
+        } else if let Some(of) = ast::Type::cast(n.clone()) {
+            if let TypeShape::List { count, .. } = of.shape() {
+                counts.extend(count);
+            }
+        } else if Expr::cast(n).is_some() {
+            // no list or loop is declared within an expression
+            walk.skip_subtree();
         }
-        match ast::Type::cast(n)?.shape() {
-            TypeShape::List { count, .. } => count,
-            _ => None,
-        }
-    });
-    counts.flat_map(|e| names_in(&e))
+    }
+    counts.into_iter().flat_map(|e| names_in(&e))
 }
 
 /// Returns the names that an expression speaks of.

@@ -2,7 +2,9 @@
 
 use super::{catalogue, text};
 use base::Span;
+use std::collections::BTreeSet;
 use syntax::ast::{AstNode, Expr, Value};
+use syntax::{SyntaxNode, WalkEvent};
 
 /// An operand of a step in a turn.
 pub(super) struct Occurrence {
@@ -23,23 +25,29 @@ pub(super) struct Occurrence {
 /// Lists the operands of a turn that speak of something that it has not made, those of blocks in it too.
 pub(super) fn operands(body: &syntax::ast::Body) -> Vec<Occurrence> {
     let mut all = Vec::new();
-    collect(&text::steps_of(body), "", &mut Vec::new(), &mut all);
+    let named = Named::around(body.syntax());
+    collect((&text::steps_of(body), &named), "", &mut Vec::new(), &mut all);
     all
 }
 
-fn collect(steps: &[text::StepNode], way: &str, own: &mut Vec<String>, into: &mut Vec<Occurrence>) {
+fn collect(
+    (steps, named): (&[text::StepNode], &Named),
+    way: &str,
+    own: &mut Vec<String>,
+    into: &mut Vec<Occurrence>,
+) {
     for step in steps {
         let step_way = text::joined(way, &step.segment);
         let Some(value) = &step.value else { continue };
-        let mut operands = heads(value);
-        add(&mut operands, (&step_way, own, false), into);
+        let mut operands = heads(value, named);
+        add(&mut operands, (&step_way, own, false), named, into);
         let known = own.len();
         own.extend(text::carried_names(value));
         for (segment, steps) in text::inner_steps(value) {
-            collect(&steps, &text::joined(&step_way, segment), own, into);
+            collect((&steps, named), &text::joined(&step_way, segment), own, into);
         }
         let mut operands = tails(value);
-        add(&mut operands, (&step_way, own, true), into);
+        add(&mut operands, (&step_way, own, true), named, into);
         // what a block with a name makes is reached by that name alone
         if step.name.is_some() {
             own.truncate(known);
@@ -52,13 +60,14 @@ fn collect(steps: &[text::StepNode], way: &str, own: &mut Vec<String>, into: &mu
 fn add(
     operands: &mut Vec<(String, Expr)>,
     (step, own, is_tail): (&str, &[String], bool),
+    named: &Named,
     into: &mut Vec<Occurrence>,
 ) {
     let from = into.len();
     for (slot, value) in operands.drain(..) {
         let first = value.syntax().text().to_string().trim().to_string();
         // a place on the sheet may be another one in the next turn: a number that is typed is a constant
-        if speaks_of_outside(&value, own) || is_place(&value) {
+        if speaks_of_outside(&value, own, named) || is_place(&value) {
             let span = syntax::ast::span_without_doc(value.syntax());
             let is_next = is_tail && !is_condition(&slot);
             let it = Occurrence { step: step.into(), slot, first, span, again: None, is_next };
@@ -86,7 +95,7 @@ pub(super) fn of_step(step: &text::StepNode) -> Vec<(Occurrence, bool)> {
         (Occurrence { step, slot, first, span, again: None, is_next: false }, is_within)
     };
     let mut all = Vec::new();
-    heads(value)
+    heads(value, &Named::around(value.syntax()))
         .into_iter()
         .for_each(|(slot, value)| join(&mut all, 0, one(slot, &value, false).0));
     let heads = all.into_iter().map(|it| (it, false));
@@ -108,7 +117,7 @@ fn is_condition(slot: &str) -> bool {
 }
 
 /// The operands of a step: those of a construction, or what stands before a block.
-fn heads(value: &Value) -> Vec<(String, Expr)> {
+fn heads(value: &Value, known: &Named) -> Vec<(String, Expr)> {
     let named = |name: &str, value: Option<Expr>| value.map(|value| (name.to_string(), value));
     let carried = |with: Option<syntax::ast::With>| {
         let bindings: Vec<_> = with.into_iter().flat_map(|with| with.bindings()).collect();
@@ -116,7 +125,7 @@ fn heads(value: &Value) -> Vec<(String, Expr)> {
         bindings.iter().filter_map(one).collect::<Vec<_>>()
     };
     match value {
-        Value::Expr(value) => operands_of(value),
+        Value::Expr(value) => operands_of(value, known),
         Value::Repeat(block) => {
             named("times", block.times()).into_iter().chain(carried(block.with())).collect()
         }
@@ -146,7 +155,7 @@ fn tails(value: &Value) -> Vec<(String, Expr)> {
     condition.into_iter().chain(bindings.iter().filter_map(one)).collect()
 }
 
-fn operands_of(value: &Expr) -> Vec<(String, Expr)> {
+fn operands_of(value: &Expr, named: &Named) -> Vec<(String, Expr)> {
     if let Some(pattern) = catalogue::pattern_of(value) {
         return pattern.parts.into_iter().map(|(slot, value)| (slot.to_string(), value)).collect();
     }
@@ -154,10 +163,7 @@ fn operands_of(value: &Expr) -> Vec<(String, Expr)> {
     if is_point(value) {
         return vec![("at".into(), value.clone())];
     }
-    let names = names_around(value);
-    let is_class = |text: &str| {
-        text.trim().starts_with(char::is_uppercase) && !names.iter().any(|p| p == text.trim())
-    };
+    let is_class = |text: &str| named.is_class(text.trim());
     let (receiver, list) = match value {
         Expr::Call(call) if call.name().is_some_and(|w| is_class(w.text())) => (None, call.args()),
         Expr::Field(field) => (field.receiver(), field.args()),
@@ -218,26 +224,50 @@ fn is_place(value: &Expr) -> bool {
     is_point(value) && call.args().is_some_and(|list| list.args().all(is_number))
 }
 
-/// The parameters and steps of the program that an expression stands in: a draughtsman may begin their names with
-/// capitals.
-fn names_around(value: &Expr) -> Vec<String> {
-    let program = value.syntax().ancestors().find_map(syntax::ast::Program::cast);
-    let Some(program) = program else { return Vec::new() };
-    let list = program.params();
-    let parameters = list.into_iter().flat_map(|list| list.params()).filter_map(|p| p.name());
-    let assigned = program.syntax().descendants().filter_map(syntax::ast::Assign::cast);
-    let steps = assigned.filter_map(|assign| match assign.target()? {
-        Expr::Name(word) => Some(word.syntax().text().to_string().trim().to_string()),
-        _ => None,
-    });
-    parameters.map(|name| name.text().to_string()).chain(steps).collect()
+/// The parameters and steps of a program whose names begin with capitals, as those of classes do.
+struct Named(BTreeSet<String>);
+
+impl Named {
+    /// Those of the program that something stands in.
+    fn around(node: &SyntaxNode) -> Self {
+        let mut all = BTreeSet::new();
+        let Some(program) = node.ancestors().find_map(syntax::ast::Program::cast) else {
+            return Self(all);
+        };
+        let mut add = |word: Option<syntax::ast::Word>| {
+            all.extend(word.map(|w| w.text().to_string()).filter(|w| is_capital(w)));
+        };
+        let list = program.params();
+        list.into_iter().flat_map(|list| list.params()).for_each(|p| add(p.name()));
+        let mut walk = program.syntax().preorder();
+        while let Some(event) = walk.next() {
+            let WalkEvent::Enter(node) = event else { continue };
+            if let Some(assign) = syntax::ast::Assign::cast(node.clone()) {
+                if let Some(Expr::Name(word)) = assign.target() {
+                    add(word.name());
+                }
+            } else if Expr::cast(node).is_some() {
+                // no step is within an expression
+                walk.skip_subtree();
+            }
+        }
+        Self(all)
+    }
+
+    /// Whether a word is a class's name.
+    fn is_class(&self, word: &str) -> bool {
+        is_capital(word) && !self.0.contains(word)
+    }
+}
+
+fn is_capital(word: &str) -> bool {
+    word.starts_with(char::is_uppercase)
 }
 
 /// Whether an operand speaks of something that its turn has not made: not a literal, not a class or function.
-fn speaks_of_outside(value: &Expr, own: &[String]) -> bool {
+fn speaks_of_outside(value: &Expr, own: &[String], named: &Named) -> bool {
     let text = value.syntax().text().to_string();
     let text = text.trim();
-    let names = names_around(value);
     let is_word = |c: char| c.is_alphanumeric() || c == '_';
     let mut rest = text;
     let mut before = ' ';
@@ -248,7 +278,7 @@ fn speaks_of_outside(value: &Expr, own: &[String]) -> bool {
         let word: String = rest[start..].chars().take_while(|&c| is_word(c)).collect();
         rest = &rest[start + word.len()..];
         let follows = rest.trim_start().chars().next();
-        let is_class = word.starts_with(char::is_uppercase) && !names.contains(&word);
+        let is_class = named.is_class(&word);
         let is_name = !word.starts_with(|c: char| c.is_ascii_digit()) && !is_class && before != '.';
         let is_unit = before == ' '
             && text[..text.len() - rest.len() - word.len()]

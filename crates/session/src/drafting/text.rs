@@ -11,7 +11,7 @@ use crate::words;
 use base::Span;
 use std::collections::BTreeSet;
 use syntax::ast::{self, AstNode, Else, Expr, Member, Value, span_without_doc};
-use syntax::{SyntaxElement, SyntaxKind};
+use syntax::{SyntaxElement, SyntaxKind, SyntaxNode};
 
 /// Where a walk along an address has got to.
 enum Inside {
@@ -86,32 +86,70 @@ pub(crate) fn program(text: &Source, name: &str) -> Option<ast::Program> {
 /// Lists the steps of a body in order, messages and demands apart.
 pub(crate) fn steps_of(body: &ast::Body) -> Vec<StepNode> {
     let mut unnamed = 0;
-    let mut all = Vec::new();
+    let steps = body.members().filter_map(|member| {
+        let word = word_of(&member)?;
+        let segment = segment_of(word.as_ref(), &mut unnamed);
+        step_of(member, word, segment)
+    });
+    steps.collect()
+}
+
+/// Finds a step of a body by its segment; the others are passed over by their names alone.
+fn step_in(body: &ast::Body, segment: &str) -> Option<StepNode> {
+    let mut unnamed = 0;
     for member in body.members() {
-        let span = span_without_doc(member.syntax());
-        let (name, value, is_guide) = match member {
-            Member::Assign(assign) => match assign.target() {
-                Some(Expr::Name(word)) => (
-                    Some(word.syntax().text().to_string().trim().to_string()),
-                    assign.value(),
-                    assign.is_guide(),
-                ),
-                _ => continue,
-            },
-            Member::If(choice) => (None, Some(Value::If(choice)), false),
-            Member::Repeat(block) => (None, Some(Value::Repeat(block)), false),
-            Member::While(block) => (None, Some(Value::While(block)), false),
-            Member::For(block) => (None, Some(Value::For(block)), false),
-            Member::Erase(_) => (None, None, false),
-            _ => continue,
+        let Some(word) = word_of(&member) else { continue };
+        let is_it = match &word {
+            Some(word) => word.text() == segment,
+            None => segment_of(None, &mut unnamed) == segment,
         };
-        let segment = name.clone().unwrap_or_else(|| {
-            unnamed += 1;
-            format!("#{}", unnamed - 1)
-        });
-        all.push(StepNode { segment, name, span, value, is_guide });
+        if is_it {
+            return step_of(member, word, segment.into());
+        }
     }
-    all
+    None
+}
+
+/// The name of what a member draws, or that it has none; nothing where it is no step.
+#[expect(clippy::option_option, reason = "a step without a name is one")]
+fn word_of(member: &Member) -> Option<Option<ast::Word>> {
+    match member {
+        Member::Assign(assign) => match assign.target() {
+            Some(Expr::Name(name)) => name.name().map(Some),
+            _ => None,
+        },
+        Member::If(_)
+        | Member::Repeat(_)
+        | Member::While(_)
+        | Member::For(_)
+        | Member::Erase(_) => Some(None),
+        _ => None,
+    }
+}
+
+fn segment_of(word: Option<&ast::Word>, unnamed: &mut usize) -> String {
+    match word {
+        Some(word) => word.text().to_string(),
+        None => {
+            *unnamed += 1;
+            format!("#{}", *unnamed - 1)
+        }
+    }
+}
+
+fn step_of(member: Member, word: Option<ast::Word>, segment: String) -> Option<StepNode> {
+    let span = span_without_doc(member.syntax());
+    let (value, is_guide) = match member {
+        Member::Assign(assign) => (assign.value(), assign.is_guide()),
+        Member::If(choice) => (Some(Value::If(choice)), false),
+        Member::Repeat(block) => (Some(Value::Repeat(block)), false),
+        Member::While(block) => (Some(Value::While(block)), false),
+        Member::For(block) => (Some(Value::For(block)), false),
+        Member::Erase(_) => (None, false),
+        _ => return None,
+    };
+    let name = word.map(|word| word.text().to_string());
+    Some(StepNode { segment, name, span, value, is_guide })
 }
 
 fn only_if(choice: &ast::If) -> StepNode {
@@ -150,6 +188,13 @@ impl Inside {
             Self::If(choice) => vec![only_if(choice)],
         }
     }
+
+    fn step(&self, segment: &str) -> Option<StepNode> {
+        match self {
+            Self::Body(body) => step_in(body, segment),
+            Self::If(choice) => Some(only_if(choice)).filter(|step| step.segment == segment),
+        }
+    }
 }
 
 fn walk(text: &Source, program_name: &str, address: &str) -> Option<Inside> {
@@ -157,7 +202,7 @@ fn walk(text: &Source, program_name: &str, address: &str) -> Option<Inside> {
     let segments: Vec<&str> = address.split('.').filter(|s| !s.is_empty()).collect();
     let mut rest = segments.iter();
     while let Some(segment) = rest.next() {
-        let step = at.steps().into_iter().find(|step| step.segment == **segment)?;
+        let step = at.step(segment)?;
         at = inside_of(&step.value?, &mut rest)?;
     }
     Some(at)
@@ -167,7 +212,7 @@ fn walk(text: &Source, program_name: &str, address: &str) -> Option<Inside> {
 pub(crate) fn step_at(text: &Source, program_name: &str, address: &str) -> Option<StepNode> {
     let (around, last) = address.rsplit_once('.').unwrap_or(("", address));
     let inside = walk(text, program_name, around)?;
-    inside.steps().into_iter().find(|step| step.segment == last)
+    inside.step(last)
 }
 
 /// Finds the body of a block by its address: a loop's, `#0.then`, the program's own for nothing.
@@ -422,21 +467,8 @@ pub(crate) fn with_lines(text: &str, body: &ast::Body, depth: usize, lines: &str
 /// Returns the words that a program uses as names, labels apart.
 pub(crate) fn words_in(text: &Source, program_name: &str) -> BTreeSet<String> {
     let Some(program) = program(text, program_name) else { return BTreeSet::new() };
-    // what is asked or noted in words is no name
-    let tokens = program.syntax().descendants_with_tokens().filter_map(SyntaxElement::into_token);
     let mut all = String::new();
-    for token in tokens {
-        all.push_str(match token.kind() {
-            SyntaxKind::LineComment
-            | SyntaxKind::DocComment
-            | SyntaxKind::BlockComment
-            | SyntaxKind::Text
-            | SyntaxKind::TextOpen
-            | SyntaxKind::TextMiddle
-            | SyntaxKind::TextClose => " ",
-            _ => token.text(),
-        });
-    }
+    without_words(text, program.syntax(), &mut all);
     let parameters = parameters_in(&all);
     let is_word = |c: char| c.is_alphanumeric() || c == '_';
     let mut found = BTreeSet::new();
@@ -451,6 +483,32 @@ pub(crate) fn words_in(text: &Source, program_name: &str) -> BTreeSet<String> {
         at = end;
     }
     found
+}
+
+/// Adds the text of a node, without what is asked or noted in words, which is no name.
+fn without_words(text: &Source, node: &SyntaxNode, all: &mut String) {
+    let span = syntax::span_of(node);
+    let own = &text[span.start as usize..span.end as usize];
+    // most of a long program holds none, and is not looked through token by token
+    if !["\"", "//", "/*"].iter().any(|mark| own.contains(mark)) {
+        all.push_str(own);
+        return;
+    }
+    for inside in node.children_with_tokens() {
+        match inside {
+            SyntaxElement::Node(node) => without_words(text, &node, all),
+            SyntaxElement::Token(token) => all.push_str(match token.kind() {
+                SyntaxKind::LineComment
+                | SyntaxKind::DocComment
+                | SyntaxKind::BlockComment
+                | SyntaxKind::Text
+                | SyntaxKind::TextOpen
+                | SyntaxKind::TextMiddle
+                | SyntaxKind::TextClose => " ",
+                _ => token.text(),
+            }),
+        }
+    }
 }
 
 /// Where the parameters of a program stand: the first bracket of its text.
