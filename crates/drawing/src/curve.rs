@@ -52,6 +52,29 @@ pub fn edges(ring: &[Corner]) -> impl Iterator<Item = Shape> + '_ {
     ring.iter().zip(next).map(|(&from, &to)| edge(from, to))
 }
 
+/// Whether an odd number of closed rings surrounds a point.
+pub fn covers(rings: &[Vec<Corner>], p: Point) -> bool {
+    rings.iter().filter(|ring| surrounds(ring, p)).count() % 2 == 1
+}
+
+/// Whether a ring surrounds a point: its chords do, or an arc bulges over the point; not both.
+fn surrounds(ring: &[Corner], p: Point) -> bool {
+    let next = ring.iter().skip(1).chain(ring.first());
+    ring.iter().zip(next).fold(false, |inside, (from, to)| {
+        let (a, b) = (from.at, to.at);
+        let left = (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
+        let is_crossed = (a.y > p.y) != (b.y > p.y) && (left > 0.0) == (b.y > a.y);
+        // what turns to the left lies to the right of its chord
+        let is_under = match edge(*from, *to) {
+            Shape::Arc { center, radius, .. } => {
+                left * from.bulge < 0.0 && hypot(p.x - center.x, p.y - center.y) < radius
+            }
+            _ => false,
+        };
+        inside ^ is_crossed ^ is_under
+    })
+}
+
 /// Returns the longer half axis, the ratio and the parameters of an arc from any two half axes at a right angle: the
 /// first as a direction, the second as a length to its left.
 pub fn ellipse(center: Point, first: Point, second: f64, start: f64, sweep: f64) -> Shape {
@@ -108,5 +131,30 @@ mod tests {
         assert_eq!((major, ratio), (p(0.0, 2.0), 0.5));
         let at = on_ellipse(center, major, ratio, start);
         assert!((at.x - 1.0).abs() < 1e-15 && at.y.abs() < 1e-15, "{at:?}");
+    }
+    #[test]
+    fn rings_with_arcs_cover_what_lies_between_them() {
+        let corner = |x, y, bulge| Corner { at: p(x, y), bulge };
+        // a box whose right side bulges out by a half turn, and whose left side bulges in
+        let outer = vec![
+            corner(0.0, 0.0, 0.0),
+            corner(10.0, 0.0, 1.0),
+            corner(10.0, 4.0, 0.0),
+            corner(0.0, 4.0, -1.0),
+        ];
+        let hole = vec![corner(4.0, 2.0, 1.0), corner(6.0, 2.0, 1.0)];
+        let rings = [outer, hole];
+        for (x, y, wanted) in [
+            (8.0, 2.0, true),
+            (11.5, 2.0, true),
+            (12.5, 2.0, false),
+            (1.0, 2.0, false),
+            (1.0, 0.2, true),
+            (5.0, 2.5, false),
+            (5.0, 3.5, true),
+            (-1.0, 2.0, false),
+        ] {
+            assert_eq!(covers(&rings, p(x, y)), wanted, "{x}, {y}");
+        }
     }
 }

@@ -20,8 +20,9 @@ pub fn StatusLine(
     let holds = Memo::new(move |_| lab.status.with(|status| status.satisfied));
     let sentence = Memo::new(move |_| lab.status.with(|status| status.message.clone()));
     let doubtful = Memo::new(move |_| {
-        lab.text.with(|text| text.diagnostics.iter().any(|d| d.severity == "error"))
-            || lab.status.with(|status| !status.unmet.is_empty())
+        lab.text.with(|text| {
+            text.diagnostics.iter().any(|d| d.severity == "error" || d.code == "run-ended")
+        }) || lab.status.with(|status| !status.unmet.is_empty())
     });
     let drag = Memo::new(move |_| {
         lab.dragging.with(|drag| {

@@ -7,6 +7,7 @@ use super::{Home, edges, measure, older, outcome, parameters, typed};
 use crate::state::State;
 use crate::view::{Pointer, Refusal};
 use crate::words;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// An operand as it is given.
 #[derive(Clone, PartialEq, Debug)]
@@ -181,9 +182,14 @@ impl Dialogue {
         let Some(slot) = self.slot() else {
             return Err(words::refuse("no operand is wanted".into()));
         };
-        let all = scene::scene(state, home);
+        let mut all = scene::scene(state, home);
+        if *slot.class == *"Planar" {
+            // nothing comes of a surface and itself
+            all.retain(|found| self.filled.iter().all(|given| given.text != found.text));
+        }
         let found =
             self.whole(state, &all, pointer).or_else(|| nearest(state, slot, &all, pointer));
+        let found = found.or_else(|| surface_at(state, home, (slot, &all), pointer));
         // Tab goes on from a figure to the edge that comes from it
         if found.is_none() || level % 2 == 1 {
             match edges::by_origin(state, slot, &all, pointer) {
@@ -199,8 +205,13 @@ impl Dialogue {
                 SlotKind::Value => measure::usual(state, found)
                     .ok_or_else(|| words::refuse(format!("{} has no measure", found.text)))?,
                 SlotKind::Set => {
-                    let is_whole = |class| slot.takes(state, class);
-                    found.at_level(level, found.side_of.is_some_and(is_whole))
+                    let whole_first = found.side_of.is_some_and(|c| slot.takes(state, c));
+                    // the outline that was made of it is meant first, and what it was made of after that
+                    match outline_over(state, slot, (found, &all), pointer) {
+                        Some(outline) if level == 0 => outline.text.clone(),
+                        Some(_) => found.at_level(level - 1, whole_first),
+                        None => found.at_level(level, whole_first),
+                    }
                 }
                 // what several cover together is what each of them covers
                 SlotKind::Curve if *slot.class == *"Planar" => found.at_level(level, false),
@@ -265,7 +276,7 @@ impl Dialogue {
         };
         let operand = match operand {
             Ok(operand) => operand,
-            // a value is mostly typed: that nothing here has one is said of a click
+            // a value is mostly typed: what is wrong with one here is said of a click
             Err(_) if slot.kind == SlotKind::Value && typed.trim().is_empty() => {
                 return Hover::default();
             }
@@ -311,6 +322,9 @@ impl Dialogue {
                 Hover { finds, ghost, why: None }
             }
             // the pointer is still where it has picked the operand before
+            Err(_) if typed.trim().is_empty() && slot.kind == SlotKind::Value => {
+                Hover { finds, ..Hover::default() }
+            }
             Err(_)
                 if typed.trim().is_empty()
                     && self.filled.last().map(|last| &last.text) == finds.as_ref() =>
@@ -364,6 +378,56 @@ fn with_worth(state: &State, home: &Home, typed: &str) -> String {
         }
         _ => typed.into(),
     }
+}
+
+/// Returns the outline that was drawn last over a figure, along its edge.
+fn outline_over<'f>(
+    state: &State,
+    slot: &Slot,
+    (figure, all): (&Found, &'f [Found]),
+    pointer: &Pointer,
+) -> Option<&'f Found> {
+    let least = figure.curve.distance(pointer.at) + pointer.reach * 1e-6;
+    let over = all.iter().rev().take_while(|found| !std::ptr::eq(*found, figure));
+    let is_it = |f: &&Found| f.side.is_some() && f.curve.distance(pointer.at) <= least;
+    over.filter(is_it).find(|f| f.text != figure.text && slot.takes(state, f.class))
+}
+
+/// Returns the surface that was drawn last of those that are filled under a pointer, where a surface is wanted.
+fn surface_at<'f>(
+    state: &State,
+    home: &Home,
+    (slot, all): (&Slot, &'f [Found]),
+    pointer: &Pointer,
+) -> Option<&'f Found> {
+    let at = drawing::Point { x: pointer.at.0, y: pointer.at.1 };
+    let is_filled = |element: &drawing::Element| match &element.shape {
+        drawing::Shape::Region(rings) => {
+            element.style.fill.is_some() && drawing::curve::covers(rings, at)
+        }
+        _ => false,
+    };
+    if !matches!(slot.class.as_str(), "Planar" | "Outlined") {
+        return None;
+    }
+    // what an edge lies below, above, to the left and to the right of may surround it
+    let mut boxes: BTreeMap<&str, [[f64; 2]; 2]> = BTreeMap::new();
+    for f in all.iter().filter(|f| f.side.is_some() && slot.takes(state, f.class)) {
+        if let Some([low, high]) = f.curve.room() {
+            let around = boxes.entry(&f.text).or_insert([low, high]);
+            let wider = |k: usize| (around[0][k].min(low[k]), around[1][k].max(high[k]));
+            let (x, y) = (wider(0), wider(1));
+            *around = [[x.0, y.0], [x.1, y.1]];
+        }
+    }
+    let is_around = |f: &&Found| {
+        boxes.get(f.text.as_str()).is_some_and(|[low, high]| {
+            low[0] <= at.x && at.x <= high[0] && low[1] <= at.y && at.y <= high[1]
+        })
+    };
+    let mut known = BTreeSet::new();
+    let mut surfaces = { all.iter().rev() }.filter(is_around).filter(|f| known.insert(&f.text));
+    surfaces.find(|f| scene::drawing_of(state, home, &f.text).elements.iter().any(is_filled))
 }
 
 /// Returns the nearest figure that fits a slot, a point before what runs through it.

@@ -346,6 +346,15 @@ impl Curve {
         }
     }
 
+    /// The corners of a rectangle that all of it lies in, and perhaps more: of an arc that of its circle.
+    pub(crate) fn room(&self) -> Option<[[f64; 2]; 2]> {
+        let Figure::Arc { center, start, .. } = self.figure else {
+            return Self { arc: None, ..*self }.box_of();
+        };
+        let radius = hypot(start[0] - center[0], start[1] - center[1]);
+        Self { figure: Figure::Circle { center, radius }, arc: None, ..*self }.box_of()
+    }
+
     /// Where it lies, whichever way it runs: the same for what covers the same.
     fn where_it_lies(&self) -> Vec<u64> {
         let numbers = match (self.figure, self.arc) {

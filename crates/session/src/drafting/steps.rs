@@ -74,7 +74,10 @@ impl<'s> Found<'s> {
         let Some((source, body, _)) = &self.written else { return Vec::new() };
         let (program, example) = (self.name.clone(), self.example.as_str().into());
         let drawn = Drawn { source, program, example };
-        let mut rows = Rows { state, evaluator, drawn, home, rows: Vec::new() };
+        let thing = state.structure.follow(DOCUMENT, &self.path).ok();
+        let run = thing.and_then(|thing| evaluator.run(thing).ok()?);
+        let ended = run.and_then(|run| run.ended.clone());
+        let mut rows = Rows { state, evaluator, drawn, home, ended, rows: Vec::new() };
         rows.block(&text::steps_of(body), ("", true), (&self.path, &[]), 0);
         rows.rows
     }
@@ -179,10 +182,21 @@ struct Rows<'e, 'a> {
     drawn: Drawn<'e>,
     /// Where the program is visited, if it is.
     home: &'e Home,
+    /// Where and why the drawing of the example ended early, if it did.
+    ended: Option<eval::Ended>,
     rows: Vec<StepRow>,
 }
 
 impl<'a> Rows<'_, 'a> {
+    /// Why the step of an address has no outcome, if the drawing ended there.
+    fn why(&self, address: &str) -> Option<String> {
+        let ended = self.ended.as_ref().filter(|ended| ended.why != eval::Why::Outside)?;
+        let plain = |segment: &str| segment.split('[').next().unwrap_or_default().to_string();
+        let step = ended.step.split('.').map(plain);
+        step.eq(address.split('.').filter(|s| text::is_name(s)).map(String::from))
+            .then(|| ended.to_string())
+    }
+
     /// Lists the steps of a block: its address, and whether it is come to. `made` leads to what it made in the example,
     /// in such turns of the loops around it: those that are visited, else the first.
     fn block(
@@ -221,6 +235,7 @@ impl<'a> Rows<'_, 'a> {
                 is_guide: step.is_guide,
                 is_block: !matches!(step.value, Some(Value::Expr(_)) | None),
                 is_unmade: is_failed,
+                why: self.why(&address),
             });
             let Some(value) = &step.value else { continue };
             let is_loop = matches!(value, Value::Repeat(_) | Value::While(_) | Value::For(_));

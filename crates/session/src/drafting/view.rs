@@ -241,6 +241,8 @@ pub struct StepRow {
     pub is_block: bool,
     /// Whether the example does not come to it.
     pub is_unmade: bool,
+    /// Why it has no outcome, of the step at which the drawing of the example ended.
+    pub why: Option<String>,
 }
 
 /// A part of what a step says that can be changed by itself.

@@ -28,6 +28,10 @@ pub(crate) fn view(open: &Open) -> Status {
         true => "the sheet is empty".into(),
         false => sentence(satisfied, &said, open.freedom(), errors),
     };
+    // what is not drawn to its end is worse than what is free is good
+    if let Some(ended) = state.diagnostics.iter().find(|d| d.code == "run-ended") {
+        message = format!("{}; {message}", ended.message);
+    }
     for note in &notes {
         message = format!("{message}; {note}");
     }

@@ -454,3 +454,70 @@ fn a_curve_by_poles_is_drawn_with_its_weights() {
     desk.session.give_up(desk.id);
     assert_eq!(desk.wrong(), [], "{}", desk.text());
 }
+
+/// A disc with a tooth of a rounded box on it, `wide` across.
+fn tooth() -> Desk {
+    let mut desk = Desk::recording("Gear", &[("wide", "8")]);
+    draw(&mut desk, "Circle", &["0,0", "40"]);
+    draw(&mut desk, "Rectangle", &["-wide / 2, 37", "wide", "11"]);
+    begin(&mut desk, "Contour.rounded(of,radius)");
+    pick(&mut desk, 0.0, 48.0);
+    text(enter(&mut desk, "wide / 4"));
+    desk
+}
+
+#[test]
+fn a_copy_takes_the_rounded_outline_before_the_box_below_it() {
+    let mut desk = tooth();
+    begin(&mut desk, ":pattern(about,count)");
+    pick(&mut desk, 0.0, 48.0);
+    enter(&mut desk, "0,0");
+    let pattern = text(enter(&mut desk, "12"));
+    assert!(pattern.starts_with("polar pattern: contour, about (0, 0)"), "{pattern}");
+    // Tab goes on to the box
+    begin(&mut desk, "Point:mirrored");
+    let on_both = Pointer { at: (0.0, 48.0), reach: 3.0, ..Pointer::default() };
+    assert_eq!(desk.session.hover(desk.id, &on_both, "").finds.as_deref(), Some("contour"));
+    desk.session.pick_wider(desk.id);
+    let box_below = desk.session.hover(desk.id, &on_both, "").finds;
+    assert_eq!(box_below.as_deref(), Some("rectangle"));
+}
+
+#[test]
+fn a_surface_is_picked_where_it_is_filled_and_not_taken_from_itself() {
+    let mut desk = tooth();
+    begin(&mut desk, "Region.union(first,second)");
+    pick(&mut desk, -40.0, 0.0);
+    text(pick(&mut desk, 0.0, 48.0));
+    draw(&mut desk, "Circle", &["0,0", "10"]);
+    begin(&mut desk, "Region.difference(first,second)");
+    // far from any edge
+    pick(&mut desk, -25.0, 0.0);
+    assert!(
+        desk.session
+            .point(desk.id, &Pointer { at: (-25.0, 0.0), reach: 2.0, ..Pointer::default() })
+            .is_err()
+    );
+    assert_eq!(text(pick(&mut desk, 10.0, 0.0)), "Region.difference(region, circle2)");
+    assert_eq!(desk.wrong(), [], "{}", desk.text());
+}
+
+#[test]
+fn a_value_by_which_a_step_has_no_outcome_is_told_at_the_step_and_in_the_status() {
+    let mut desk = tooth();
+    assert_eq!(desk.session.status(desk.id).message, "all constraints hold; nothing is free");
+    desk.session
+        .set_parameters(desk.id, "gear", &[("wide".into(), "30".into())])
+        .expect("it is a length");
+    let told = desk.session.status(desk.id).message;
+    assert!(
+        told.starts_with("gear is not drawn to its end: the step contour has no outcome"),
+        "{told}"
+    );
+    let rows = desk.session.steps(desk.id, None).expect("it is recorded").rows;
+    let why = |name: &str| rows.iter().find(|row| row.name == name).expect("a step").why.clone();
+    assert_eq!((why("circle"), why("rectangle")), (None, None));
+    assert!(why("contour").is_some_and(|why| why.contains("at_most_half_the_height is not met")));
+    desk.undo();
+    assert_eq!(desk.session.status(desk.id).message, "all constraints hold; nothing is free");
+}

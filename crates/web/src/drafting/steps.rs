@@ -237,6 +237,7 @@ fn Row(lab: Lab, steps: StepsView, row: StepRow) -> impl IntoView {
             <button class="bare step" title=row.formula on:click=light>
                 <b>{row.name}</b>" "{row.words}
                 {row.value.map(|value| view! { <span class="quiet">{value}</span> })}
+                {row.why.map(|why| view! { <span class="why">{why}</span> })}
             </button>
             {is_recorded.then(|| view! {
                 <button class="bare" data-step-visit="" title=words::VISIT_HERE aria-label=words::VISIT_HERE on:click=here>"⇥"</button>
