@@ -217,6 +217,9 @@ impl Dialogue {
                 SlotKind::Curve if *slot.class == *"Planar" => found.at_level(level, false),
                 // where a rectangle is wanted, any side of it is meant as all of it
                 SlotKind::Curve if !slot.takes(state, found.class) => found.at_level(0, true),
+                SlotKind::Point | SlotKind::Curve | SlotKind::Places if level % 2 == 1 => {
+                    of_last(&all, &found.text).unwrap_or_else(|| found.text.clone())
+                }
                 SlotKind::Point | SlotKind::Curve | SlotKind::Edges | SlotKind::Places => {
                     found.text.clone()
                 }
@@ -378,6 +381,23 @@ fn with_worth(state: &State, home: &Home, typed: &str) -> String {
         }
         _ => typed.into(),
     }
+}
+
+/// Says of what is in the last of many that it is in the last, however many there are: `turns.last.circle` for
+/// `turns[3].circle`. Nothing where it is in no last one.
+fn of_last(all: &[Found], text: &str) -> Option<String> {
+    let (mut said, mut rest) = (String::new(), text);
+    while let Some((before, after)) = rest.split_once('[') {
+        let (index, behind) = after.split_once(']')?;
+        let set = &text[..text.len() - after.len()];
+        let number = |text: &str| text.split(']').next()?.parse::<usize>().ok();
+        let numbers = all.iter().filter_map(|f| number(f.text.strip_prefix(set)?));
+        let is_last = numbers.max().is_some_and(|most| most > 0 && number(after) == Some(most));
+        said += before;
+        said += &if is_last { ".last".into() } else { format!("[{index}]") };
+        rest = behind;
+    }
+    Some(said + rest).filter(|said| said != text)
 }
 
 /// Returns the outline that was drawn last over a figure, along its edge.

@@ -521,3 +521,31 @@ fn a_value_by_which_a_step_has_no_outcome_is_told_at_the_step_and_in_the_status(
     desk.undo();
     assert_eq!(desk.session.status(desk.id).message, "all constraints hold; nothing is free");
 }
+
+#[test]
+fn tab_means_the_last_turn_however_many_there_are() {
+    let mut desk = Desk::recording("Shaft", &[("steps", "4"), ("d", "40"), ("drop", "6")]);
+    desk.session.begin_loop(desk.id, "").expect("a loop");
+    draw(&mut desk, "Rectangle", &["0, -d / 2", "20", "d"]);
+    desk.session.end_turn(desk.id, Ends::Times).expect("it is drawn");
+    enter(&mut desk, "@20, drop / 2");
+    enter(&mut desk, "rectangle.height - drop");
+    enter(&mut desk, "steps");
+    // the upper right corner of the fourth step
+    let corner = Pointer { at: (80.0, 11.0), reach: 1.0, ..Pointer::default() };
+    let finds = |desk: &mut Desk| desk.session.hover(desk.id, &corner, "").finds;
+    begin(&mut desk, "Circle");
+    assert_eq!(finds(&mut desk).as_deref(), Some("turns[3].rectangle.far"));
+    desk.session.pick_wider(desk.id);
+    assert_eq!(finds(&mut desk).as_deref(), Some("turns.last.rectangle.far"));
+    desk.session.point(desk.id, &corner).expect("it is a point");
+    let circle = text(enter(&mut desk, "2"));
+    assert_eq!(circle, "Circle(center: turns.last.rectangle.far, radius: 2)");
+    for (steps, x) in [("2", "40"), ("6", "120")] {
+        desk.session
+            .set_parameters(desk.id, "shaft", &[("steps".into(), steps.into())])
+            .expect("it is a count");
+        assert!(value(&desk, "shaft.circle").contains(&format!("({x}, ")), "{steps}");
+    }
+    assert_eq!(desk.wrong(), [], "{}", desk.text());
+}
