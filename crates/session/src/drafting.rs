@@ -10,12 +10,12 @@
 //! Reading order: `catalogue`, `synonyms`, `compound`, `scene`, `edges`, `typed`, `outcome`, `dialogue`, `older`,
 //! `hands`, `recording`, `reading`, `parameters`, `blocks`, `operands`, `patterns`, `repeat`, `choice`, `demonstrating`,
 //! `measure`, `steps`, `visit`, `remove`, `erase`, `changing`, `visiting`, `text`.
+mod becoming;
 mod blocks;
 mod catalogue;
 mod changing;
 mod choice;
 pub(crate) mod compound;
-mod counted;
 mod demonstrating;
 mod dialogue;
 mod edges;

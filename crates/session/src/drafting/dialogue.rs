@@ -3,7 +3,7 @@
 use super::catalogue::{Call, Slot, SlotKind, Tool};
 use super::scene::{self, Found};
 use super::view::{Hover, Prompt, Wants};
-use super::{Home, edges, measure, older, outcome, parameters, typed};
+use super::{Home, becoming, edges, measure, older, outcome, typed};
 use crate::state::State;
 use crate::view::{Pointer, Refusal};
 use crate::words;
@@ -336,7 +336,7 @@ impl Dialogue {
             }
             Err(refusal) => {
                 let typed = (typed.trim(), slot.class.as_str());
-                let why = parameters::may_become(state, home, typed).unwrap_or(refusal.message);
+                let why = becoming::may_become(state, home, typed).unwrap_or(refusal.message);
                 Hover { finds, why: Some(why), ..Hover::default() }
             }
         }

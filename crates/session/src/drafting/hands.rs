@@ -6,8 +6,8 @@ use super::view::{
     Computed, ConstructionRow, Ends, Hover, MeasureKind, OlderUse, Prompt, Turn, Wants,
 };
 use super::{
-    Home, blocks, catalogue, changing, choice, counted, edges, measure, older, outcome, parameters,
-    patterns, recording, remove, repeat, scene, steps, text, typed,
+    Home, becoming, blocks, catalogue, changing, choice, edges, measure, older, outcome, patterns,
+    recording, remove, repeat, scene, steps, text, typed,
 };
 use crate::document::Open;
 use crate::host::Host;
@@ -741,7 +741,7 @@ fn entered(open: &mut Open, host: &dyn Host, typed: &str) -> Result<Turn, Refusa
             }
             give(open, host, Operand::new(text.clone(), None))
         };
-        return counted::given(open, host, (&home, &text, &wanted), &again);
+        return becoming::given(open, host, (&home, &text, &wanted), &again);
     }
     match blocks::prompt(open).map(|prompt| prompt.wants) {
         Some(Wants::Recurrence(question)) => {
@@ -756,7 +756,7 @@ fn entered(open: &mut Open, host: &dyn Host, typed: &str) -> Result<Turn, Refusa
             };
             let wanted = if ends == Ends::Times { "Integer" } else { "Bool" };
             again(open).or_else(|refused| {
-                parameters::retried(open, host, (&home, typed, wanted), refused, &again)
+                becoming::retried(open, host, (&home, typed, wanted), refused, &again)
             })
         }
         Some(Wants::Condition) => {

@@ -1,9 +1,6 @@
-//! The parameters of a program that is recorded: defined, changed, taken away; and what one is told by where it is used.
-//!
-//! A number without a unit is a length. Where such a parameter is first used as a count, an angle or a plain number it
-//! becomes one, in the same step, and the hand is told so. Where it is a length for other steps already it stays one.
+//! The parameters of a program that is recorded: defined, changed, taken away.
 
-use super::view::{NewParameter, Prompt, Turn};
+use super::view::NewParameter;
 use super::{Home, outcome, recording, text, typed};
 use crate::document::Open;
 use crate::host::Host;
@@ -30,7 +27,7 @@ pub(crate) struct Declared {
     /// What is asked; nothing where nothing is.
     pub(crate) prompt: String,
     /// Where its name stands.
-    named: Span,
+    pub(super) named: Span,
     /// How it is written.
     node: Param,
 }
@@ -230,7 +227,7 @@ pub(crate) fn table_of(state: &State, (user, of): (&str, &Declared)) -> Vec<Stri
 pub(super) const DEGREES: &str = "deg";
 
 /// What is typed, in a unit where it is a number without one.
-fn in_unit(typed: &str, unit: &str) -> String {
+pub(super) fn in_unit(typed: &str, unit: &str) -> String {
     if typed::is_number(typed) { format!("{typed} {unit}") } else { typed.into() }
 }
 
@@ -407,11 +404,11 @@ pub(crate) fn remove(
 }
 
 /// What is said of a parameter.
-struct Said {
-    class: String,
-    range: String,
-    example: String,
-    prompt: String,
+pub(super) struct Said {
+    pub(super) class: String,
+    pub(super) range: String,
+    pub(super) example: String,
+    pub(super) prompt: String,
 }
 
 impl Said {
@@ -469,7 +466,7 @@ impl Said {
     }
 
     /// Returns a text in which a parameter says this; what is the same is not touched, and comments stay.
-    fn instead_of(&self, source: &text::Source, old: &Declared) -> String {
+    pub(super) fn instead_of(&self, source: &text::Source, old: &Declared) -> String {
         let own = |node: &syntax::SyntaxNode| {
             let span = span_without_doc(node);
             let text = &source[span.start as usize..span.end as usize];
@@ -544,7 +541,7 @@ fn renamed(state: &State, (program, from): (&Name, &str), to: &str) -> Result<St
 }
 
 /// Where the document's own text speaks of a parameter, apart from where it declares it.
-fn spoken_of(state: &State, named: Span) -> Vec<Span> {
+pub(super) fn spoken_of(state: &State, named: Span) -> Vec<Span> {
     let used = |name: &str| {
         let mut files = state.lowered.files.iter().skip(1).map(|(_, file)| file);
         files.find(|file| file.name == name).map(|file| file.text.to_string())
@@ -582,7 +579,7 @@ fn replaced(text: &str, span: Span, with: &str) -> String {
 }
 
 /// The steps of a program that speak of a parameter; of blocks the outermost.
-fn steps_that_speak(
+pub(super) fn steps_that_speak(
     source: &text::Source,
     program: &str,
     name: &str,
@@ -626,154 +623,5 @@ fn class_of_example(state: &State, example: &str) -> Result<String, Refusal> {
     match wrong {
         Some(message) => Err(words::refuse(format!("{example}: {message}"))),
         None => class,
-    }
-}
-
-/// A parameter that may be something else than a length: what it would be, and the text that says so.
-pub(super) struct Other {
-    name: String,
-    class: &'static str,
-    text: String,
-    /// Why it stays a length.
-    stays: Option<String>,
-}
-
-impl Other {
-    /// A parameter as a count.
-    pub(super) fn count(source: &text::Source, of: &Declared) -> Self {
-        let (range, example) = (of.range.clone(), of.example.clone());
-        let said = Said { class: "Integer".into(), range, example, prompt: of.prompt.clone() };
-        let text = said.instead_of(source, of);
-        Self { name: of.name.clone(), class: "Integer", text, stays: None }
-    }
-
-    /// Does something with the parameter as that; one step, which says so.
-    ///
-    /// # Errors
-    /// What is refused then, and whether the parameter could be that.
-    pub(super) fn tried(
-        &self,
-        open: &mut Open,
-        host: &dyn Host,
-        again: &dyn Fn(&mut Open) -> Result<Turn, Refusal>,
-    ) -> Result<Turn, (Refusal, bool)> {
-        let since = open.done.len();
-        let dialogue = open.dialogue.clone();
-        let now = format!("{} is {}", self.name, class_in_words(self.class));
-        let mut stood = None;
-        let done = open.tried(|open| {
-            stood = Some(recording::retext(open, host, self.text.clone(), now.clone())?);
-            again(open)
-        });
-        match done {
-            Ok(Turn::Made { change, name, text, next }) => {
-                open.one_step(since);
-                let next = next.map(|p| Prompt { words: format!("{now} now. {}", p.words), ..p });
-                Ok(Turn::Made { change, name, text: format!("{text}; {now} now"), next })
-            }
-            // further operands are wanted: what it is now stands
-            Ok(Turn::Wants(prompt)) => {
-                let words = format!("{now} now. {}", prompt.words);
-                let change = Box::new(stood.unwrap_or_default());
-                let next = Some(Prompt { words, ..prompt });
-                Ok(Turn::Made { change, name: now, text: String::new(), next })
-            }
-            Err(refusal) => {
-                open.dialogue = dialogue;
-                Err((refusal, stood.is_some()))
-            }
-        }
-    }
-}
-
-/// Lists what the parameters that an expression speaks of may be where a class is wanted: those that were defined by a
-/// number without a unit.
-fn others(state: &State, home: &Home, typed: &str, wanted: &str) -> Vec<Other> {
-    let Home::Program { program, .. } = home else { return Vec::new() };
-    let source = text::Source::now(state);
-    let is_alone = |name: &str| typed.trim() == name;
-    let one = |d: Declared| {
-        let is_plain = d.class == "Length" && d.example.parse::<f64>().is_ok();
-        if !is_plain || text::places_of(typed, &d.name).is_empty() {
-            return None;
-        }
-        let is_used = steps_that_speak(&source, program, &d.name).next().is_some();
-        let is_whole = d.example.parse::<u32>().is_ok();
-        let class = match wanted {
-            "Integer" if is_whole => "Integer",
-            "Angle" if is_alone(&d.name) => "Angle",
-            "Real" | "Angle" | "Integer" if is_whole && !is_alone(&d.name) => "Integer",
-            "Real" | "Angle" => "Real",
-            _ => return None,
-        };
-        // a number without a unit is another one as an angle: in the range, where things are given it, in a demand
-        let stays = match class {
-            _ if is_used => Some("a length for other steps"),
-            "Angle" if !d.range.is_empty() => Some("a length by its range"),
-            "Angle" if !spoken_of(state, d.named).is_empty() => Some("a length elsewhere, too"),
-            _ => None,
-        };
-        let example =
-            if class == "Angle" { in_unit(&d.example, DEGREES) } else { d.example.clone() };
-        let said =
-            Said { class: class.into(), range: d.range.clone(), example, prompt: d.prompt.clone() };
-        let text = said.instead_of(&source, &d);
-        Some(Other { name: d.name, class, text, stays: stays.map(String::from) })
-    };
-    declared(&source, program).into_iter().filter_map(one).collect()
-}
-
-/// Says what a parameter would become where a class is wanted.
-pub(crate) fn may_become(
-    state: &State,
-    home: &Home,
-    (typed, wanted): (&str, &str),
-) -> Option<String> {
-    let other = others(state, home, typed, wanted).into_iter().find(|o| o.stays.is_none())?;
-    Some(format!("{} becomes {}", other.name, class_in_words(other.class)))
-}
-
-/// Does something again with a parameter as what is wanted of it, where that was refused: as a count, an angle, a plain
-/// number. What is done is one step with it, and says so.
-///
-/// # Errors
-/// What was refused, where no parameter can be something else.
-pub(crate) fn retried(
-    open: &mut Open,
-    host: &dyn Host,
-    (home, typed, wanted): (&Home, &str, &str),
-    refused: Refusal,
-    again: &dyn Fn(&mut Open) -> Result<Turn, Refusal>,
-) -> Result<Turn, Refusal> {
-    let others = others(&open.state, home, typed, wanted);
-    let mut why = None;
-    for other in others.iter().filter(|other| other.stays.is_none()) {
-        match other.tried(open, host, again) {
-            Ok(turn) => return Ok(turn),
-            Err((refusal, stood)) => {
-                if stood {
-                    why.get_or_insert(refusal);
-                }
-            }
-        }
-    }
-    match others.first() {
-        Some(Other { name, class, stays: Some(stays), .. }) if name == typed.trim() => {
-            let wanted = class_in_words(class);
-            let message = format!(
-                "{name} is {stays}: where {wanted} is wanted, define one of the class {class}"
-            );
-            Err(words::refuse(message))
-        }
-        Some(_) | None => Err(why.unwrap_or(refused)),
-    }
-}
-
-/// What a parameter of a class is, in words.
-fn class_in_words(class: &str) -> &'static str {
-    match class {
-        "Integer" => "a count",
-        "Angle" => "an angle",
-        _ => "a plain number",
     }
 }

@@ -517,3 +517,30 @@ fn words_that_were_to_be_a_text_are_told_how_it_is_written() {
     }
     assert_eq!(desk.wrong(), []);
 }
+
+#[test]
+fn a_count_in_the_quotient_of_a_length_becomes_one() {
+    let mut desk = Desk::recording("Bracket", &[("w", "80"), ("holes", "4")]);
+    let mut given = |tool: &str, operands: &[&str]| {
+        desk.session.begin(desk.id, tool).expect("it is in scope");
+        let mut said = Vec::new();
+        for typed in operands {
+            said.push(match desk.session.enter(desk.id, typed) {
+                Ok(Turn::Made { name, text, .. }) => format!("{name} {text}"),
+                Ok(Turn::Wants(prompt)) => prompt.words,
+                Err(refusal) => refusal.message,
+            });
+        }
+        said
+    };
+    let said = given("Circle", &["w / (holes + 1), 20", "3"]);
+    assert_eq!(said[0], "holes is a count ");
+    assert_eq!(said[1], "circle Circle(center: Point(w / (holes + 1), 20), radius: 3)");
+    // an area is no length by either
+    let mut desk = Desk::recording("Bracket", &[("a", "3"), ("b", "4")]);
+    desk.session.begin(desk.id, "Circle").expect("it is in scope");
+    desk.session.enter(desk.id, "0,0").expect("a place");
+    let refused = desk.session.enter(desk.id, "a * b").expect_err("an area is no radius");
+    assert_eq!(refused.message, "either a or b is a count: define which");
+    assert!(desk.text().contains("    a: Length = 3,\n    b: Length = 4,\n"), "{}", desk.text());
+}
