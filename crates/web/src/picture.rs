@@ -57,7 +57,8 @@ pub fn Picture(
     follow_size(lab, size);
     follow_card(lab);
     annotated::follow(lab);
-    Effect::new(move |_| zoom_as_asked(lab, size.get()));
+    let left = StoredValue::new(None);
+    Effect::new(move |_| zoom_as_asked(lab, size.get(), left));
     Effect::new(move |_| {
         lab.colors.changes.track();
         painter.with_value(|p| p.as_ref().map(Painter::look));
@@ -364,7 +365,7 @@ fn follow_size(lab: Lab, size: RwSignal<(f64, f64)>) {
         let view = lab.view.get_untracked();
         let moved = hidden.get_value().filter(|hidden| hidden.seen == view);
         let all = || {
-            let all = drawn(lab)?;
+            let all = lab.drawn_box()?;
             (view.holds(all, before?) && !view.holds(all, now)).then_some(all)
         };
         if lab.fits.get_value() {
@@ -387,7 +388,7 @@ fn follow_size(lab: Lab, size: RwSignal<(f64, f64)>) {
 fn follow_card(lab: Lab) {
     Effect::new(move |before: Option<f64>| {
         let now = lab.card.get();
-        let is_shown = lab.fits.get_value() || !lab.looked.get_value() && drawn(lab).is_none();
+        let is_shown = lab.fits.get_value() || !lab.looked.get_value() && lab.drawn_box().is_none();
         if is_shown && before.is_some_and(|before| now > before) {
             lab.zoom.set(Some(Zoom::Fit));
         }
@@ -426,7 +427,7 @@ fn grid_step(lab: Lab) -> Memo<Option<String>> {
 }
 
 /// Does what was asked of the view, once the canvas has a size.
-fn zoom_as_asked(lab: Lab, size: (f64, f64)) {
+fn zoom_as_asked(lab: Lab, size: (f64, f64), left: StoredValue<Option<Left>>) {
     let Some(asked) = lab.zoom.get() else { return };
     if size.0 <= 0.0 {
         return;
@@ -446,15 +447,16 @@ fn zoom_as_asked(lab: Lab, size: (f64, f64)) {
         }
         Zoom::Sized if !lab.looked.get_value() => {
             let view = lab.view.get_untracked();
-            if drawn(lab).is_some_and(|drawn| !view.shows_well(drawn, (size.0, room.height))) {
+            if lab.drawn_box().is_some_and(|drawn| !view.shows_well(drawn, (size.0, room.height))) {
                 show_all(lab, size, (room, margin));
                 // what is drawn next has room beside it
                 look(lab, lab.view.get_untracked().zoomed(GOOD_PART, room.middle()));
             }
         }
-        Zoom::Seen | Zoom::Sized | Zoom::Within => {
+        Zoom::Kept(before) if keep(lab, before, size, left) => {}
+        Zoom::Seen | Zoom::Sized | Zoom::Within | Zoom::Kept(_) => {
             let view = lab.view.get_untracked();
-            let Some(drawn) = drawn(lab) else { return };
+            let Some(drawn) = lab.drawn_box() else { return };
             if view.loses(drawn, size) {
                 show_all(lab, size, (room, margin));
             } else if asked == Zoom::Within && !lab.looked.get_value() {
@@ -468,13 +470,38 @@ fn zoom_as_asked(lab: Lab, size: (f64, f64)) {
     }
 }
 
+/// A view that was left since a change had made what was drawn reach out of it: what was drawn there, what the view was,
+/// and what it became.
+#[derive(Clone, Copy)]
+struct Left {
+    drawn: Bounds,
+    view: View,
+    seen: View,
+}
+
+/// Keeps in sight what was; once the change is undone, everything is where it was, unless somebody has looked elsewhere
+/// meanwhile. Returns whether the view is another one now.
+fn keep(lab: Lab, before: Bounds, size: (f64, f64), left: StoredValue<Option<Left>>) -> bool {
+    let (view, drawn) = (lab.view.get_untracked(), lab.drawn_box());
+    let Some(drawn) = drawn else { return false };
+    if let Some(old) = left.get_value().filter(|old| old.seen == view && old.drawn == drawn) {
+        left.set_value(None);
+        look(lab, old.view);
+        return true;
+    }
+    // what is drawn must not move under a hand that holds a tool
+    let is_at_rest = lab.tool.with_untracked(Option::is_none) && !lab.drafts();
+    if !is_at_rest || !view.holds(before, size) || view.holds(drawn, size) {
+        return false;
+    }
+    let seen = view.with_in_sight(drawn, size, margin(size));
+    left.set_value(Some(Left { drawn: before, view, seen }));
+    look(lab, seen);
+    true
+}
+
 /// So much of the picture what is drawn fills where a length that was typed gives it its size.
 const GOOD_PART: f64 = 0.6;
-
-/// Returns the box around what is drawn, if anything is.
-fn drawn(lab: Lab) -> Option<Bounds> {
-    lab.picture.with_untracked(|p| (!p.drawing.elements.is_empty()).then(|| bounds(&p.drawing)))
-}
 
 /// The part of a canvas that nothing lies over.
 #[derive(Clone, Copy)]

@@ -191,6 +191,8 @@ fn Scrub(
     // Where the pointer was pressed, the number there, and whether it has become a drag.
     let start = StoredValue::new(None::<(f64, f64, bool)>);
     let latest = StoredValue::new(None::<f64>);
+    // what was drawn then
+    let drawn = StoredValue::new(None);
     let number = Memo::new(move |_| row.with(|row| row.as_ref().and_then(|row| row.number)));
     let path = move || row.with_untracked(|row| row.as_ref().map(|row| row.path.clone()));
     let down = move |e: PointerEvent| {
@@ -216,6 +218,7 @@ fn Scrub(
             if (x - from).abs() < 3.0 {
                 return;
             }
+            drawn.set_value(lab.drawn_box());
             if path().and_then(|path| lab.press(&path)).is_none() {
                 start.set_value(None);
                 return;
@@ -247,6 +250,7 @@ fn Scrub(
             && lab.dragging.with_untracked(Option::is_some)
         {
             lab.release();
+            lab.keep_in_sight(drawn.get_value());
         }
     };
     view! {
@@ -291,6 +295,8 @@ pub fn Slider(
         asked.get().unwrap_or_else(around)
     });
     let pressed = StoredValue::new(false);
+    // what was drawn then
+    let drawn = StoredValue::new(None);
     let at_step = move |to: f64| {
         let (least, most) = range.get_untracked();
         let (path, id) = (path.with_untracked(|path| session::parse_path(path)), lab.id());
@@ -314,6 +320,7 @@ pub fn Slider(
             return lab.notice.set(Some(Notice::Said(said)));
         }
         if !pressed.get_value() {
+            drawn.set_value(lab.drawn_box());
             pressed.set_value(path.with_untracked(|path| lab.press(path)).is_some());
         }
         if pressed.get_value() {
@@ -323,6 +330,8 @@ pub fn Slider(
     let done = move || {
         if pressed.try_update_value(std::mem::take) == Some(true) {
             lab.release();
+            // while the hand holds it the picture stays where it is
+            lab.keep_in_sight(drawn.get_value());
         }
         if let Some(to) = counted.try_update_value(Option::take).flatten() {
             let said = path.with_untracked(|path| lab.set_typed(path, &to.to_string()));

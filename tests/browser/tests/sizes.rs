@@ -109,6 +109,27 @@ async fn the_first_length_that_is_typed_is_a_good_part_of_the_picture_until_a_pe
     chord(&visit, &[], key::ENTER).await;
     visit.until("window.__thinglab.state().text.includes('line2')").await;
     assert_eq!(scale(&state(&visit).await), before);
+    // but what was wholly in sight is so after a length is typed anew
+    chord(&visit, &[], key::ESCAPE).await;
+    chord(&visit, &[], key::ESCAPE).await;
+    let seen = state(&visit).await;
+    let mut words = seen["words"].as_array().expect("a list").iter();
+    let said = words.find(|word| word["text"] == "12 mm").expect("the length is told");
+    let place = (said["px"].as_f64().expect("a place"), said["py"].as_f64().expect("a place"));
+    click(&visit, place).await;
+    chord(&visit, &[], 'd').await;
+    visit.until("document.activeElement.id === 'asked'").await;
+    answer(&visit, "90").await;
+    visit
+        .until(&format!(
+            "(r => window.__thinglab.state().sheet.scale < {before} && \
+             window.__thinglab.state().grips.every(g => g.px > r.left && g.px < r.right)) \
+             (document.getElementById('picture').getBoundingClientRect())"
+        ))
+        .await;
+    // and is where it was once that is undone
+    chord(&visit, &[key::CONTROL], 'z').await;
+    visit.until(&format!("window.__thinglab.state().sheet.scale === {before}")).await;
 }
 
 #[tokio::test]

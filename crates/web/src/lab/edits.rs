@@ -3,6 +3,7 @@
 use super::{InPlace, Lab, Notice, Zoom};
 use crate::sheet::bounds;
 use crate::{js, words};
+use drawing::Bounds;
 use leptos::prelude::*;
 use session::view::{
     Caught, Change, Choice, Deed, DragState, FixView, Offer, Pointer, Question, Refusal,
@@ -60,11 +61,15 @@ impl Lab {
     /// Why not; the caller shows it beside the field.
     pub fn set_typed(self, path: &str, typed: &str) -> Result<(), Refusal> {
         self.flush_text();
-        let size = self.size_of_drawn();
+        let before = self.drawn_box();
         match self.tell(|session, id| session.set_typed(id, path, typed)) {
             Some(Err(refusal)) => Err(refusal),
             outcome => {
-                if self.settle(outcome) && self.size_of_drawn() != size && self.is_length(path) {
+                let size = |all: Option<Bounds>| {
+                    all.map(|all| (all.most.x - all.least.x, all.most.y - all.least.y))
+                };
+                let is_right = self.settle(outcome);
+                if is_right && size(self.drawn_box()) != size(before) && self.is_length(path) {
                     self.look_at_size();
                 }
                 Ok(())
@@ -72,12 +77,21 @@ impl Lab {
         }
     }
 
-    /// Returns how wide and how high what is drawn is; nothing while that is nothing.
-    fn size_of_drawn(self) -> Option<(f64, f64)> {
+    /// Returns the box around what is drawn; nothing while that is nothing.
+    pub fn drawn_box(self) -> Option<Bounds> {
         self.picture.with_untracked(|picture| {
-            let drawn = (!picture.drawing.elements.is_empty()).then(|| bounds(&picture.drawing))?;
-            Some((drawn.most.x - drawn.least.x, drawn.most.y - drawn.least.y))
+            (!picture.drawing.elements.is_empty()).then(|| bounds(&picture.drawing))
         })
+    }
+
+    /// Brings what is drawn into sight where a change has made it reach out of it, if all of it was in sight before.
+    pub fn keep_in_sight(self, before: Option<Bounds>) {
+        if let Some(before) = before
+            && self.drawn_box() != Some(before)
+            && self.zoom.with_untracked(|zoom| !matches!(zoom, Some(Zoom::Fit)))
+        {
+            self.zoom.set(Some(Zoom::Kept(before)));
+        }
     }
 
     fn is_length(self, path: &str) -> bool {
@@ -88,7 +102,15 @@ impl Lab {
 
     /// Brings what is drawn into sight where a length that was typed has made it another size.
     pub fn look_at_size(self) {
-        if self.zoom.with_untracked(|zoom| !matches!(zoom, Some(Zoom::Fit))) {
+        // who has looked elsewhere is shown no more than what has left the sight
+        let is_asked = match self.zoom.get_untracked() {
+            Some(Zoom::Fit) => true,
+            Some(Zoom::Kept(_)) => self.looked.get_value(),
+            Some(Zoom::Seen | Zoom::Sized | Zoom::Within | Zoom::Over(_) | Zoom::By(_)) | None => {
+                false
+            }
+        };
+        if !is_asked {
             self.zoom.set(Some(Zoom::Sized));
         }
     }
@@ -426,6 +448,7 @@ impl Lab {
 
     /// Shows what came of a command.
     pub(crate) fn settle(self, outcome: Option<Result<Change, Refusal>>) -> bool {
+        let before = self.drawn_box();
         match outcome {
             Some(Ok(change)) => {
                 self.follow_prototype();
@@ -438,6 +461,7 @@ impl Lab {
                     let zoom = if self.fits.get_value() { Zoom::Fit } else { Zoom::Seen };
                     self.zoom.set(Some(zoom));
                 }
+                self.keep_in_sight(before);
                 if change.unit.is_some() {
                     self.look_at_size();
                 }
