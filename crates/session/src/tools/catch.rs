@@ -85,6 +85,14 @@ impl Sight<'_> {
         self.picture.paths.get(element.tag.0 as usize)
     }
 
+    /// Whether what an element pictures has a part that is a place.
+    fn has_place(&self, element: &Element, part: &str) -> bool {
+        let document = &self.state.lowered.document;
+        let fields = self.class_of(element).map(|class| document.layout(class)).unwrap_or_default();
+        let mut named = fields.into_iter().filter(|f| **document.field_name(*f) == *part);
+        named.any(|field| document.is_place(document.field_class(field)))
+    }
+
     /// Whether what an element pictures answers a message.
     fn answers(&self, element: &Element, message: &str) -> bool {
         let document = &self.state.lowered.document;
@@ -191,7 +199,7 @@ fn exactly_level(sight: &Sight<'_>, at: (f64, f64)) -> Option<(String, &'static 
     Some((format!("{} = {}", coordinate(before), coordinate(&sight.own)), word))
 }
 
-/// The middle of a line, or a line or circle that the place lies on.
+/// The middle of a line, the centre of a circle or arc that is computed, or a line or circle that the place lies on.
 fn at_shape(sight: &Sight<'_>, pointer: &Pointer) -> Option<Catch> {
     let document = &sight.state.lowered.document;
     if sight.is_reach || !sight.class.is_some_and(|class| document.is_place(class)) {
@@ -212,6 +220,14 @@ fn at_shape(sight: &Sight<'_>, pointer: &Pointer) -> Option<Catch> {
                     return Some(Catch { rules, word, ..Catch::at(middle) });
                 }
                 on_segment(pointer.at, *a, *b)
+            }
+            Shape::Circle { center, .. } | Shape::Arc { center, .. }
+                if hypot(center.x - x, center.y - y) <= pointer.reach
+                    && sight.has_place(element, "center") =>
+            {
+                let rules = vec![format!("{} = {path}.center", sight.own)];
+                let word = Some(format!("centre of {path}"));
+                return Some(Catch { rules, word, ..Catch::at((center.x, center.y)) });
             }
             Shape::Circle { center, radius } => on_circle(pointer.at, *center, *radius),
             // a point that a construction makes

@@ -131,6 +131,24 @@ fn a_line_drawn_from_middle_to_middle_keeps_to_the_middles() {
 }
 
 #[test]
+fn the_centre_of_a_circle_through_three_points_is_caught_before_a_line_that_passes_by() {
+    let mut desk = Desk::of(
+        "use geometry\na: Point = (0, 0)\nb: Point = (80, 0)\nc: Point = (0, 60)\n\
+         round => Circle.through(a, b, c)\nby: Line { p1 = (0, 33)  p2 = (120, 33) }\n",
+    );
+    desk.session.take_tool(desk.id, "Line").expect("a tool");
+    // the middle of the longest side of a right triangle
+    let word = desk.session.tool_moved(desk.id, &pointer(41.0, 32.0)).and_then(|v| v.caught);
+    assert_eq!(word.map(|caught| caught.word), Some("centre of round".into()));
+    click(&mut desk, &pointer(41.0, 32.0));
+    click(&mut desk, &pointer(150.0, 90.0));
+    holds(&desk);
+    assert_eq!(desk.place("line.p1"), (40.0, 30.0));
+    desk.drag("b", &[(120.0, 0.0)]);
+    assert_eq!(desk.place("line.p1"), (60.0, 30.0));
+}
+
+#[test]
 fn a_level_line_stays_level_and_shift_draws_it_free() {
     let mut desk = Desk::of("use geometry\n");
     desk.session.take_tool(desk.id, "Line").expect("a tool");
