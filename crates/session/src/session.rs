@@ -408,8 +408,8 @@ impl Session {
         tools::copies::copied(&self.document(id).state, paths, relations)
     }
     /// Returns copies of what a text says, as a clipboard may hold it; nothing where that is no text of things.
-    pub fn copies_in(&self, text: &str) -> Option<Clip> {
-        tools::copies::read(text, &*self.host)
+    pub fn copies_in(&self, id: DocumentId, text: &str) -> Option<Clip> {
+        tools::copies::read(text, &self.document(id).state.text, &*self.host)
     }
     /// Returns the command that puts copies into a document, so many steps aside from where they were taken, and
     /// what they are called.

@@ -61,8 +61,16 @@ impl Clip {
     }
 }
 
-/// Returns copies of all things of a text; nothing where it is none that says something of things without an error.
-pub(crate) fn read(text: &str, host: &dyn Host) -> Option<Clip> {
+/// Returns copies of all things of a text, which stands alone or uses what another text does that it is a piece of;
+/// nothing where it says nothing of things without an error.
+pub(crate) fn read(text: &str, whole: &str, host: &dyn Host) -> Option<Clip> {
+    read_alone(text, host).or_else(|| {
+        let with_header = header(whole).into_iter().chain([text.to_string()]).collect::<Vec<_>>();
+        read_alone(&with_header.join("\n"), host)
+    })
+}
+
+fn read_alone(text: &str, host: &dyn Host) -> Option<Clip> {
     let open = Open::of("", text.into(), host);
     let state = &open.state;
     let parts = state.structure.parts(DOCUMENT);

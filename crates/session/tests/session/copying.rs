@@ -134,7 +134,7 @@ fn a_copy_is_a_text_that_another_document_can_take() {
     assert!(written.starts_with("use geometry\na: Line {"), "{written}");
     // elsewhere what it uses comes along, once
     let mut other = Desk::of("x: Real = 3\n");
-    let read = other.session.copies_in(&written).expect("it says something of things");
+    let read = other.session.copies_in(other.id, &written).expect("it says something of things");
     let (command, names) = other.session.pasting(other.id, &read, 1).expect("it can stand there");
     assert_eq!(names, ["a", "b"]);
     other.apply(&command).expect("it can be made");
@@ -148,13 +148,21 @@ fn a_copy_is_a_text_that_another_document_can_take() {
     assert_eq!(other.wrong(), []);
     // what says nothing of things is no copy
     for text in ["", "hello world", "use geometry\n", "a: Nonsense\n"] {
-        assert_eq!(other.session.copies_in(text), None, "{text}");
+        assert_eq!(other.session.copies_in(other.id, text), None, "{text}");
     }
+    // a few lines of a text that uses what this one does
+    let lines = "b: Line { p1 = (0, 0)  p2 = (50, 10) }\nconstraint b.length = 60\n";
+    let clip = other.session.copies_in(other.id, lines).expect("they say something of things");
+    let (command, _) = other.session.pasting(other.id, &clip, 1).expect("they can stand here");
+    other.apply(&command).expect("it can be made");
+    assert_eq!(other.wrong(), []);
+    assert!(other.text().contains(".length = 60"), "{}", other.text());
     // a class of the document's own comes along, too
     let desk = Desk::of("use geometry\nclass Strut { line: Line }\ns: Strut\n");
     let clip = desk.session.copied(desk.id, &[at("s")], Relations::Own).expect("it stands alone");
     let mut other = Desk::of("use geometry\n");
-    let read = other.session.copies_in(&clip.written()).expect("it says something of things");
+    let read =
+        other.session.copies_in(other.id, &clip.written()).expect("it says something of things");
     let (command, _) = other.session.pasting(other.id, &read, 1).expect("it can stand there");
     other.apply(&command).expect("it can be made");
     assert_eq!(other.wrong(), []);
@@ -202,7 +210,7 @@ fn copies_of_a_rectangle_are_as_large_as_it_is() {
 /// Pastes all of a text into another, and returns what that is then.
 fn pasted(from: &str, into: &str) -> Desk {
     let mut desk = Desk::of(into);
-    let clip = desk.session.copies_in(from).expect("it says something of things");
+    let clip = desk.session.copies_in(desk.id, from).expect("it says something of things");
     let (command, _) = desk.session.pasting(desk.id, &clip, 0).map_err(|r| r.message).expect("ok");
     desk.apply(&command).expect("it can be pasted");
     holds(&desk);
@@ -233,7 +241,7 @@ fn a_copy_in_a_sheet_of_another_unit_is_as_large() {
 fn what_would_be_of_another_size_in_a_sheet_of_another_unit_is_not_pasted() {
     let desk = Desk::of("use geometry\nunit cm\np: Point = (1, 1)\n");
     let area = format!("{PLATE}wanted: Area = 4000\n");
-    let clip = desk.session.copies_in(&area).expect("it says something of things");
+    let clip = desk.session.copies_in(desk.id, &area).expect("it says something of things");
     let refused =
         desk.session.pasting(desk.id, &clip, 0).map(|_| ()).expect_err("of 4000 mm² 4000 cm²");
     assert_eq!(

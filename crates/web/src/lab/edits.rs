@@ -294,7 +294,7 @@ impl Lab {
             clip.as_ref().is_some_and(|(clip, _)| clip.written().trim() == text.trim())
         });
         if !is_own {
-            match self.ask(|session| session.copies_in(text)) {
+            match self.ask_of_shown(|session, id| session.copies_in(id, text)).flatten() {
                 Some(clip) => self.clip.set(Some((clip, 0))),
                 None => {
                     self.notice.set(Some(Notice::Said(String::from(words::NO_THINGS_COPIED))));
