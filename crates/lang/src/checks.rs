@@ -105,11 +105,12 @@ impl Counted {
             _ => found == self.n,
         }
     }
-    /// Returns whether that so many were found settles it, though there may be more.
-    pub fn holds_for_more(self, found: u64) -> bool {
-        let is_least =
-            matches!(self.operator, BinaryOperator::Greater | BinaryOperator::GreaterEqual);
-        is_least && self.holds(found)
+    /// Returns how many are enough to know, however many more there are.
+    pub fn enough(self) -> u64 {
+        match self.operator {
+            BinaryOperator::Less | BinaryOperator::GreaterEqual => self.n,
+            _ => self.n.saturating_add(1),
+        }
     }
 }
 

@@ -6,7 +6,7 @@ use crate::planner::{Model, Planner};
 use crate::rule::{Body, Condition, Source};
 use crate::task::{Course, Holding, Task};
 use kernel::{SlotId, Values};
-use solve::{Count, Level, Proofs, Rejected, Standing, Step, StepKind, System};
+use solve::{COUNTING, Count, Level, Proofs, Rejected, Standing, Step, StepKind, System};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// One step of a plan, in the document's terms.
@@ -171,8 +171,8 @@ impl Planner {
         self.latest.tasks.iter().flat_map(|t| t.acting(self)).collect()
     }
 
-    /// Counts the solutions of what is searched, with nothing edited and given numbers held; nothing
-    /// where nothing is searched.
+    /// Counts the solutions of what is searched, with nothing edited and given numbers held, until there are
+    /// `enough` or it is too hard; nothing where nothing is searched.
     ///
     /// # Errors
     /// If whole numbers stand among real unknowns: these are not counted.
@@ -180,14 +180,16 @@ impl Planner {
         &mut self,
         model: Model<'_>,
         values: &Values,
+        enough: u64,
     ) -> Result<Option<Count>, Uncountable> {
         self.plan_resting(model.structure);
-        let mut all = None;
+        let mut left = COUNTING;
+        let mut all: Option<Count> = None;
         let mut among_reals = None;
         for task in self.resting() {
             let numbers = task.gather(&values.numbers);
             let one = match (&task.course, task.whole()) {
-                (Course::Search(puzzle), _) => puzzle.count(&numbers),
+                (Course::Search(puzzle), _) => puzzle.count(&numbers, enough, &mut left),
                 (_, None) => continue,
                 (_, Some(whole)) => {
                     let Some(puzzle) = whole.puzzle(self.plans.patterns()) else {
@@ -195,15 +197,10 @@ impl Planner {
                         among_reals = among_reals.or(slot);
                         continue;
                     };
-                    puzzle.count(&numbers)
+                    puzzle.count(&numbers, enough, &mut left)
                 }
             };
-            let Count { solutions, is_complete } =
-                all.unwrap_or(Count { solutions: 1, is_complete: true });
-            all = Some(Count {
-                solutions: solutions.saturating_mul(one.solutions),
-                is_complete: is_complete && one.is_complete,
-            });
+            all = Some(all.map_or(one, |all| all.and(one)));
         }
         // what no rule speaks of may be any of its numbers
         let spoken: BTreeSet<SlotId> =

@@ -15,7 +15,8 @@ use base::{LineIndex, Name};
 use eval::Answer;
 use kernel::{Command, DOCUMENT, Literal, Path, Term};
 use lang::{Check, Expectation, PlanKind, Statement, StatementKind};
-use plan::Plans;
+use plan::{NotDecided, Plans};
+use solve::{COUNTING, Count};
 use std::collections::BTreeSet;
 use std::ops::Range;
 use std::rc::Rc;
@@ -311,21 +312,21 @@ impl Run<'_> {
                 if n.holds(found as u64) { Ok(()) } else { Err(message()) }
             }
             Expectation::Solutions(n) => {
-                let found = self.open.planner.solutions(state.model(), &state.values);
+                let model = state.model();
+                let found = self.open.planner.solutions(model, &state.values, n.enough());
                 let found = found.map_err(|e| {
                     let slot = state.slot_path(e.slot);
                     format!("{slot} stands among real numbers, whose solutions are not counted")
                 })?;
-                let found = found.ok_or("no whole numbers are searched here")?;
-                match (n.holds(found.solutions), found.is_complete) {
-                    (true, true) => Ok(()),
-                    (true, false) if n.holds_for_more(found.solutions) => Ok(()),
-                    (false, true) => Err(format!("{} solutions, not {n}", found.solutions)),
-                    (_, false) => Err(format!(
-                        "not decided: {} solutions were found before the count was given up",
-                        found.solutions
-                    )),
+                let Count { solutions, is_complete } =
+                    found.ok_or("no whole numbers are searched here")?;
+                if !is_complete && solutions < n.enough() {
+                    let bound = words::given_up(NotDecided::Work(COUNTING));
+                    return Err(format!("{bound}, which found {solutions} solutions"));
                 }
+                let at_least = if is_complete { "" } else { "at least " };
+                let message = || format!("{at_least}{solutions} solutions, not {n}");
+                if n.holds(solutions) { Ok(()) } else { Err(message()) }
             }
             Expectation::Plan(kind) => {
                 let found = match self.open.planner.latest_kind() {

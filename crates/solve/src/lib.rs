@@ -136,7 +136,7 @@ pub use pattern::{Pattern, PatternId, Patterns, Scratch};
 pub use plan::{Plan, Rejected, Report, Step, StepKind, plan};
 pub use proof::Proofs;
 pub use run::{Drag, PATIENCE, Runner, are_continuous, forks, leaning, leap, near, others, run};
-pub use search::{Count, Puzzle, Verdict};
+pub use search::{COUNTING, Count, Puzzle, Verdict};
 pub use seldom::Seldom;
 pub use system::{
     Equation, Giver, Level, Method, MethodBody, PLAIN, Relation, RelationBody, Slot, SlotIndex,

@@ -33,8 +33,8 @@ use row::{different, whole_number};
 pub const PATIENCE: u64 = 200_000;
 /// How many more are visited in search of a nearer one.
 pub const IMPROVING: u64 = 5_000;
-/// How many states are visited to count solutions.
-pub const COUNTING: u64 = 2_000_000;
+/// What counting solutions may cost, in multiplications, roughly.
+pub const COUNTING: u64 = 2_000_000_000;
 
 /// What is searched, for any values of what is known.
 #[derive(Debug)]
@@ -89,6 +89,18 @@ pub struct Count {
     pub solutions: u64,
     /// True if there are no others.
     pub is_complete: bool,
+}
+
+impl Count {
+    /// Returns how many there are together of two things that have nothing to do with one another.
+    #[must_use]
+    pub fn and(self, other: Self) -> Self {
+        let is_none = |count: Self| count.is_complete && count.solutions == 0;
+        Self {
+            solutions: self.solutions.saturating_mul(other.solutions),
+            is_complete: self.is_complete && other.is_complete || is_none(self) || is_none(other),
+        }
+    }
 }
 
 impl Puzzle {
@@ -214,17 +226,20 @@ impl Puzzle {
         }
     }
 
-    /// Counts the solutions with given numbers held, as far as [`COUNTING`] states reach.
-    pub fn count(&self, values: &[f64]) -> Count {
+    /// Counts the solutions with given numbers held, until there are `enough` or it has cost what is `left`, which is
+    /// [`COUNTING`] at first.
+    pub fn count(&self, values: &[f64], enough: u64, left: &mut u64) -> Count {
         let none = Count { solutions: 0, is_complete: true };
         let Some(ground) = self.ground(values, values, Given::Held) else { return none };
         let mut field = Field::new(&self.arena, ground.domains, &ground.known);
+        field.most = *left;
         let net = Net::new(self.required.iter().collect(), &mut field);
         if net.settle_all(&mut field).is_err() {
             return none;
         }
-        let mut counting = Counting { solutions: 0 };
+        let mut counting = Counting { solutions: 0, enough };
         let end = explore(&net, &mut field, &ground.near, &mut counting);
+        *left = left.saturating_sub(field.spent);
         Count { solutions: counting.solutions, is_complete: end == End::Exhausted }
     }
 
@@ -458,9 +473,10 @@ impl Visitor for Others<'_> {
     }
 }
 
-/// Counts solutions.
+/// Counts solutions, until there are enough.
 struct Counting {
     solutions: u64,
+    enough: u64,
 }
 
 impl Visitor for Counting {
@@ -469,10 +485,10 @@ impl Visitor for Counting {
     }
     fn found(&mut self, _: &Field<'_>) -> bool {
         self.solutions += 1;
-        true
+        self.solutions < self.enough
     }
-    fn patience(&self, visited: u64) -> u64 {
-        COUNTING.saturating_sub(visited)
+    fn patience(&self, _: u64) -> u64 {
+        u64::MAX
     }
 }
 

@@ -131,6 +131,7 @@ pub(crate) fn explore(
             return End::Bound(visited);
         }
         visited += 1;
+        field.spent += domains.len() as u64;
         field.domains.copy_from_slice(&domains);
         field.shrunk.clear();
         let is_open = field.put(cell, domain).and_then(|()| net.settle_shrunk(field)).is_ok();

@@ -3,8 +3,8 @@
 use base::Dice;
 use expr::{Arena, Binary, ExprId, Unary, Var};
 use solve::{
-    Conditional, Demand, DemandKind, Level, Patterns, Puzzle, Relation, RelationBody, Slot,
-    SlotRange, Span, Stay, Verdict,
+    COUNTING, Conditional, Count, Demand, DemandKind, Level, Patterns, Puzzle, Relation,
+    RelationBody, Slot, SlotRange, Span, Stay, Verdict,
 };
 
 /// Whole numbers from 0 to `most`, of which these expressions are true.
@@ -44,7 +44,7 @@ fn a_contradiction_is_impossible_and_not_merely_undecided() {
     let more = arena.binary(Binary::Less, y, x);
     let puzzle = puzzle(&[KEPT, KEPT], 9, &arena, &[less, more]);
     assert_eq!(puzzle.nearest(&[1.0, 1.0], &[1.0, 1.0]), Verdict::Impossible);
-    let count = puzzle.count(&[1.0, 1.0]);
+    let count = puzzle.count(&[1.0, 1.0], u64::MAX, &mut COUNTING.clone());
     assert_eq!((count.solutions, count.is_complete), (0, true));
 }
 
@@ -104,6 +104,26 @@ fn some_truth(dice: &mut Dice, arena: &mut Arena, depth: u32) -> ExprId {
 }
 
 #[test]
+fn a_count_ends_where_there_are_enough_or_it_is_too_much_work() {
+    let mut arena = Arena::new();
+    let vars = [0, 1, 2].map(|v| arena.var(Var(v)));
+    let less = arena.binary(Binary::LessEqual, vars[0], vars[1]);
+    let also = arena.binary(Binary::LessEqual, vars[1], vars[2]);
+    let puzzle = puzzle(&[KEPT; 3], 99, &arena, &[less, also]);
+    let start = [0.0; 3];
+    let count = |enough, most: u64| puzzle.count(&start, enough, &mut most.clone());
+    // 102 choose 3 ways to place three numbers in order
+    assert_eq!(count(u64::MAX, COUNTING), Count { solutions: 171_700, is_complete: true });
+    assert_eq!(count(2, COUNTING), Count { solutions: 2, is_complete: false });
+    assert_eq!(count(171_701, COUNTING), Count { solutions: 171_700, is_complete: true });
+    let given_up = count(u64::MAX, 100_000);
+    assert!(!given_up.is_complete && given_up.solutions < 171_700, "{given_up:?}");
+    let none = Count { solutions: 0, is_complete: true };
+    assert_eq!(given_up.and(none), none);
+    assert!(!given_up.and(Count { solutions: 2, is_complete: true }).is_complete);
+}
+
+#[test]
 fn the_nearest_and_the_count_are_those_of_trying_everything() {
     let mut dice = Dice::new(7);
     let mut found_some = 0;
@@ -124,7 +144,7 @@ fn the_nearest_and_the_count_are_those_of_trying_everything() {
                 all.push((away, values));
             }
         }
-        let count = puzzle.count(&start);
+        let count = puzzle.count(&start, u64::MAX, &mut COUNTING.clone());
         assert!(count.is_complete);
         assert_eq!(count.solutions, all.len() as u64);
         let least = all.iter().map(|a| a.0).min_by(f64::total_cmp);
