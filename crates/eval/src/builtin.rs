@@ -243,11 +243,10 @@ impl<'a> Evaluator<'a> {
                 finite(joined(terms, add).unwrap_or(0.0), dimension)
             }
             ListMessage::Count | ListMessage::Turns => Ok(Answer::plain(items.len() as f64)),
-            ListMessage::Map => items
-                .iter()
-                .map(|item| self.apply(&arguments[0], std::slice::from_ref(item)))
-                .collect::<Result<_>>()
-                .map(Answer::List),
+            ListMessage::Map => {
+                let each = |item| self.apply(&arguments[0], std::slice::from_ref(item));
+                self.list(items.iter().map(each).collect::<Result<_>>()?)
+            }
             ListMessage::Filter => {
                 let mut kept = Vec::new();
                 for item in items.iter() {
@@ -305,19 +304,17 @@ impl<'a> Evaluator<'a> {
             ListMessage::Max => self.least(&items, Binary::Max),
             ListMessage::Zip => {
                 let others = self.items(&arguments[0])?;
-                Ok(Answer::List(pairs(&items, &others)))
+                self.list(pairs(&items, &others))
             }
-            ListMessage::Neighbours => {
-                Ok(Answer::List(pairs(&items, items.get(1..).unwrap_or_default())))
-            }
+            ListMessage::Neighbours => self.list(pairs(&items, items.get(1..).unwrap_or_default())),
             ListMessage::Union => {
-                let mut all = items.to_vec();
-                for item in self.items(&arguments[0])?.iter() {
-                    if !self.contains(&Answer::List(all.clone().into()), item)? {
+                let mut all = Vec::new();
+                for item in items.iter().chain(self.items(&arguments[0])?.iter()) {
+                    if !self.is_among(&all, item)? {
                         all.push(item.clone());
                     }
                 }
-                Ok(Answer::List(all.into()))
+                self.list(all.into())
             }
             ListMessage::Reversed => Ok(Answer::List(items.iter().rev().cloned().collect())),
             ListMessage::Join => self.join(&items, arguments.first()),

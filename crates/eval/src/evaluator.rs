@@ -229,7 +229,6 @@ impl<'a> Evaluator<'a> {
     pub(crate) fn remembers(&self) -> bool {
         self.may_remember.get()
             && self.most.get().saturating_sub(self.fuel.get()) > LONG
-            && self.left_to_remember.get() > 0
             && self.recording.borrow().is_none()
             && self.drawing.borrow().is_empty()
     }
@@ -293,12 +292,17 @@ impl<'a> Evaluator<'a> {
             Term::Result => self.result(&frame.me, frame.nearest),
             Term::Tuple(items) | Term::List(items) => {
                 let items: Result<_> = items.iter().map(|t| self.term(t, frame)).collect();
-                Ok(Answer::List(items?))
+                self.list(items?)
             }
             Term::Range(from, to) => {
                 let from = self.term(from, frame)?;
                 let to = self.term(to, frame)?;
                 self.range(&from, &to)
+            }
+            Term::Index(list, index) if let Term::Range(from, to) = &**list => {
+                let ends = [self.term(from, frame)?, self.term(to, frame)?];
+                let index = self.term(index, frame)?;
+                self.element_of_range(&ends, &index)
             }
             Term::Index(list, index) => {
                 let list = self.term(list, frame)?;
@@ -397,7 +401,19 @@ impl<'a> Evaluator<'a> {
         if (to - from) as f64 > LONGEST_RANGE {
             return Err(Fault::no_answer(format!("{from}..{to} has more than a million elements")));
         }
+        self.burn_several(u64::try_from(to - from).unwrap_or(0))?;
         Ok(Answer::List((from..=to).map(|i| Answer::plain(i as f64)).collect()))
+    }
+
+    /// Answers an element of a range by itself: that is none of its other elements.
+    fn element_of_range(&self, ends: &[Answer<'a>; 2], index: &Answer<'a>) -> Result<Answer<'a>> {
+        let [from, to, index] = [self.whole(&ends[0])?, self.whole(&ends[1])?, self.whole(index)?];
+        if index < 0 || index > to - from {
+            let n = (to - from + 1).max(0);
+            let message = format!("there is no element {index} in a list of {n}");
+            return Err(Fault::no_answer(message));
+        }
+        Ok(Answer::plain((from + index) as f64))
     }
 
     /// Reads a whole number; one that is off by rounding alone, as 600 mm by 200 mm is, is one.

@@ -7,6 +7,7 @@ use crate::measure;
 use crate::replay::{Binary, Unary, is_marked};
 use expr::dimension::Dimension;
 use kernel::{BinaryOperator, UnaryOperator};
+use std::rc::Rc;
 
 /// Longer texts are not made: each of a row of parts may join the one before to itself.
 const LONGEST_TEXT: usize = 1_000_000;
@@ -147,9 +148,28 @@ impl<'a> Evaluator<'a> {
         Ok(self.order_of(x, y))
     }
 
+    /// Makes a list. The elements of lists in it count as work: a list that stands in it twice is gone through twice.
+    pub(crate) fn list(&self, items: Rc<[Answer<'a>]>) -> Result<Answer<'a>> {
+        self.burn_for_lists(&items)?;
+        Ok(Answer::List(items))
+    }
+
+    fn burn_for_lists(&self, items: &[Answer<'a>]) -> Result<()> {
+        items.iter().try_for_each(|item| {
+            let Answer::List(inner) = item else { return Ok(()) };
+            self.burn_several(inner.len() as u64)?;
+            self.burn_for_lists(inner)
+        })
+    }
+
     /// Returns true if a list or set has an element: a thing by identity, a value by equality.
     pub(crate) fn contains(&self, list: &Answer<'a>, wanted: &Answer<'a>) -> Result<bool> {
-        for item in self.items(list)?.iter() {
+        self.is_among(&self.items(list)?, wanted)
+    }
+
+    /// Returns true if these have an element: a thing by identity, a value by equality.
+    pub(crate) fn is_among(&self, items: &[Answer<'a>], wanted: &Answer<'a>) -> Result<bool> {
+        for item in items {
             self.burn()?;
             let found = match (item, wanted) {
                 (Answer::Thing(a), Answer::Thing(b)) => {

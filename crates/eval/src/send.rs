@@ -137,19 +137,20 @@ impl<'a> Evaluator<'a> {
             }
             return Ok(answer.clone());
         }
+        if self.left_to_remember.get() == 0 {
+            return self.compute(to, message, arguments, nearest);
+        }
         let (before, faults) = (self.fuel.get(), self.faults.borrow().len());
         let (answer, read) = self.listening(|| self.compute(to, message, arguments, nearest));
-        let (cost, size) = (before.saturating_sub(self.fuel.get()), read.len() as u64);
-        let is_value = matches!(
-            answer,
-            Ok(Answer::Number(..) | Answer::Bool(_) | Answer::Option(..) | Answer::Text(_))
-        );
+        let cost = before.saturating_sub(self.fuel.get());
         // a part that went wrong is told each time; what is as soon computed again is not worth it
-        let is_value = is_value && self.faults.borrow().len() == faults;
-        if let (Ok(value), true) = (&answer, is_value && size < cost) {
-            let letters = if let Answer::Text(text) = value { text.len() as u64 } else { 0 };
+        if let Ok(value) = &answer
+            && self.faults.borrow().len() == faults
+            && let Some(size) = size_of(value).map(|n| n + read.len() as u64)
+            && size < cost
+        {
             let left = self.left_to_remember.get();
-            self.left_to_remember.set(left.saturating_sub(1 + size + letters / LETTERS));
+            self.left_to_remember.set(left.saturating_sub(size));
             self.remembered.borrow_mut().insert(key, (value.clone(), read));
         }
         answer
@@ -277,5 +278,16 @@ impl<'a> Evaluator<'a> {
             }
         }
         Ok(Some(Answer::List(all.into())))
+    }
+}
+
+/// Returns how much room a value takes, by the slots that could be remembered in it; nothing for what is made anew each
+/// time.
+fn size_of(answer: &Answer<'_>) -> Option<u64> {
+    match answer {
+        Answer::Number(..) | Answer::Bool(_) | Answer::Option(..) | Answer::Thing(_) => Some(1),
+        Answer::Text(text) => Some(1 + text.len() as u64 / LETTERS),
+        Answer::List(items) => items.iter().try_fold(1, |sum, item| Some(sum + size_of(item)?)),
+        Answer::Made(_) | Answer::Context(_) | Answer::Picture(_) | Answer::Function(_) => None,
     }
 }

@@ -197,8 +197,7 @@ fn lower_statements(
                 let (Some(turns), Some(range)) = (l.turns(scope, each), each.range()) else {
                     continue;
                 };
-                let count = (turns.count as usize).saturating_mul(members.len().max(1));
-                if !l.may_unroll(scope, &range, count) {
+                if !l.may_take(scope, &range, turns.count as usize, &members) {
                     return;
                 }
                 for turn in 0..turns.count {

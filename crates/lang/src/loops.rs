@@ -75,17 +75,28 @@ impl Lowerer<'_> {
         let Some(turns) = self.turns(scope, each) else { return };
         let members = members_of(each);
         let most = turns.count.saturating_sub(from) as usize;
-        let whole = most.saturating_mul(self.fewest(scope, &members));
-        let own = most.saturating_mul(members.len().max(1));
-        // where loops in it make too many, nothing is begun
-        let counted = if self.unrolled.saturating_add(whole) > MOST_MEMBERS { whole } else { own };
-        if !self.may_unroll(scope, &range, counted) {
+        if !self.may_take(scope, &range, most, &members) {
             return;
         }
         for turn in from..turns.count {
             let inner = turn_of(scope, &turns, turn);
             self.take_turn(&inner, each, &members);
         }
+    }
+
+    /// Counts the members of so many turns of a loop, before they are made: where loops in it make too many, nothing is
+    /// begun.
+    pub(crate) fn may_take(
+        &mut self,
+        scope: &Scope,
+        range: &Expr,
+        turns: usize,
+        members: &[Member],
+    ) -> bool {
+        let whole = turns.saturating_mul(self.fewest(scope, members));
+        let own = turns.saturating_mul(members.len().max(1));
+        let counted = if self.unrolled.saturating_add(whole) > MOST_MEMBERS { whole } else { own };
+        self.may_unroll(scope, range, counted)
     }
 
     /// Returns how many members these come to at least: loops in them over what is written out or is a list whose

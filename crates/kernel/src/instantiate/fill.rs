@@ -105,6 +105,9 @@ fn has_room(maker: &mut Maker<'_>, body: &Body, more: usize, origin: OriginId) -
     fits
 }
 
+/// How many things take as much room as the term by which an element of a list is computed.
+const TERM: usize = 5;
+
 fn fill_list<'d>(
     maker: &mut Maker<'d>,
     body: &mut Body,
@@ -120,6 +123,7 @@ fn fill_list<'d>(
         _ => None,
     });
     let given = written.next().unwrap_or(0);
+    let is_computed = given == 0 && bindings.iter().any(|b| b.path.is_empty());
     // a narrower list knows better than where it was declared
     let own = maker.document.classes[body.things[thing].class].count.map(Count::Fixed);
     let count = match own.or_else(|| declared(maker, body, thing)?.1) {
@@ -129,6 +133,9 @@ fn fill_list<'d>(
             given
         }
     };
+    if is_computed {
+        maker.copied = maker.copied.saturating_add(count.saturating_mul(TERM));
+    }
     if is_too_deep(maker, 1, origin) || !has_room(maker, body, count, origin) {
         return 0;
     }

@@ -7,7 +7,7 @@ use crate::class::{ClassId, ClassKind};
 use crate::document::{Document, PartRef};
 use crate::path::{Path, Step};
 use crate::structure::{GivenId, GivenIn, GivenTerm, ThingId};
-use crate::term::Term;
+use crate::term::{Argument, Term};
 use base::Name;
 use std::rc::Rc;
 
@@ -187,6 +187,36 @@ fn has_part(document: &Document, class: ClassId, name: &Name) -> bool {
     })
 }
 
+/// Returns the element of a list that a term makes: of what is made of each, what is made of that one, for the list
+/// would be made anew for every element.
+fn element(list: &Term, i: u32) -> Term {
+    match list {
+        Term::List(items) if (i as usize) < items.len() => items[i as usize].clone(),
+        Term::Send { to, name, arguments, search: None } if name == "map" && is_written(to) => {
+            match &arguments[..] {
+                [Argument { value: Term::Lambda(names, body), .. }] if names.len() == 1 => {
+                    Term::Let(names[0].clone(), Box::new(element(to, i)), body.clone())
+                }
+                _ => element_by_index(list, i),
+            }
+        }
+        _ => element_by_index(list, i),
+    }
+}
+
+fn element_by_index(list: &Term, i: u32) -> Term {
+    Term::Index(Box::new(list.clone()), Box::new(Term::number(f64::from(i))))
+}
+
+/// Returns true for a term that makes a list, whatever the things are that it stands among.
+fn is_written(list: &Term) -> bool {
+    match list {
+        Term::List(_) | Term::Range(..) => true,
+        Term::Send { to, name, .. } => name == "map" && is_written(to),
+        _ => false,
+    }
+}
+
 /// Returns what a part gets of a value for the whole: by position, by name, or by asking for it.
 ///
 /// Fields of a thing have a name, elements of a list have none.
@@ -211,10 +241,7 @@ fn share_of_whole(
             labelled.or_else(positional)?.value.clone()
         }
         (other, Some(name)) => copied(Term::send(other.clone(), name)),
-        (other, None) => {
-            let at = Box::new(Term::number(f64::from(part)));
-            copied(Term::Index(Box::new(other.clone()), at))
-        }
+        (other, None) => copied(element(other, part)),
     };
     let (origin, of_class) = (*origin, *of_class);
     let value = maker.givens.push(GivenTerm { term, origin, of_class, of_copy });
