@@ -5,7 +5,7 @@
 //! has made; then the text is opened, and while a value differs from what the edit came to, one that does is given as
 //! well: one whose class gives it a value, else one that the edit was about, else the first. Given numbers that the
 //! edit left alone and that come to other bits, since they give way whenever the text is opened, are written as they
-//! are. Where the fewer digits do not say the same, all are written. A quantity that nothing decides and that nothing is
+//! are. What is bound to others keeps what it is bound by. Where the fewer digits do not say the same, all are written. A quantity that nothing decides and that nothing is
 //! placed by, as the voltages of a circuit without a ground, is not written: it is what opening the text gives.
 
 use crate::given_twice;
@@ -144,13 +144,11 @@ fn written(
             None if edited.contains(slot) => 1,
             None => 2,
         };
-        let mut missing: Vec<SlotId> =
-            differing(&next, wanted).filter(|&slot| !written.contains(&unit(slot))).collect();
-        // what is bound to others comes of these, where they can be written
-        let is_bound = |slot: &SlotId| state.structure.bound.contains(slot);
-        if !missing.iter().all(is_bound) {
-            missing.retain(|slot| !is_bound(slot));
-        }
+        // what is bound to others comes of these: a number in its place would be the end of what the writer bound it by
+        let is_missing = |slot: &SlotId| {
+            !written.contains(&unit(*slot)) && !state.structure.bound.contains(slot)
+        };
+        let missing: Vec<SlotId> = differing(&next, wanted).filter(is_missing).collect();
         let (mut missing, _) = decided(&next, missing, edited, &mut planner);
         // what is off for want of digits is not to be given: then all digits are written
         if meant.is_some() && !missing.is_empty() && !missing.iter().any(|s| edited.contains(s)) {
