@@ -9,7 +9,7 @@ use crate::state::State;
 use crate::words::{listed, show_thing};
 use crate::write_back::unit_of_writing;
 use base::{Diagnostic, Place};
-use kernel::{DOCUMENT, SlotId, ThingId};
+use kernel::{DOCUMENT, SlotId, ThingId, Values};
 use plan::{Planner, Source};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -49,7 +49,17 @@ pub(crate) fn warnings(state: &State, planner: &Planner) -> Vec<Diagnostic> {
     }
     let slots = state.gave_way.iter().map(|(slot, _)| *slot).collect();
     let behind = planner.behind(&slots);
-    lines.into_values().map(|(place, line)| warning(state, place, &line, &behind)).collect()
+    let given = as_given(state);
+    lines.into_values().map(|(place, line)| warning(state, place, &line, &given, &behind)).collect()
+}
+
+/// Returns the values as they were given, of what is given.
+fn as_given(state: &State) -> Values {
+    let written = eval::given_values(&state.lowered.document, &state.structure).0;
+    let mut values = state.values.clone();
+    let given = state.structure.slots.iter().filter(|(_, slot)| slot.given.is_some());
+    given.for_each(|(slot, _)| values.put(slot, written.get(slot)));
+    values
 }
 
 /// Returns where the document itself speaks of what a slot is given, and whether a class gives it.
@@ -73,15 +83,12 @@ fn warning(
     state: &State,
     place: Place,
     line: &Line,
+    given: &Values,
     behind: &BTreeMap<SlotId, BTreeSet<Source>>,
 ) -> Diagnostic {
-    let mut given = state.values.clone();
-    for (slot, was) in state.gave_way.iter().filter(|(slot, _)| line.slots.contains(slot)) {
-        given.put(*slot, was.clone());
-    }
     let path = |unit| state.structure.path(&state.lowered.document, unit).to_string();
     let told = |&unit: &ThingId| {
-        let was = show_thing(state, unit, &given).unwrap_or_default();
+        let was = show_thing(state, unit, given).unwrap_or_default();
         let is = show_thing(state, unit, &state.values).unwrap_or_default();
         let by = if line.of_class { "by its class" } else { "here" };
         format!("{} is given {by} as {was}, and became {is}", path(unit))
