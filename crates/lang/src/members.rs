@@ -3,6 +3,8 @@
 use crate::counts::{Numbers, has_named_count, whole};
 use crate::kept::Run;
 use crate::kinds::Kind;
+use crate::loops::MOST_MEMBERS;
+
 use crate::lower::{Lowerer, OWN};
 use crate::scope::Scope;
 use base::{Diagnostic, FileId, Name, Place, Span};
@@ -233,13 +235,31 @@ impl Lowerer<'_> {
             _ if is_whole => {
                 let message = "a domain is a range of constants".to_string();
                 let d = Diagnostic::error("not-a-domain", place, message);
-                self.report_whole(d.hint("write `in 0..9`; what depends on parts is a constraint"));
+                let within = match domain {
+                    Expr::List(list) => list.elements().next(),
+                    _ => None,
+                };
+                let d = match within.filter(|e| matches!(e, Expr::Range(_))) {
+                    Some(range) => d.hint(format!("write `in {}`", range.syntax().text())),
+                    None if matches!(domain, Expr::List(_)) => d.hint(format!(
+                        "what is one of several is a rule: `constraint x in {}`",
+                        domain.syntax().text()
+                    )),
+                    None => d.hint("write `in 0..9`; what depends on parts is a constraint"),
+                };
+                self.report_whole(d);
             }
             _ => {
                 let is = Kind::of_class(&self.document, of).words(&self.document);
                 let message = format!("only whole numbers have a domain, this is {is}");
                 let d = Diagnostic::error("not-a-domain", place, message);
-                self.report(d.hint("write a constraint: `0 <= x <= 9`"));
+                let end = |e: Option<Expr>| e.map(|e| e.syntax().text().to_string());
+                let ends = match domain {
+                    Expr::Range(range) => end(range.start()).zip(end(range.end())),
+                    _ => None,
+                };
+                let (low, high) = ends.unwrap_or_else(|| ("0".into(), "9".into()));
+                self.report(d.hint(format!("write a constraint: `{low} <= x <= {high}`")));
             }
         }
         None
@@ -321,7 +341,13 @@ impl Lowerer<'_> {
             return self.broken.extend(part.names().map(|w| (scope.class(), w.name())));
         };
         self.warn_of_turns(scope, part, &ty);
-        let count = self.declared_count(scope, &ty);
+        let count = match (self.declared_count(scope, &ty), part.value().and_then(ast::Value::expr))
+        {
+            (Some(Count::Given), Some(value)) => {
+                Some(self.count_of_range(scope, &value).map_or(Count::Given, Count::Fixed))
+            }
+            (count, _) => count,
+        };
         let body = part.body();
         let of_elements = body.clone().filter(|_| matches!(ty.shape(), TypeShape::List { .. }));
         let range = part.domain().and_then(|d| self.domain(scope, &d, class));
@@ -366,6 +392,27 @@ impl Lowerer<'_> {
                 let pending = Pending::Value { scope, prefix, target: None, value };
                 self.pending.push(pending);
             }
+        }
+    }
+
+    /// Returns how many elements a range of constants has, or what is made of each of it or of a list.
+    fn count_of_range(&mut self, scope: &Scope, value: &Expr) -> Option<u32> {
+        match value {
+            Expr::Paren(inner) => self.count_of_range(scope, &inner.inner()?),
+            Expr::Range(_) => {
+                let (low, high) = self.constant_range(scope, value)?;
+                let count = high.saturating_sub(low).saturating_add(1);
+                u32::try_from(count.max(0)).ok().filter(|&n| n as usize <= MOST_MEMBERS)
+            }
+            Expr::Field(sent)
+                if sent.args().is_some() && sent.name().is_some_and(|w| w.text() == "map") =>
+            {
+                match sent.receiver()? {
+                    Expr::List(list) => Some(list.elements().count() as u32),
+                    other => self.count_of_range(scope, &other),
+                }
+            }
+            _ => None,
         }
     }
 
