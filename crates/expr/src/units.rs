@@ -57,6 +57,8 @@ pub const NAMED_UNITS: &[NamedUnit] = &[
     lone("in", "inch", scaled(Dimension::LENGTH, 254.0, -4)),
     lone("inch", "inch", scaled(Dimension::LENGTH, 254.0, -4)),
     lone("ft", "foot", scaled(Dimension::LENGTH, 3048.0, -4)),
+    // the point of typesetting by computer: 72 make an inch
+    lone("pt", "point", scaled(Dimension::LENGTH, 0.0254 / 72.0, 0)),
     lone("yd", "yard", scaled(Dimension::LENGTH, 9144.0, -4)),
     lone("mi", "mile", scaled(Dimension::LENGTH, 1_609_344.0, -3)),
     lone("nmi", "nautical mile", scaled(Dimension::LENGTH, 1852.0, 0)),
@@ -239,6 +241,11 @@ pub fn spellings() -> impl Iterator<Item = &'static str> {
     NAMED_UNITS.iter().map(|named| named.spelling)
 }
 
+/// Returns true for a prefix of SI that is no unit.
+pub fn is_prefix(word: &str) -> bool {
+    unit(word).is_none() && PREFIXES.iter().any(|(prefix, ..)| *prefix == word)
+}
+
 /// Returns the spellings that somebody can have meant by a word that is no unit, none of another magnitude.
 ///
 /// Names in words, plurals, other cases of the letters, factors without `*`; and a slip in a word of three
@@ -271,8 +278,8 @@ pub fn meant(word: &str) -> Vec<String> {
         found
     };
     let lower = word.to_lowercase();
-    // a thousand of what is not said
-    if word == "k" {
+    // so many thousands or millionths of what is not said
+    if is_prefix(word) {
         return Vec::new();
     }
     let in_words = prefixed(&|prefix, prefix_name, named| {

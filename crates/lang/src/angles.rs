@@ -69,23 +69,29 @@ impl Lowerer<'_> {
         }
     }
 
-    /// Warns of `f: Frequency = 80 rpm`: turns are counted as angles, and 80 1/min was perhaps meant.
+    /// Warns of `f: Frequency = 80 rpm` and of `300 rad/s`: turns are counted as angles, and how often something comes
+    /// was perhaps meant.
     pub(crate) fn warn_of_turns(&mut self, scope: &Scope, part: &Part, class: &Type) {
         let TypeShape::Named(words) = class.shape() else { return };
         let is_frequency = words.last().is_some_and(|word| word.text() == "Frequency");
         let Some(Expr::Number(number)) = part.value().and_then(Value::expr) else { return };
-        let is_of_turns = number.unit().is_some_and(|unit| unit.text() == "rpm");
-        if !is_frequency || !is_of_turns || scope.file != OWN || self.silent > 0 {
+        let Some((digits, unit)) = number.digits().zip(number.unit()) else { return };
+        if !is_frequency || !is_of_angles(unit.text()) || scope.file != OWN || self.silent > 0 {
             return;
         }
         let place = Place { file: scope.file, span: number.span() };
-        let Some(digits) = number.digits() else { return };
-        let (rpm, often) = (number.syntax().text().to_string(), format!("{} 1/min", digits.text()));
-        let message = format!("{rpm} is an angular velocity: so many turns of 2π in a minute");
+        let written = number.syntax().text().to_string();
+        let measured = "how fast something turns is an `AngularVelocity`";
+        if unit.text() != "rpm" {
+            let message = format!("{written} is an angular velocity: a turn of it is 2π, not one");
+            let d = Diagnostic::warning("turns-as-frequency", place, message);
+            return self
+                .report(d.hint(format!("{measured}; how often it comes is `w / (2 * pi)`")));
+        }
+        let often = format!("{} 1/min", digits.text());
+        let message = format!("{written} is an angular velocity: so many turns of 2π in a minute");
         let d = Diagnostic::warning("turns-as-frequency", place, message);
-        let hint = format!(
-            "how often something comes is `{often}`; how fast something turns is an `AngularVelocity`"
-        );
+        let hint = format!("how often something comes is `{often}`; {measured}");
         self.report(d.hint(hint).fix(format!("write {often}"), [(place, often)]));
     }
 

@@ -233,6 +233,13 @@ impl Lowerer<'_> {
                 d.hint(format!("a unit belongs to the number before it alone: write `{number}`"))
                     .fix(format!("write {number}"), [(place, number)])
             }
+            (Kind::List(_), Kind::List(_), Expr::List(list))
+                if let Some(Expr::Range(range)) = list.elements().next() =>
+            {
+                let range = range.syntax().text().to_string();
+                d.hint(format!("a range is a list by itself: `{range}`"))
+                    .fix(format!("write {range}"), [(place, range)])
+            }
             (Kind::Number(_), Kind::Text | Kind::Color, Expr::Number(_)) => {
                 let quoted = format!("\"{written}\"");
                 d.hint(format!("a text stands in quotes: `{quoted}`"))
@@ -297,7 +304,7 @@ impl Lowerer<'_> {
         let range = span.start as usize..span.end as usize;
         let written = self.files[scope.file].text.get(range).unwrap_or_default().trim();
         let is_name = |text: &str| text.chars().all(|c| c.is_alphanumeric() || "_.".contains(c));
-        self.report(match (found, wanted) {
+        self.report_whole(match (found, wanted) {
             (Kind::List(_), Kind::Number(_)) if is_name(written) => d.hint(format!(
                 "one of its elements is `{written}[0]`, what is made of each `{written}.map(x => 2 * x)`"
             )),
@@ -503,6 +510,8 @@ pub(crate) fn called_otherwise(word: &str) -> Option<&'static str> {
         "atn" | "arctan" | "arctg" => "write `atan(x)`",
         "tg" => "write `tan(x)`",
         "degrees" | "radians" | "toRadians" => "an angle is in radians; `30 deg` says degrees",
+        "even" | "odd" | "isEven" | "is_even" => "a number is even where `n mod 2 = 0`",
+        "rect" | "box" => "a box is drawn by `rectangle((0, 0), (3, 2))`, from corner to corner",
         "sum" | "total" => "a sum is `a + b`, of a list `[a, b].sum`",
         "ceiling" => "write `ceil(x)`",
         "trunc" | "int" => "write `floor(x)` or `round(x)`",
@@ -554,7 +563,7 @@ pub(crate) fn called_otherwise(word: &str) -> Option<&'static str> {
 }
 
 /// Returns true for `2026-01-31` and `10/2026`: three numbers, or two with a year, and one sort of sign between them.
-fn is_date(written: &str) -> bool {
+pub(crate) fn is_date(written: &str) -> bool {
     let is_of = |sign: char| {
         let fields: Vec<&str> = written.split(sign).collect();
         let is_dated =
@@ -692,6 +701,11 @@ pub(crate) fn unknown_unit(place: Place, spelling: &str) -> Diagnostic {
             return d.hint("a rule under a condition is `constraint if x > 3 { y = 1 }`");
         }
         "elif" | "elseif" => return d.hint("write `else if`"),
+        prefix @ ("n" | "p" | "u" | "µ" | "M" | "G") => {
+            return d.hint(format!(
+                "`{prefix}` stands before a unit: `{prefix}m`, `{prefix}F`, `{prefix}V`"
+            ));
+        }
         "x" | "X" => {
             return d.hint("a product has its sign: `3 * 10^8`; a power of ten is `3e8`, too");
         }

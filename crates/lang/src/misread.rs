@@ -1,13 +1,17 @@
-//! Numbers that their writer may have meant otherwise: each is a warning, for what is written is allowed.
+//! Numbers that their writer may have meant otherwise: each is a warning, for what is written is allowed, but for a root
+//! that measures nothing.
 //!
 //! In: expressions. Out: warnings of `1/4 turn`, which is 1 over 4 turns; of `x^1/2`, half of x; of `pi() * d * n`, where
-//! n turns in radians; of degrees that are taken as radians, and of hertz as radians in a second.
+//! n turns in radians; of degrees that are taken as radians, of hertz as radians in a second, of dates that are
+//! differences, and of chains of `!=`.
 
 use crate::angles::{ANGLE, UNITS};
+use crate::kinds::Kind;
 use crate::lower::{Lowerer, OWN};
 use crate::scope::Scope;
 use base::{Diagnostic, Place};
-use syntax::ast::{AstNode, BinaryExpr, BinaryOp, Expr, NumberExpr};
+use expr::dimension::Dimension;
+use syntax::ast::{AstNode, BinaryExpr, BinaryOp, ChainExpr, Expr, NumberExpr};
 
 /// The class of what turns.
 const TURNING: &str = "AngularVelocity";
@@ -23,9 +27,10 @@ impl Lowerer<'_> {
             Some(BinaryOp::Divide) => fraction(binary).or_else(|| root(binary)),
             _ => None,
         };
-        let told = told.map(|(meaning, hint)| {
-            ("fraction", format!("{} is {meaning}", binary.syntax().text()), hint)
-        });
+        let written = binary.syntax().text().to_string();
+        let told = told
+            .map(|(meaning, hint)| ("fraction", format!("{written} is {meaning}"), hint))
+            .or_else(|| date(binary, &written));
         if let Some((code, message, hint)) = told.or_else(|| self.turns_by_pi(scope, binary)) {
             self.report(Diagnostic::warning(code, place, message).hint(hint));
         }
@@ -53,6 +58,61 @@ impl Lowerer<'_> {
             let place = Place { file: scope.file, span: value.span() };
             self.report(Diagnostic::warning(code, place, message).hint(hint));
         }
+    }
+
+    /// Warns of `a != b != c`, which compares neighbours alone.
+    pub(crate) fn warn_of_unequals(&mut self, scope: &Scope, chain: &ChainExpr) {
+        let operands: Vec<String> =
+            chain.operands().map(|e| e.syntax().text().to_string()).collect();
+        let ([first, _, .., last], OWN, 0) = (&operands[..], scope.file, self.silent) else {
+            return;
+        };
+        if operands.len() < 3 {
+            return;
+        }
+        let place = Place { file: scope.file, span: chain.span() };
+        let message = format!("a chain compares neighbours alone: {first} and {last} may be equal");
+        let all = operands.join(", ");
+        let d = Diagnostic::warning("unequal-neighbours", place, message);
+        self.report(d.hint(format!("that no two are equal is `allDifferent({all})`")));
+    }
+
+    /// Reports a root or another power by a fraction that measures nothing, as that of a mass does: what it is given to
+    /// could not be checked. One that is a factor may meet another. Returns true where it was reported.
+    pub(crate) fn is_uneven_root(
+        &mut self,
+        scope: &Scope,
+        operand: &Expr,
+        (kind, exponent): (&Kind, f64),
+    ) -> bool {
+        let Kind::Number(Some(dimension)) = kind else { return false };
+        let is_whole =
+            |e: &i8| (f64::from(*e) * exponent - (f64::from(*e) * exponent).round()).abs() < 1e-9;
+        // lengths of a sheet are plain numbers to many a program
+        let is_of_length = *dimension == Dimension::LENGTH.power(dimension.0[0]);
+        if dimension.0.iter().all(is_whole) || is_of_length {
+            return false;
+        }
+        let mut around = operand.syntax().ancestors().skip(1).filter_map(Expr::cast);
+        let is_root = |e: &Expr| matches!(e, Expr::Call(_) | Expr::Binary(_));
+        let Some(root) = around.find(is_root) else { return false };
+        let is_factor = match around.find(|e| !matches!(e, Expr::Paren(_))) {
+            Some(Expr::Binary(around)) => {
+                is_product(&around) || around.op() == Some(BinaryOp::Power)
+            }
+            _ => false,
+        };
+        if is_factor {
+            return false;
+        }
+        let place = Place { file: scope.file, span: root.span() };
+        let measured = kind.words(&self.document);
+        let written = operand.syntax().text();
+        let message =
+            format!("a root of {measured} measures nothing: its powers are no whole ones");
+        let d = Diagnostic::error("dimension-mismatch", place, message);
+        self.report(d.hint(format!("look whether each factor of `{written}` has its unit")));
+        true
     }
 
     /// `pi() * d * n`, where n is an angular velocity: told of the whole product.
@@ -94,6 +154,19 @@ fn fraction(quotient: &BinaryExpr) -> Option<(String, String)> {
     let hint =
         format!("a unit belongs to the number before it alone: write `{above} {unit} / {below}`");
     is_tight.then(|| (format!("{above} divided by {below} {unit}"), hint))
+}
+
+/// `2026-01-15`: a date that is a difference.
+fn date(binary: &BinaryExpr, written: &str) -> Option<(&'static str, String, String)> {
+    let is_one = binary.op() == Some(BinaryOp::Subtract)
+        && written.matches('-').count() == 2
+        && written.split('-').next().is_some_and(|year| year.len() == 4)
+        && crate::hints::is_date(written);
+    let message = format!("{written} is a difference of three numbers here");
+    let hint = format!(
+        "a date is a text, `\"{written}\"`, or three numbers, of which days are counted; a difference has spaces"
+    );
+    is_one.then_some(("date", message, hint))
 }
 
 /// `x^1/2`: what it is, and what is written for the root.

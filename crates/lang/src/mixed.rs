@@ -58,7 +58,18 @@ impl Lowered {
     /// Returns where the text first gives a length without a unit, or a check sets one, if it does.
     fn first_bare_length(&self) -> Option<Place> {
         let givens = self.document.classes.iter().flat_map(|(_, class)| &class.givens);
-        let mut bare = givens.filter(|g| self.place(g.origin).file == OWN && has_bare(&g.value));
+        let is_unknown = |at: Place| {
+            let mut known = self.diagnostics.iter();
+            known.any(|d| {
+                d.code == "unknown-unit"
+                    && d.place.file == OWN
+                    && at.span.join(d.place.span) == at.span
+            })
+        };
+        let mut bare = givens.filter(|g| {
+            let place = self.place(g.origin);
+            place.file == OWN && has_bare(&g.value) && !is_unknown(place)
+        });
         let statements = self.checks.iter().flat_map(|check| &check.statements);
         let mut set = statements.filter(|statement| sets_bare(&statement.kind));
         let given = bare.next().map(|g| self.place(g.origin));

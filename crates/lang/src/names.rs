@@ -5,7 +5,7 @@ use crate::kinds::Kind;
 use crate::lower::{Lowered, Lowerer, OWN};
 use crate::members::{Definition, FOR, FOR_AS_VALUE};
 use crate::scope::{Constant, Element, Scope};
-use base::{Diagnostic, FileId, Name, Place};
+use base::{Diagnostic, FileId, Name, Place, Span};
 use kernel::builtin;
 use kernel::{ClassId, ClassKind, Document, PartRef, PartRole, Path, Step, Term};
 use syntax::SyntaxKind;
@@ -143,11 +143,37 @@ impl Lowerer<'_> {
         let message = format!("{name} is a function: `{name}({})`", takes.join(", "));
         let place = Place { file: scope.file, span: word.span() };
         let d = Diagnostic::error("wrong-arity", place, message);
+        if let Some((operands, rest)) = self.operands_behind(place) {
+            // what stands behind it was told as what begins no member
+            let is_it = |d: &Diagnostic| d.code == "expected-member" && d.place.span.start == rest;
+            self.diagnostics.retain(|d| !(d.place.file == place.file && is_it(d)));
+            self.report(d.hint(format!("write `{name}({})`", operands.join(", "))));
+            return None;
+        }
         self.report(match per_unit(word) {
             Some(hint) => d.hint(hint),
             None => d,
         });
         None
+    }
+
+    /// Returns the names and numbers that stand behind a word without brackets, and where they begin: `max a b`.
+    fn operands_behind(&self, place: Place) -> Option<(Vec<String>, u32)> {
+        let rest = self.files[place.file].text.get(place.span.end as usize..)?;
+        let line = rest.lines().next()?;
+        let is_operand = |word: &&str| {
+            word.chars().all(|c| c.is_alphanumeric() || c == '_' || c == '.')
+                && !matches!(*word, "then" | "else" | "and" | "or" | "in" | "is" | "mod")
+        };
+        let operands: Vec<String> = line
+            .split(' ')
+            .filter(|w| !w.is_empty())
+            .take_while(is_operand)
+            .map(Into::into)
+            .collect();
+        let spaces = line.len() - line.trim_start_matches(' ').len();
+        let start = place.span.end + u32::try_from(spaces).ok()?;
+        (!operands.is_empty()).then_some((operands, start))
     }
 
     /// Returns the class of what a variable of `for` stands for, or of what is declared in a loop.
@@ -218,6 +244,17 @@ impl Lowerer<'_> {
             };
             d = d.hint(hint).fix(format!("write {power}"), [(place, power)]);
         } else if let Some(hint) = per_unit(word) {
+            d = d.hint(hint);
+        } else if let Some((brackets, hint)) = bracketed_unit(word) {
+            // all of it is one mistake
+            let is_told = |known: &Diagnostic| {
+                known.code == "unknown-name"
+                    && known.place.file == scope.file
+                    && brackets.join(known.place.span) == brackets
+            };
+            if self.diagnostics.iter().any(is_told) {
+                return;
+            }
             d = d.hint(hint);
         } else if let Some(hint) = self.known_elsewhere(scope, word) {
             d = d.hint(hint);
@@ -674,6 +711,23 @@ fn per_unit(word: &ast::Word) -> Option<String> {
         None => format!("1/{unit}"),
     };
     Some(format!("a unit stands behind its number: `{} {unit}`", digits.text()))
+}
+
+/// Says how `0.35 W/(m^2*K)` is written, of a word in its brackets; with where these are.
+fn bracketed_unit(word: &ast::Word) -> Option<(Span, String)> {
+    let mut around = word.token.parent()?.ancestors();
+    let brackets = around.find_map(ast::ParenExpr::cast)?;
+    let quotient = ast::BinaryExpr::cast(brackets.syntax().parent()?)?;
+    let (Some(BinaryOp::Divide), Expr::Number(number)) = (quotient.op(), quotient.left()?) else {
+        return None;
+    };
+    let (digits, unit) = (number.digits()?, number.unit()?);
+    let inner = brackets.inner()?.syntax().text().to_string();
+    let below: String = inner.split('*').map(|factor| format!("/{}", factor.trim())).collect();
+    let written = format!("{}{below}", unit.text());
+    expr::units::read_quantity(digits.text(), &written)?;
+    let hint = format!("a unit has no brackets: `{} {written}`", digits.text());
+    Some((brackets.span(), hint))
 }
 
 /// Returns a count of arguments in words.

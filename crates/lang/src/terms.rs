@@ -72,6 +72,11 @@ impl Lowerer<'_> {
                 self.refer_by_position(scope.file, &left, &b.1);
                 self.refer_by_position(scope.file, &right, &a.1);
                 self.warn_of_misreading(scope, binary);
+                if let (BinaryOp::Power, Term::Number { value, .. }) = (op, &b.0)
+                    && self.is_uneven_root(scope, &left, (&a.1, *value))
+                {
+                    return None;
+                }
                 if operator_of(op).is_some_and(BinaryOperator::is_comparison) {
                     self.warn_of_bare_angles(scope, &[left, right]);
                 }
@@ -540,6 +545,9 @@ impl Lowerer<'_> {
             let found = self.expr_wanting(scope, &operand, &before)?;
             before = found.1.clone();
             terms.push((found, operand.span()));
+        }
+        if chain.ops().all(|(op, _)| op == BinaryOp::NotEqual) {
+            self.warn_of_unequals(scope, chain);
         }
         let mut links = Vec::new();
         for ((op, _), pair) in chain.ops().zip(terms.windows(2)) {

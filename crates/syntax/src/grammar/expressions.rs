@@ -384,7 +384,8 @@ fn begins_next_member(p: &Parser<'_>) -> bool {
 /// What begins with a name: `all C`, `copy of x`, `f(…)`, `x`.
 fn named(p: &mut Parser<'_>) -> u32 {
     match p.word(0) {
-        "all" if p.nth(1) == Ident && !p.line_ended(1) => {
+        // `set all to 3`: a part of this name
+        "all" if p.nth(1) == Ident && !p.line_ended(1) && !p.at_word(1, "to") => {
             p.start(AllExpr);
             p.bump_keyword();
             class_name(p);
@@ -568,7 +569,8 @@ pub(super) fn conditional_rest(p: &mut Parser<'_>, start: Checkpoint) -> u32 {
         p.bump();
         height = operators(p, Power::Or);
     } else {
-        let hint = is_call.then(|| "a value is chosen by `if c then a else b`".to_string());
+        let hint = (is_call || p.at(Colon))
+            .then(|| "a value is chosen by `if c then a else b`".to_string());
         p.expected_hint("expected-then", "`then`", hint);
     }
     if p.at(ElseKw) {

@@ -49,8 +49,8 @@ pub(super) fn of_member(p: &mut Parser<'_>) -> bool {
         || prefixed_text(p)
 }
 
-/// `= 3, 4`, where what is given is a place or a list
-fn several_values(p: &mut Parser<'_>) -> bool {
+/// `= 3, 4`, where what is given is a place or a list: returns true where it was reported.
+pub(super) fn several_values(p: &mut Parser<'_>) -> bool {
     let is_one = p.at(Comma)
         && !p.begins_line(0)
         && matches!(p.behind(1), Number | Unit | Text)

@@ -148,6 +148,10 @@ fn targets(p: &mut Parser<'_>) {
             expression(p);
         } else {
             into(p, "to", expression);
+            while mistakes::several_values(p) {
+                p.bump();
+                expression(p);
+            }
         }
         p.finish();
         if !p.eat(Comma) {
@@ -197,7 +201,14 @@ pub(super) fn conditional(p: &mut Parser<'_>, scope: Scope) -> bool {
     p.start_documented(If);
     p.bump();
     expression(p);
-    branches(p, scope);
+    if p.at(ElseKw) {
+        // `x: Real = 1 if c else 2`
+        let hint = "a value is chosen by `if c then a else b`".to_string();
+        p.expected_hint("expected-body", "a body in `{ }`", Some(hint));
+        p.skip_line();
+    } else {
+        branches(p, scope);
+    }
     p.finish();
     true
 }

@@ -2,8 +2,8 @@
 
 use super::MEMBER;
 use crate::kind::SyntaxKind::{
-    AndKw, Colon, Eof, Eq, FatArrow, Greater, GreaterEq, Ident, LBrace, LParen, Less, LessEq,
-    RParen, Text,
+    AndKw, Colon, Comma, Eof, Eq, FatArrow, Greater, GreaterEq, Ident, LBrace, LParen, Less,
+    LessEq, RParen, Text,
 };
 use crate::parser::Parser;
 
@@ -21,33 +21,61 @@ pub(in crate::grammar) fn called_member(p: &mut Parser<'_>) -> bool {
         p.report_mistake((at, at), said, None);
         return true;
     }
+    if parameters_without_class(p) {
+        return true;
+    }
     let is_one = p.nth(1) == LParen
         && matches!(p.nth(2), Ident | Text)
         && p.nth(3) == RParen
         && !p.begins_line(1);
-    let is_defined = p.nth(2) == Ident && matches!(p.nth(4), Eq | FatArrow) && !p.begins_line(4);
     let ends = p.begins_line(4) || p.nth(4) == Eof;
-    if !is_one || !is_defined && !ends {
+    if !is_one || !ends {
         return calls(p);
     }
     let (first, last) = (p.pos(), p.line_end());
     let (name, of) = (p.word(0), p.word(2));
-    let said = match is_defined {
-        true => (
-            "expected-class",
-            format!("found `{name}({of})`, wanted the parameter's class"),
-            format!("write `{name}({of}: Real) => {}`", p.text_between(first + 5, last)),
+    let said = (
+        "expected-member",
+        format!("found `{name}({of})`, wanted {MEMBER}"),
+        format!(
+            "nothing is called for what it does: `thinglab run` shows what `{of}` is; a rule is `constraint …`"
         ),
-        false => (
-            "expected-member",
-            format!("found `{name}({of})`, wanted {MEMBER}"),
-            format!(
-                "nothing is called for what it does: `thinglab run` shows what `{of}` is; a rule is `constraint …`"
-            ),
-        ),
-    };
+    );
     p.report_mistake((first, last), said, None);
     true
+}
+
+/// `f(x) = x^2`, `f(x, y) => x + y`
+fn parameters_without_class(p: &mut Parser<'_>) -> bool {
+    let mut end = 2;
+    while p.nth(end) == Ident && p.nth(end + 1) == Comma {
+        end += 2;
+    }
+    let is_one = p.nth(1) == LParen
+        && !p.begins_line(1)
+        && p.nth(end) == Ident
+        && p.nth(end + 1) == RParen
+        && matches!(p.nth(end + 2), Eq | FatArrow)
+        && !p.begins_line(end + 2);
+    if is_one {
+        let (first, last) = (p.pos(), p.line_end());
+        let name = p.word(0);
+        let names: Vec<&str> = (2..=end).step_by(2).map(|n| p.word(n)).collect();
+        let classed: Vec<String> = names.iter().map(|n| format!("{n}: Real")).collect();
+        let whose =
+            if names.len() == 1 { "the parameter's class" } else { "the parameters' classes" };
+        let said = (
+            "expected-class",
+            format!("found `{name}({})`, wanted {whose}", names.join(", ")),
+            format!(
+                "write `{name}({}) => {}`",
+                classed.join(", "),
+                p.text_between(first + end + 3, last)
+            ),
+        );
+        p.report_mistake((first, last), said, None);
+    }
+    is_one
 }
 
 /// `cube([10, 20, 30])`, `connect(r1.b, r2.a)`, `minimize (x - 3)^2`: what no parameters stand in the brackets of.

@@ -34,6 +34,9 @@ fn word(p: &Parser<'_>) -> Option<String> {
     let next = p.word(1);
     let is_named = p.nth(1) == Ident;
     Some(match p.word(0) {
+        "from" if p.nth(1) == Number && p.at_word(2, "to") && !p.begins_line(0) => {
+            format!("a range of whole numbers is `in {next}..{}`", p.word(3))
+        }
         "import" | "include" | "require" | "using" if is_named => {
             format!("a library is brought by its name: `use {next}`")
         }

@@ -144,7 +144,13 @@ pub(in crate::grammar) fn implied_product(p: &mut Parser<'_>) -> bool {
         let said = (
             "implied-product",
             format!("found a number before `{}`, wanted an operator between them", p.word(0)),
-            format!("write `{number} * {factor}`"),
+            match factor {
+                // prefixes of SI that stand alone in many a list of parts
+                "n" | "p" | "u" | "µ" | "M" | "G" => format!(
+                    "write `{number} * {factor}`; a prefix stands before its unit: `{number} {factor}F`"
+                ),
+                _ => format!("write `{number} * {factor}`"),
+            },
         );
         p.report_mistake((at - 1, at), said, fix);
     }
