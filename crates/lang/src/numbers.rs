@@ -128,6 +128,9 @@ pub fn read_literal(
     if let Some(Primitive::Text | Primitive::Color) = primitive {
         return Ok(Literal::Text(typed.to_string()));
     }
+    if let (Some(Primitive::Bool), Some(truth)) = (primitive, yes_or_no(typed)) {
+        return Ok(Literal::Bool(truth));
+    }
     let in_full = match primitive {
         Some(Primitive::Real(dimension)) => with_unit_of_prefix(typed.trim(), dimension),
         _ => None,
@@ -227,6 +230,15 @@ pub fn unit_typed(typed: &str, class: ClassId, document: &Document) -> Option<Na
     let parse = syntax::parse_expression(OWN, in_full.as_deref().unwrap_or(typed.trim()));
     let unit = unit_of(&parse.file().expression()?)?;
     (!is_of_the_sheet(dimension)).then_some(unit)
+}
+
+/// Returns what `yes` and `no` say, as people answer a question.
+fn yes_or_no(typed: &str) -> Option<bool> {
+    match typed.trim().to_lowercase().as_str() {
+        "yes" => Some(true),
+        "no" => Some(false),
+        _ => None,
+    }
 }
 
 /// Returns `8.5 mm` for `8,5 mm`.

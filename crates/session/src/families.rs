@@ -285,6 +285,10 @@ fn read_table(
             let typed = with_unit(document, class, cell, unit);
             match literal(document, class, &typed) {
                 Ok(value) => {
+                    let typed = match &value {
+                        Literal::Bool(truth) => truth.to_string(),
+                        _ => typed,
+                    };
                     row.values.push((column.clone(), value));
                     row.written.push((column.clone(), typed));
                 }

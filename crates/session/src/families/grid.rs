@@ -173,7 +173,12 @@ fn cell_text(
     let class = class_of(state, program, parameter).ok_or_else(none)?;
     let value = literal(document, class, text);
     let value = value.map_err(|message| words::refuse(format!("{parameter}: {message}")))?;
-    Ok(if let Literal::Text(said) = &value { quoted(said) } else { text.trim().into() })
+    Ok(match &value {
+        Literal::Text(said) => quoted(said),
+        // `yes` is typed, and no word of the language
+        Literal::Bool(truth) => truth.to_string(),
+        _ => text.trim().into(),
+    })
 }
 
 /// Puts the rows of a family, or its table, in the place of those that stand there.

@@ -333,3 +333,25 @@ family Tags of Tag { rows: (\"T 1\", false, 6 mm) }
     }
     assert!(desk.text().contains("circle = Circle(center: Point(3, 4), radius: 2)"));
 }
+
+#[test]
+fn yes_and_no_are_said_of_a_cell_and_of_a_parameter() {
+    let mut desk = Desk::of(
+        "use geometry
+unit mm
+program Tag(is_round: Bool = true, d: Length = 5 mm) { c = Circle(Point(0, 0), d) }
+family Tags of Tag { rows: (\"T 1\", true, 6 mm) }
+tag: Tag
+",
+    );
+    let cell = |desk: &mut Desk, column, typed: &str| {
+        desk.session.set_family_cell(desk.id, "Tags", (0, Some(column)), typed)
+    };
+    cell(&mut desk, "is_round", "No").expect("it is an answer");
+    assert!(desk.text().contains("(\"T 1\", false, 6 mm)"), "{}", desk.text());
+    let values = [("is_round".to_string(), "no".to_string())];
+    desk.session.set_parameters(desk.id, "tag", &values).expect("it is an answer");
+    assert!(desk.text().contains("is_round = false"), "{}", desk.text());
+    let wrong = cell(&mut desk, "d", "8,5").expect_err("it has a comma").message;
+    assert_eq!(wrong, "d: `8,5` is no value; the tenths of a number stand after a point: `8.5`");
+}
