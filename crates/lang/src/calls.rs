@@ -416,9 +416,8 @@ impl Lowerer<'_> {
                 _ => arg.value,
             };
             bound.push(Argument { label: arg.label.map(|w| w.name()), value });
-            if b.result == Builtin::Root && self.is_uneven_root(scope, &arg.expr, (&arg.kind, 0.5))
-            {
-                return None;
+            if b.result == Builtin::Root {
+                self.warn_of_uneven_root(scope, &arg.expr, (&arg.kind, 0.5));
             }
             answers = arg.answers;
             first = Some(first.map_or(arg.kind.clone(), |known| known.joined(arg.kind)));

@@ -1,9 +1,8 @@
-//! Numbers that their writer may have meant otherwise: each is a warning, for what is written is allowed, but for a root
-//! that measures nothing.
+//! Numbers that their writer may have meant otherwise: each is a warning, for what is written is allowed.
 //!
 //! In: expressions. Out: warnings of `1/4 turn`, which is 1 over 4 turns; of `x^1/2`, half of x; of `pi() * d * n`, where
 //! n turns in radians; of degrees that are taken as radians, of hertz as radians in a second, of dates that are
-//! differences, and of chains of `!=`.
+//! differences, of roots that measure nothing, and of chains of `!=`.
 
 use crate::angles::{ANGLE, UNITS};
 use crate::kinds::Kind;
@@ -77,42 +76,43 @@ impl Lowerer<'_> {
         self.report(d.hint(format!("that no two are equal is `allDifferent({all})`")));
     }
 
-    /// Reports a root or another power by a fraction that measures nothing, as that of a mass does: what it is given to
-    /// could not be checked. One that is a factor may meet another. Returns true where it was reported.
-    pub(crate) fn is_uneven_root(
+    /// Warns of a root or another power by a fraction that measures nothing, as that of a mass does: what it is given to
+    /// cannot be checked. One that is a factor, or a sum in one, may meet another.
+    pub(crate) fn warn_of_uneven_root(
         &mut self,
         scope: &Scope,
         operand: &Expr,
         (kind, exponent): (&Kind, f64),
-    ) -> bool {
-        let Kind::Number(Some(dimension)) = kind else { return false };
+    ) {
+        let Kind::Number(Some(dimension)) = kind else { return };
         let is_whole =
             |e: &i8| (f64::from(*e) * exponent - (f64::from(*e) * exponent).round()).abs() < 1e-9;
         // lengths of a sheet are plain numbers to many a program
         let is_of_length = *dimension == Dimension::LENGTH.power(dimension.0[0]);
-        if dimension.0.iter().all(is_whole) || is_of_length {
-            return false;
+        if dimension.0.iter().all(is_whole) || is_of_length || scope.file != OWN || self.silent > 0
+        {
+            return;
         }
         let mut around = operand.syntax().ancestors().skip(1).filter_map(Expr::cast);
         let is_root = |e: &Expr| matches!(e, Expr::Call(_) | Expr::Binary(_));
-        let Some(root) = around.find(is_root) else { return false };
-        let is_factor = match around.find(|e| !matches!(e, Expr::Paren(_))) {
-            Some(Expr::Binary(around)) => {
-                is_product(&around) || around.op() == Some(BinaryOp::Power)
-            }
+        let Some(root) = around.find(is_root) else { return };
+        let is_sum = |e: &Expr| match e {
+            Expr::Paren(_) => true,
+            Expr::Binary(sum) => matches!(sum.op(), Some(BinaryOp::Add | BinaryOp::Subtract)),
             _ => false,
         };
-        if is_factor {
-            return false;
+        if let Some(Expr::Binary(around)) = around.find(|e| !is_sum(e))
+            && (is_product(&around) || around.op() == Some(BinaryOp::Power))
+        {
+            return;
         }
         let place = Place { file: scope.file, span: root.span() };
         let measured = kind.words(&self.document);
-        let written = operand.syntax().text();
         let message =
             format!("a root of {measured} measures nothing: its powers are no whole ones");
-        let d = Diagnostic::error("dimension-mismatch", place, message);
-        self.report(d.hint(format!("look whether each factor of `{written}` has its unit")));
-        true
+        let hint =
+            format!("look whether each factor of `{}` has its unit", operand.syntax().text());
+        self.report(Diagnostic::warning("uneven-root", place, message).hint(hint));
     }
 
     /// `pi() * d * n`, where n is an angular velocity: told of the whole product.

@@ -72,10 +72,8 @@ impl Lowerer<'_> {
                 self.refer_by_position(scope.file, &left, &b.1);
                 self.refer_by_position(scope.file, &right, &a.1);
                 self.warn_of_misreading(scope, binary);
-                if let (BinaryOp::Power, Term::Number { value, .. }) = (op, &b.0)
-                    && self.is_uneven_root(scope, &left, (&a.1, *value))
-                {
-                    return None;
+                if let (BinaryOp::Power, Term::Number { value, .. }) = (op, &b.0) {
+                    self.warn_of_uneven_root(scope, &left, (&a.1, *value));
                 }
                 if operator_of(op).is_some_and(BinaryOperator::is_comparison) {
                     self.warn_of_bare_angles(scope, &[left, right]);

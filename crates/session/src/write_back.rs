@@ -1,12 +1,13 @@
 //! Writing back: the values that an edit came to, as the fewest changes of the text.
 //!
-//! In: a state, and the values after an edit. Out: the text whose state has these values. Given
-//! numbers that changed are rewritten where they stand, after what is done by hand without digits that only computing
-//! has made; then the text is opened, and while a value differs from what the edit came to, one that does is given as
-//! well: one whose class gives it a value, else one that the edit was about, else the first. Given numbers that the
-//! edit left alone and that come to other bits, since they give way whenever the text is opened, are written as they
-//! are. What is bound to others keeps what it is bound by. Where the fewer digits do not say the same, all are written. A quantity that nothing decides and that nothing is
-//! placed by, as the voltages of a circuit without a ground, is not written: it is what opening the text gives.
+//! In: a state, and the values after an edit. Out: the text whose state has these values. Given numbers that changed
+//! are rewritten where they stand, after what is done by hand without digits that only computing has made; then the
+//! text is opened, and while a value differs from what the edit came to, one that does is given as well: one whose
+//! class gives it a value, else one that the edit was about, else the first. Given numbers that the edit left alone and
+//! that come to other bits, since they give way whenever the text is opened, are written as they are. What is bound to
+//! others keeps what it is bound by. Where the fewer digits do not say the same, all are written. A quantity that
+//! nothing decides and that nothing is placed by, as the voltages of a circuit without a ground, is not written: it is
+//! what opening the text gives.
 
 use crate::given_twice;
 use crate::host::Host;

@@ -47,6 +47,9 @@ pub(crate) fn warnings(state: &State, planner: &Planner) -> Vec<Diagnostic> {
         line.of_class &= of_class;
         line.slots.insert(slot);
     }
+    if lines.is_empty() {
+        return Vec::new();
+    }
     let slots = state.gave_way.iter().map(|(slot, _)| *slot).collect();
     let behind = planner.behind(&slots);
     let given = as_given(state);
