@@ -2,7 +2,7 @@
 //! computes the bits that the same session computes natively.
 
 use browser::Visit;
-use browser::hands::{chord, drag, grip, show, state};
+use browser::hands::{carry, chord, drag, grip, show, state};
 use serde_json::Value;
 use session::{Host, Session, parse_path};
 use std::path::{Path, PathBuf};
@@ -49,6 +49,17 @@ async fn a_corner_is_dragged_and_taken_back() {
     }
     let text = after["text"].as_str().expect("a text");
     assert!(text.contains("outer.side2.p2 = ("), "the corner is written: {text}");
+
+    // taken back while it is still in the hand, it is this drag that is
+    let (x, y) = grip(&after, "q.outer.side1.p1");
+    carry(&visit, (x, y), (x + 30.0, y + 20.0)).await;
+    visit.until("window.__thinglab.state().dragging").await;
+    chord(&visit, &[CONTROL], 'z').await;
+    visit.until("!window.__thinglab.state().dragging").await;
+    visit.client.release_actions().await.expect("the button is let go");
+    let held = state(&visit).await;
+    assert_eq!(held["text"], after["text"]);
+    assert_eq!(held["values"], after["values"]);
 
     chord(&visit, &[CONTROL], 'z').await;
     visit.until("window.__thinglab.state().status.redo != null").await;
