@@ -298,11 +298,15 @@ pub async fn stop_by_keys(visit: &Visit, word: &str) {
 /// Brings the keyboard by Tab to an element, as an expression of `at` tells it, and presses a key there.
 ///
 /// # Panics
-/// Where Tab does not lead there.
+/// Where Tab does not lead there, or something lies over the element.
 pub async fn press_by_keys(visit: &Visit, element: &str, pressed: char) {
+    let seen = "(at => { const r = at.getBoundingClientRect(); \
+                return at.contains(document.elementFromPoint(r.left + r.width / 2, r.top + r.height / 2)); \
+                })(document.activeElement)";
     for _ in 0..80 {
         let here = format!("return Boolean((at => {element})(document.activeElement))");
         if visit.script(&here).await == true {
+            visit.until(seen).await;
             return chord(visit, &[], pressed).await;
         }
         chord(visit, &[], key::TAB).await;

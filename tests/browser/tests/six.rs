@@ -442,8 +442,11 @@ async fn a_quadrilateral_of_midpoints_is_drawn_by_the_keyboard_alone() {
 }
 
 #[tokio::test]
-async fn a_rhombus_becomes_a_class_by_the_keyboard_alone() {
+async fn a_rhombus_becomes_a_class_by_the_keyboard_alone_at_200_percent() {
     let visit = begin().await;
+    // a window of 1440 pixels at 200 % is one of half the width, and half the height under the browser's own bars
+    visit.client.set_window_size(720, 590).await.expect("such a window");
+    visit.until("window.innerWidth === 720").await;
     draw_ring_by_keys(&visit, CORNERS).await;
     chord(&visit, &[], key::ESCAPE).await;
     choose_by_keys(&visit, &["line", "line2", "line3", "line4"]).await;
