@@ -357,7 +357,7 @@ impl<'a> Evaluator<'a> {
                 }
                 PictureMessage::Centered => anchor(element, Anchoring::Center),
                 PictureMessage::Away => {
-                    away.into_iter().for_each(|from| anchor(element, Anchoring::Away(from)))
+                    away.into_iter().for_each(|from| anchor(element, Anchoring::Away(from)));
                 }
             }
         }

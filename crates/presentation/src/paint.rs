@@ -26,9 +26,7 @@ mod note;
 mod reach;
 
 use crate::sheet::View;
-use drawing::{
-    Anchoring, Color, Drawing, Element, Layer, Lie, Line, Placement, Point, Shape, Style, Vertical,
-};
+use drawing::{Anchoring, Color, Drawing, Element, Layer, Line, Placement, Point, Shape, Style};
 pub(crate) use note::note;
 use reach::Reach;
 use session::view::{Caught, Freedom, MovedView, PictureView, Velocity};
@@ -45,7 +43,7 @@ pub struct DisplayList {
     /// The colours that the document names; they are numbered after the page's own.
     pub colors: Vec<String>,
     /// Which way `y` runs on the sheet.
-    vertical: Vertical,
+    vertical: drawing::Vertical,
     /// The numbers of the latest style: what has the same follows in one path.
     style: Option<[f64; 5]>,
 }
@@ -570,7 +568,7 @@ fn shape(list: &mut DisplayList, shape: &Shape) {
         Shape::Text { at, text, anchoring, placement, turn } => {
             let word = list.words.len() as f64;
             list.words.push(text.clone());
-            let lie = Lie { at: *at, turn: *turn, vertical: list.vertical };
+            let lie = drawing::Lie { at: *at, turn: *turn, vertical: list.vertical };
             let (right, down) = anchoring.held(text, 1.0, lie);
             let anchoring = match anchoring {
                 Anchoring::Start => 0.0,
