@@ -430,6 +430,13 @@ impl Said {
         }
         let class = match new.class.trim() {
             "" => class_of_example(state, &example).map_err(|why| or_a_text(why, &example))?,
+            // a number said anew for a place was meant as one before: `8,4`
+            class if !new.instead_of.trim().is_empty() && !keeps_example => {
+                let of_example = class_of_example(state, &example).ok();
+                let is_place = |class: &str| class == "Point";
+                let other = of_example.filter(|other| is_place(other) != is_place(class));
+                other.unwrap_or_else(|| class.into())
+            }
             class => class.into(),
         };
         if is_text && !keeps_example && class_of_example(state, &example).is_err() {

@@ -544,3 +544,18 @@ fn a_count_in_the_quotient_of_a_length_becomes_one() {
     assert_eq!(refused.message, "either a or b is a count: define which");
     assert!(desk.text().contains("    a: Length = 3,\n    b: Length = 4,\n"), "{}", desk.text());
 }
+
+#[test]
+fn a_decimal_comma_that_made_a_place_is_said_anew_as_a_number() {
+    let mut desk = Desk::recording("Washer", &[("inner", "8,4")]);
+    assert!(desk.text().contains("inner: Point = Point(8, 4)"), "{}", desk.text());
+    let new = NewParameter {
+        name: "inner".into(),
+        class: "Point".into(),
+        example: "8.4".into(),
+        instead_of: "inner".into(),
+        ..NewParameter::default()
+    };
+    desk.session.define_parameter(desk.id, &new).expect("nothing speaks of it");
+    assert!(desk.text().contains("inner: Length = 8.4"), "{}", desk.text());
+}

@@ -66,8 +66,9 @@ pub fn Define(
     let other = Memo::new(move |_| new.with(|n| n.instead_of.clone()));
     let is_other = Memo::new(move |_| other.with(|name| !name.is_empty()));
     Effect::new(move |_| folded.set(is_drawn.get()));
+    // one that was refused and folded since may be changed again
     Effect::new(move |_| {
-        if other.with(|name| !name.is_empty()) {
+        if new.with(|n| !n.instead_of.is_empty()) {
             folded.set(false);
         }
     });
