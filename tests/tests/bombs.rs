@@ -268,28 +268,6 @@ fn what_is_huge_is_refused_before_it_is_made() {
             Anything,
         ),
         (
-            "lists of lists that double",
-            "x0 => [1, 2]\n".to_string()
-                + &lines(20, |i| format!("x{} => x{i}.map(v => [v, v])", i + 1))
-                + &lines(20, |i| format!("x{} => [x{i}, x{i}]", i + 21)),
-            Anything,
-        ),
-        (
-            "a list within a list that doubles",
-            "x0 => [1, 2]\n".to_string()
-                + &lines(60, |i| format!("x{} => x{i}.map(v => [v, v])", i + 1)),
-            Anything,
-        ),
-        (
-            "loops of a check that double",
-            format!(
-                "x: Real\ncheck \"c\" {{ {}expect x = 0{} }}\n",
-                "for i in 0..1 { ".repeat(40),
-                " }".repeat(40)
-            ),
-            Error("too-many-members"),
-        ),
-        (
             "a sum of many values that is asked for again and again",
             "xs: List of 2000 Real\ntotal => xs.sum\nouter => (1..900000).map(i => total).sum\n\
              whole => (1..60000).map(i => i).sum + outer\n"
@@ -326,6 +304,34 @@ fn what_is_huge_is_refused_before_it_is_made() {
         ),
         ("a name without end", format!("{}: Real = 3\n", "n".repeat(300_000)), Holds),
         ("sums of texts", format!("t: Text = {}\"y\"\n", "\"x\" + ".repeat(400)), Holds),
+    ]);
+}
+
+#[test]
+fn what_doubles_from_line_to_line_ends_early() {
+    assert_as_said(vec![
+        (
+            "lists of lists that double",
+            "x0 => [1, 2]\n".to_string()
+                + &lines(20, |i| format!("x{} => x{i}.map(v => [v, v])", i + 1))
+                + &lines(20, |i| format!("x{} => [x{i}, x{i}]", i + 21)),
+            Anything,
+        ),
+        (
+            "a list within a list that doubles",
+            "x0 => [1, 2]\n".to_string()
+                + &lines(60, |i| format!("x{} => x{i}.map(v => [v, v])", i + 1)),
+            Anything,
+        ),
+        (
+            "loops of a check that double",
+            format!(
+                "x: Real\ncheck \"c\" {{ {}expect x = 0{} }}\n",
+                "for i in 0..1 { ".repeat(40),
+                " }".repeat(40)
+            ),
+            Error("too-many-members"),
+        ),
     ]);
 }
 

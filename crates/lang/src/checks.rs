@@ -9,7 +9,7 @@ use crate::lower::{Lowerer, OWN};
 use crate::paths::loose_path;
 use crate::scope::Scope;
 use crate::terms::operator_of;
-use base::{Name, Span};
+use base::{Diagnostic, Name, Place, Span};
 use kernel::{BinaryOperator, ClassId, Command, Literal, Path, Step, Term};
 use std::rc::Rc;
 use syntax::SyntaxKind;
@@ -173,6 +173,11 @@ fn lower_check(l: &mut Lowerer<'_>, check: &ast::Check) -> Check {
         let one = std::slice::from_ref(member);
         lower_statements(l, &mut scope, one, (&mut lowered, &mut restructured));
         lowered.iter_mut().skip(before).for_each(|s: &mut Statement| s.whole = whole);
+    }
+    if let (Some(name), true) = (check.name(), statements.is_empty()) {
+        let place = Place { file: OWN, span: name.span() };
+        let d = Diagnostic::warning("nothing-expected", place, "nothing is expected in this check");
+        l.report(d.hint("what is to be true is expected: `expect x = 3`; `x = 3` gives a value"));
     }
     Check {
         title: check.name().map(|w| w.unquoted()).unwrap_or_default(),

@@ -240,6 +240,22 @@ impl Lowerer<'_> {
                 d.hint(format!("a range is a list by itself: `{range}`"))
                     .fix(format!("write {range}"), [(place, range)])
             }
+            (Kind::Number(Some(dimension)), Kind::Thing(class), Expr::Number(_)) => {
+                let measures = |field: &PartRef| {
+                    let of = self.document.field_class(*field);
+                    Kind::of_class(&self.document, of) == Kind::Number(Some(*dimension))
+                };
+                let mut parts = self.document.layout(*class).into_iter().filter(measures);
+                match (parts.next(), parts.next()) {
+                    (Some(part), None) => {
+                        let name = self.document.field_name(part);
+                        d.hint(format!(
+                            "its parts have their values in a body: `{{ {name} = {written} }}`"
+                        ))
+                    }
+                    _ => d,
+                }
+            }
             (Kind::Number(_), Kind::Text | Kind::Color, Expr::Number(_)) => {
                 let quoted = format!("\"{written}\"");
                 d.hint(format!("a text stands in quotes: `{quoted}`"))

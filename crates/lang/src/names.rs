@@ -469,19 +469,18 @@ impl Lowerer<'_> {
     /// Returns the names of the parts and messages of a class.
     pub(crate) fn names_of(&self, class: ClassId) -> Vec<String> {
         let document = &self.document;
+        let lineage: Vec<ClassId> = document.lineage(class);
+        // what every thing answers is not worth a word
+        let classes =
+            || lineage.iter().map(|&c| &document.classes[c]).filter(|c| !c.supers.is_empty());
         let mut names: Vec<String> = Vec::new();
-        for c in document.lineage(class) {
-            let c = &document.classes[c];
-            // what every thing answers is not worth a word
-            if c.supers.is_empty() {
-                continue;
-            }
+        for c in classes() {
             let supers = c.supers.iter().filter(|s| !s.name.is_empty());
             names.extend(supers.map(|s| s.name.to_string()));
             names.extend(c.parts.iter().map(|p| p.name.to_string()));
-            names
-                .extend(c.messages.iter().filter(|m| !m.is_of_class()).map(|m| m.name.to_string()));
         }
+        let messages = classes().flat_map(|c| &c.messages).filter(|m| !m.is_of_class());
+        names.extend(messages.map(|m| m.name.to_string()));
         let mut known = std::collections::BTreeSet::new();
         names.retain(|name| known.insert(name.clone()));
         names

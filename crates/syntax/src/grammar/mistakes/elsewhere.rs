@@ -3,7 +3,7 @@
 use super::MEMBER;
 use crate::kind::SyntaxKind;
 use crate::kind::SyntaxKind::{
-    Caret, Colon, Comma, Eof, Eq, FatArrow, Greater, GreaterEq, Ident, LBrace, LParen, Less,
+    AndKw, Caret, Colon, Comma, Eof, Eq, FatArrow, Greater, GreaterEq, Ident, LBrace, LParen, Less,
     LessEq, Minus, NotEq, NotKw, Number, Plus, RBrace, RParen, Semicolon, Slash, Star, Text, Unit,
 };
 use crate::parser::Parser;
@@ -11,7 +11,7 @@ use crate::units::follows_operand;
 
 /// Reports what begins no member as the word or sign of another language; returns false where it is none that is known.
 pub(super) fn of_member(p: &mut Parser<'_>) -> bool {
-    if let Some(hint) = sign(p).or_else(|| word(p)) {
+    if let Some(hint) = word_for_sign(p).or_else(|| sign(p)).or_else(|| word(p)) {
         let at = p.pos();
         let message = format!("found `{}`, wanted {MEMBER}", p.word(0));
         p.report_mistake((at, at), ("expected-member", message, hint), None);
@@ -228,6 +228,28 @@ fn sign(p: &Parser<'_>) -> Option<String> {
         _ => return None,
     };
     Some(hint)
+}
+
+/// `5 % per year`, `3 m x 4 m`, `x between 1 and 3`: words that stand for a sign.
+fn word_for_sign(p: &Parser<'_>) -> Option<String> {
+    let before = |n: usize| p.text_between(p.pos().saturating_sub(n), p.pos().saturating_sub(n));
+    Some(match p.current() {
+        Ident if before(1) == "%" && p.word(0) == "per" => {
+            format!("a unit is divided without spaces: `{} %/{}`", before(2), p.word(1))
+        }
+        Ident if p.word(0) == "x" && p.behind(1) == Unit && p.nth(1) == Number => {
+            let (one, other) =
+                (p.quoted(p.pos() - 2, p.pos() - 1), p.quoted(p.pos() + 1, p.line_end()));
+            format!("a product has its sign: `{one} * {other}`")
+        }
+        Ident
+            if p.word(0) == "between"
+                && (p.nth(1), p.nth(2), p.nth(3)) == (Number, AndKw, Number) =>
+        {
+            format!("write `{} <= {} <= {}`", p.word(1), before(1), p.word(3))
+        }
+        _ => return None,
+    })
 }
 
 /// `<>`, `=<`: what it is, what is written for it, and the hint.
