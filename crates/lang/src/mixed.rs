@@ -8,6 +8,7 @@ use crate::lower::{Lowered, OWN};
 use base::{Diagnostic, Place};
 use expr::dimension::Dimension;
 use kernel::Term;
+use std::collections::BTreeSet;
 use syntax::ast::{AstNode, NumberExpr};
 
 /// The code of the warning.
@@ -58,14 +59,11 @@ impl Lowered {
     /// Returns where the text first gives a length without a unit, or a check sets one, if it does.
     fn first_bare_length(&self) -> Option<Place> {
         let givens = self.document.classes.iter().flat_map(|(_, class)| &class.givens);
-        let is_unknown = |at: Place| {
-            let mut known = self.diagnostics.iter();
-            known.any(|d| {
-                d.code == "unknown-unit"
-                    && d.place.file == OWN
-                    && at.span.join(d.place.span) == at.span
-            })
-        };
+        // a length whose unit is unknown has one
+        let unknown = self.diagnostics.iter().filter(|d| d.code == "unknown-unit");
+        let unknown: BTreeSet<u32> =
+            unknown.filter(|d| d.place.file == OWN).map(|d| d.place.span.start).collect();
+        let is_unknown = |at: Place| unknown.range(at.span.start..at.span.end).next().is_some();
         let mut bare = givens.filter(|g| {
             let place = self.place(g.origin);
             place.file == OWN && has_bare(&g.value) && !is_unknown(place)
