@@ -267,10 +267,10 @@ pub fn meant(word: &str) -> Vec<String> {
         let mut found: Vec<String> = Vec::new();
         for (prefix, prefix_name) in prefixes() {
             for named in NAMED_UNITS.iter().filter(|n| prefix.is_empty() || n.is_prefixed) {
-                let spelling = format!("{prefix}{}", named.spelling);
-                // the unit without a prefix may stand for it
-                if unit(&spelling).is_some() && with(prefix, prefix_name, named) {
-                    found.push(spelling);
+                if with(prefix, prefix_name, named) {
+                    let spelling = format!("{prefix}{}", named.spelling);
+                    // the unit without a prefix may stand for it
+                    found.extend(unit(&spelling).is_some().then_some(spelling));
                 }
             }
         }
