@@ -186,7 +186,6 @@ fn operands_of(value: &Expr, named: &Named) -> Vec<(String, Expr)> {
 }
 
 /// The elements of a list that a class is given first, and what else it is given by a label: `Spline([start, Point(w, 0)])`.
-#[expect(clippy::type_complexity, reason = "what is said and how it is called")]
 fn places_first(
     list: &syntax::ast::ArgList,
 ) -> Option<(impl Iterator<Item = Expr> + use<>, Vec<(String, Expr)>)> {
