@@ -478,8 +478,7 @@ fn of_each(state: &State, (opened, first): (&Opened, &str), answer: &str) -> Opt
     opened.it.in_turn(first).filter(|_| answer == of_second)
 }
 
-/// Answers the open question by what is typed. Nothing takes how far on the last place was for all places left of the
-/// step.
+/// Answers the open question by what is typed; nothing takes how far on the last place was, for all of the step.
 ///
 /// # Errors
 /// Nothing is typed and no place was said to be further on; the answer does not fit.
