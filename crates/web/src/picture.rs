@@ -215,10 +215,10 @@ fn keep_painted(
         is_due.set_value(false);
         let begun = js::now();
         painter.with_value(|painter| {
-            let painter = painter.as_ref()?;
-            last.try_update_value(|last| {
-                paint_lists(lab, painter, size.get_untracked(), (lists, last))
-            })
+            if let Some(painter) = painter {
+                let size = size.get_untracked();
+                last.update_value(|last| paint_lists(lab, painter, size, (lists, last)));
+            }
         });
         lab.painted_in.set_value(js::now() - begun);
     };
