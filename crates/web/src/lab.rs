@@ -279,8 +279,9 @@ pub enum Zoom {
     Seen,
     /// Everything in sight and a good part of it, after a length was typed, unless a person has looked elsewhere.
     Sized,
-    /// Everything in sight, if it was before a change, as this box tells: moved no further than it must be.
-    Kept(drawing::Bounds),
+    /// Everything in sight, if it was before a change, as this box tells: moved no further than it must be. Else, where
+    /// that is asked, as [`Zoom::Seen`].
+    Kept(drawing::Bounds, bool),
     /// As [`Zoom::Seen`], and what hangs over a side is moved into sight, never larger, unless a person has looked elsewhere.
     Within,
     /// A box of the sheet in sight, unless it is: moved no further than it must be, and never larger.

@@ -453,8 +453,8 @@ fn zoom_as_asked(lab: Lab, size: (f64, f64), left: StoredValue<Option<Left>>) {
                 look(lab, lab.view.get_untracked().zoomed(GOOD_PART, room.middle()));
             }
         }
-        Zoom::Kept(before) if keep(lab, before, size, left) => {}
-        Zoom::Seen | Zoom::Sized | Zoom::Within | Zoom::Kept(_) => {
+        Zoom::Kept(before, or_lost) if keep(lab, before, size, left) || !or_lost => {}
+        Zoom::Seen | Zoom::Sized | Zoom::Within | Zoom::Kept(..) => {
             let view = lab.view.get_untracked();
             let Some(drawn) = lab.drawn_box() else { return };
             if view.loses(drawn, size) {

@@ -250,7 +250,7 @@ fn Scrub(
             && lab.dragging.with_untracked(Option::is_some)
         {
             lab.release();
-            lab.keep_in_sight(drawn.get_value());
+            lab.keep_in_sight(drawn.get_value(), true);
         }
     };
     view! {
@@ -331,7 +331,7 @@ pub fn Slider(
         if pressed.try_update_value(std::mem::take) == Some(true) {
             lab.release();
             // while the hand holds it the picture stays where it is
-            lab.keep_in_sight(drawn.get_value());
+            lab.keep_in_sight(drawn.get_value(), true);
         }
         if let Some(to) = counted.try_update_value(Option::take).flatten() {
             let said = path.with_untracked(|path| lab.set_typed(path, &to.to_string()));

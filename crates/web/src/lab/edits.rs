@@ -84,13 +84,14 @@ impl Lab {
         })
     }
 
-    /// Brings what is drawn into sight where a change has made it reach out of it, if all of it was in sight before.
-    pub fn keep_in_sight(self, before: Option<Bounds>) {
+    /// Brings what is drawn into sight where a change has made it reach out of it, if all of it was in sight before, or
+    /// where it lies outside or is too small to see, if that is asked.
+    pub fn keep_in_sight(self, before: Option<Bounds>, or_lost: bool) {
         if let Some(before) = before
             && self.drawn_box() != Some(before)
             && self.zoom.with_untracked(|zoom| !matches!(zoom, Some(Zoom::Fit)))
         {
-            self.zoom.set(Some(Zoom::Kept(before)));
+            self.zoom.set(Some(Zoom::Kept(before, or_lost)));
         }
     }
 
@@ -105,7 +106,7 @@ impl Lab {
         // who has looked elsewhere is shown no more than what has left the sight
         let is_asked = match self.zoom.get_untracked() {
             Some(Zoom::Fit) => true,
-            Some(Zoom::Kept(_)) => self.looked.get_value(),
+            Some(Zoom::Kept(..)) => self.looked.get_value(),
             Some(Zoom::Seen | Zoom::Sized | Zoom::Within | Zoom::Over(_) | Zoom::By(_)) | None => {
                 false
             }
@@ -461,7 +462,8 @@ impl Lab {
                     let zoom = if self.fits.get_value() { Zoom::Fit } else { Zoom::Seen };
                     self.zoom.set(Some(zoom));
                 }
-                self.keep_in_sight(before);
+                // what is drawn step by step may begin small
+                self.keep_in_sight(before, change.structure);
                 if change.unit.is_some() {
                     self.look_at_size();
                 }
