@@ -23,10 +23,16 @@ if (isPage) {
   if (given) tabs.postMessage({ renewed: given })
 }
 
-// The token: this tab's, or that of another tab that answers within a moment.
+// Another tab answers as soon as it has its turn: one that opens a large document may take its time.
+const ANSWER_MS = 3000
+let asked
+
+// The token: this tab's, or that of another tab.
 function token() {
-  const own = sessionStorage.getItem(KEY)
-  if (own) return own
+  return sessionStorage.getItem(KEY) || (asked ??= askTabs().finally(() => (asked = undefined)))
+}
+
+function askTabs() {
   return new Promise((resolve) => {
     const asking = new BroadcastChannel(KEY)
     const done = (answer) => {
@@ -38,7 +44,7 @@ function token() {
       if (data?.token) done(data.token)
     }
     asking.postMessage("ask")
-    setTimeout(() => done(""), 500)
+    setTimeout(() => done(""), ANSWER_MS)
   })
 }
 
