@@ -10,12 +10,11 @@ use leptos::prelude::*;
 use session::view::Refusal;
 use session::{Command, Path, Session, parse_path};
 
-const FIGURE: &str = "use geometry
-a: Line = Line(Point(0, 0), Point(4, 0))
-b: Line = Line(Point(4, 0), Point(4, 3))
-c: Point = (9, 9)
-merge b.p1 = a.p2
-constraint b.length = 3
+/// It uses no library, which would take longer to read than all the rest.
+const DOCUMENT: &str = "a: Real = 1
+b: Real = 2
+c: Real = 4
+constraint b = 2 * a
 ";
 
 impl Lab {
@@ -29,25 +28,25 @@ impl Lab {
         }
     }
 
-    /// Opens a figure, drags one of its points, joins two and takes that back; the page has its turn between.
+    /// Opens a document, drags one of its numbers, joins two and takes that back; the page has its turn between.
     ///
     /// # Errors
     /// Why something of it could not be done.
     async fn rehearse(self) -> Result<(), Refusal> {
         let mut session = Session::new(Box::new(Files(self.files)));
-        let mut opening = session.begin_opening("", FIGURE);
+        let mut opening = session.begin_opening("", DOCUMENT);
         while !opening.is_over() {
             opening = session.go_on_opening(opening);
             self.rest().await;
         }
         let id = session.end_opening(opening);
-        let [end, free]: [Path; 2] = ["b.p2", "c"].map(|path| parse_path(path).unwrap_or_default());
-        session.press_all(id, std::slice::from_ref(&end))?;
-        session.drag(id, (5.0, 4.0));
+        let [one, other]: [Path; 2] = ["a", "c"].map(|path| parse_path(path).unwrap_or_default());
+        session.press_all(id, std::slice::from_ref(&one))?;
+        session.drag(id, (5.0, 0.0));
         self.rest().await;
         session.release(id)?;
         self.rest().await;
-        session.apply(id, &Command::Merge(vec![end, free]))?;
+        session.apply(id, &Command::Merge(vec![one, other]))?;
         self.rest().await;
         session.apply(id, &Command::Undo)?;
         Ok(())
