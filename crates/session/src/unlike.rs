@@ -8,7 +8,7 @@ use crate::state::State;
 use crate::words::show_thing;
 use crate::yielding;
 use base::number::ROUNDING;
-use base::{Diagnostic, Place};
+use base::{Diagnostic, IdVec, Place};
 use eval::Answer;
 use kernel::{Class, GivenTerm, Path, SlotId, Structure, Term, ThingId, Value};
 use std::collections::{BTreeMap, BTreeSet};
@@ -36,9 +36,10 @@ struct Line {
 pub(crate) fn warnings(state: &State) -> Vec<Diagnostic> {
     let structure = &state.structure;
     let mut lines: BTreeMap<(u32, u32, ThingId), (Place, Line)> = BTreeMap::new();
+    let mut anchored: IdVec<ThingId, bool> = IdVec::filled(false, structure.things.len());
     let anchors = structure.stays.iter().filter(|stay| stay.strength.is_none());
-    let anchored: BTreeSet<ThingId> = anchors.map(|stay| stay.thing).collect();
-    let is_anchored = |thing: ThingId| around(structure, thing).any(|t| anchored.contains(&t));
+    anchors.for_each(|stay| anchored[stay.thing] = true);
+    let is_anchored = |thing: ThingId| around(structure, thing).any(|t| anchored[t]);
     let is_own = |(term, _): (&GivenTerm, ThingId)| state.lowered.is_own_given(term.origin);
     let mut bodies = Bodies::of(state);
     let merged = structure.merged.iter().filter(|(t, _)| structure.is_merged(*t));

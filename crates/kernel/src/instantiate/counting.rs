@@ -25,14 +25,17 @@ pub(super) struct Counting<'s, 'd> {
     document: &'d Document,
     body: &'s Body,
     givens: &'s Givens,
+    /// Whether any body connects anything.
+    connects: bool,
     connected: RefCell<BTreeMap<ThingId, Connected>>,
     given_by: RefCell<BTreeMap<ClassId, BTreeSet<OriginId>>>,
 }
 
 impl<'s, 'd> Counting<'s, 'd> {
     pub(super) fn new(document: &'d Document, body: &'s Body, givens: &'s Givens) -> Self {
+        let connects = document.classes.iter().any(|(_, class)| !class.connections.is_empty());
         let (connected, given_by) = Default::default();
-        Self { document, body, givens, connected, given_by }
+        Self { document, body, givens, connects, connected, given_by }
     }
 
     /// Returns true if the value of the thing that is declared first counts, not that of the other.
@@ -47,6 +50,9 @@ impl<'s, 'd> Counting<'s, 'd> {
 
     /// Tests whether a body connects the thing, or what it is in, in the place of what it is given.
     fn is_replaced(&self, form: &Form, thing: ThingId, given: GivenIn) -> bool {
+        if !self.connects {
+            return false;
+        }
         let origin = self.givens[given.value].origin;
         self.around(given.me).any(|host| {
             let line = self.document.primary_line(self.body.things[host].class);
