@@ -95,5 +95,6 @@ pub use mixed::is_unit_of_sheet;
 pub use numbers::{Wanted, read_literal, show_limit, unit_typed};
 pub use origins::Origins;
 pub use placed::PLACED;
+pub use terms::operator_of;
 pub use views::{PlotOf, Toolbox};
 pub use write::{quoted, write_rounded, write_unit, write_values};

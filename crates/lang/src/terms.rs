@@ -696,7 +696,7 @@ impl Lowerer<'_> {
 }
 
 /// Returns what a written operator does in a term; nothing for those of sets, which are sent.
-pub(crate) fn operator_of(op: BinaryOp) -> Option<BinaryOperator> {
+pub fn operator_of(op: BinaryOp) -> Option<BinaryOperator> {
     Some(match op {
         BinaryOp::Or => BinaryOperator::Or,
         BinaryOp::And => BinaryOperator::And,

@@ -13,6 +13,7 @@ use crate::host::Host;
 use crate::state::State;
 use crate::view::Refusal;
 use crate::words;
+use kernel::BinaryOperator;
 use syntax::ast::{self, AstNode, BinaryOp, Expr};
 
 /// Gives an operand that is typed. Where a parameter counts the calls of its program by it, or has to be something else
@@ -56,18 +57,8 @@ fn counts(word: &ast::NameExpr, (program, name): (&str, &str)) -> bool {
         return false;
     };
     let is_bare = |side: Option<Expr>| matches!(side, Some(Expr::Number(n)) if n.unit().is_none());
-    let is_compared = matches!(
-        around.op(),
-        Some(
-            BinaryOp::Equal
-                | BinaryOp::NotEqual
-                | BinaryOp::Less
-                | BinaryOp::LessEqual
-                | BinaryOp::Greater
-                | BinaryOp::GreaterEqual
-        )
-    );
-    if is_compared {
+    let operator = around.op().and_then(lang::operator_of);
+    if operator.is_some_and(BinaryOperator::is_comparison) {
         return is_bare(around.left()) || is_bare(around.right());
     }
     let labelled = around.syntax().parent().and_then(ast::Arg::cast);
