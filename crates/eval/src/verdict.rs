@@ -120,11 +120,11 @@ impl<'a> Evaluator<'a> {
         let constraint =
             &self.document.classes[instance.class].constraints[instance.index as usize];
         let frame = Frame::of(instance.owner);
-        let (rule, within) = (&constraint.rule, constraint.within.as_deref());
+        let (rule, within) = (&*constraint.rule, constraint.within.as_deref());
         let verdict = || self.deeper(|| self.judge_within(rule, within, &frame));
         match aspect {
             Aspect::Error => {
-                let dimension = match &constraint.rule {
+                let dimension = match rule {
                     Term::Binary(_, side, _) => match self.term(side.as_ref(), &frame)? {
                         Answer::Number(_, dimension) => dimension,
                         _ => Dimension::NONE,

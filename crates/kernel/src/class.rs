@@ -275,8 +275,8 @@ pub struct Message {
     pub parameters: Vec<Parameter>,
     /// The class of the answer, where one is written; of a message in a loop, that of an element.
     pub class: Option<ClassId>,
-    /// The answer.
-    pub answer: Term,
+    /// The answer; shared, since texts that follow one another say most of what they said.
+    pub answer: Rc<Term>,
     /// True if it was declared with parentheses, with or without parameters between them.
     pub is_asked: bool,
     /// True if it gives way to any other definition.
@@ -325,8 +325,8 @@ pub struct Constraint {
     pub name: Option<Name>,
     /// What `///` says of it.
     pub doc: Box<str>,
-    /// What shall be true.
-    pub rule: Term,
+    /// What shall be true; shared as answers of messages are.
+    pub rule: Rc<Term>,
     /// How strongly.
     pub strength: Strength,
     /// The written methods, in order of preference. A written list is complete unless `derived`.
@@ -347,7 +347,7 @@ impl Constraint {
         Self {
             name: None,
             doc: Box::default(),
-            rule,
+            rule: Rc::new(rule),
             strength: Strength::Required,
             methods: Vec::new(),
             derived: true,

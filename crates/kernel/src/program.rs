@@ -7,6 +7,7 @@
 use crate::class::ClassId;
 use crate::term::{OriginId, Term};
 use base::Name;
+use std::rc::Rc;
 
 /// What a class draws.
 #[derive(Clone, PartialEq, Debug)]
@@ -52,7 +53,7 @@ pub struct Demand {
     /// Its name; how it is written where it has none.
     pub said: Name,
     /// What shall be true.
-    pub rule: Term,
+    pub rule: Rc<Term>,
     /// Where it was written.
     pub origin: OriginId,
 }

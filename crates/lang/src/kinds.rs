@@ -302,5 +302,5 @@ fn is_disc(document: &Document, class: ClassId) -> bool {
 /// Returns true for a program, and for the turns of a block of one: what they draw may cover something.
 fn is_drawn(document: &Document, class: ClassId) -> bool {
     let class = &document.classes[class];
-    class.program.is_some() || class.messages.iter().any(|m| matches!(m.answer, Term::Step(_)))
+    class.program.is_some() || class.messages.iter().any(|m| matches!(*m.answer, Term::Step(_)))
 }

@@ -219,7 +219,7 @@ impl Lowerer<'_> {
         let all: Vec<_> = all.filter(|&(_, program)| self.draws(program)).collect();
         for (class, program) in all {
             let origin = self.document.classes[class].origin;
-            let is_step = |m: &&Message| matches!(m.answer, Term::Step(_));
+            let is_step = |m: &&Message| matches!(*m.answer, Term::Step(_));
             let steps = self.document.classes[program].messages.iter().filter(is_step);
             for name in steps.map(|m| m.name.clone()).collect::<Vec<_>>() {
                 let kind = self.message_kind(program, &name);
@@ -248,7 +248,7 @@ impl Lowerer<'_> {
             let drawn = shown(drawn);
             self.add_hidden_message(class, PLACED, drawn, Kind::Thing(program), origin);
             let has_own = self.defined_message(program, &Name::new("picture"));
-            if has_own.is_some_and(|m| matches!(m.answer, Term::Call { .. })) {
+            if has_own.is_some_and(|m| matches!(*m.answer, Term::Call { .. })) {
                 let value = shown(Term::Result);
                 let arguments = vec![Argument { label: None, value }];
                 let picture = Term::Call { name: Name::new("picture"), arguments };
@@ -318,7 +318,7 @@ impl Lowerer<'_> {
             doc: String::new(),
             parameters: Vec::new(),
             class: None,
-            answer,
+            answer: Rc::new(answer),
             is_asked: false,
             is_default: false,
             is_combining: false,

@@ -134,7 +134,7 @@ impl Lowerer<'_> {
             doc: String::new(),
             parameters: Vec::new(),
             class: None,
-            answer,
+            answer: Rc::new(answer),
             is_asked: false,
             is_default: false,
             is_combining: false,
@@ -349,7 +349,7 @@ impl Lowerer<'_> {
         }
         let place = Place { file: scope.file, span: word.span() };
         let not_visible = |message: String| Diagnostic::error("not-visible", place, message);
-        let is_step = |m: &Message| matches!(m.answer, Term::Step(_));
+        let is_step = |m: &Message| matches!(*m.answer, Term::Step(_));
         if self.defined_message(class, &name).is_some_and(is_step) {
             let message = format!("{name} is not made yet: its step stands below");
             self.report(not_visible(message).hint("put the step that needs it below that one"));

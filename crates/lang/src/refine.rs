@@ -13,6 +13,7 @@ use kernel::{
     Class, ClassId, ClassKind, Constraint, Message, Method, OriginId, PartRef, Path, Step, Term,
 };
 use std::collections::{BTreeMap, BTreeSet};
+use std::rc::Rc;
 use syntax::ast::{self, AstNode};
 
 /// What is said of a part: bodies that it gets, and names below it that are masked.
@@ -317,11 +318,11 @@ impl Lowerer<'_> {
     fn add_members(&mut self, body: ClassId, to: ClassId) {
         let from = self.document.classes[body].clone();
         let term = |t: &Term| t.with_above(body, to);
-        let message = |m: Message| Message { answer: term(&m.answer), ..m };
+        let message = |m: Message| Message { answer: Rc::new(term(&m.answer)), ..m };
         let method =
             |m: &Method| Method { values: m.values.iter().map(term).collect(), ..m.clone() };
         let constraint = |c: Constraint| Constraint {
-            rule: term(&c.rule),
+            rule: Rc::new(term(&c.rule)),
             within: c.within.as_deref().map(term).map(Box::new),
             methods: c.methods.iter().map(method).collect(),
             ..c

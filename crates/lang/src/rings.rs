@@ -73,7 +73,7 @@ impl Lowerer<'_> {
         if !message.parameters.is_empty() || self.class_of_part(class, name).is_some() {
             return found;
         }
-        let mut open = vec![&message.answer];
+        let mut open = vec![&*message.answer];
         while let Some(term) = open.pop() {
             match term {
                 Term::If(condition, ..) => open.push(condition),

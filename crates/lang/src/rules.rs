@@ -120,7 +120,7 @@ impl Lowerer<'_> {
         match self.answer_of(scope, loops, answer, &wanted) {
             Some(term) => {
                 self.speaks_of_no_thing(scope, &name, answer, &term);
-                self.document.classes[class].messages[index].answer = term;
+                self.document.classes[class].messages[index].answer = Rc::new(term);
                 if loops.is_empty() {
                     self.tell_angle(scope, index, answer);
                 }
@@ -523,7 +523,7 @@ impl Lowerer<'_> {
         self.document.classes[scope.class()].constraints.push(Constraint {
             name,
             doc: doc.into(),
-            rule: term,
+            rule: Rc::new(term),
             strength,
             methods,
             derived,

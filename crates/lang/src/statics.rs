@@ -8,6 +8,7 @@ use crate::names::owners;
 use crate::scope::Scope;
 use base::{Diagnostic, Name, Place};
 use kernel::{ClassId, Message, Term, builtin, form};
+use std::rc::Rc;
 use syntax::ast::{self, AstNode, Expr};
 
 impl Lowerer<'_> {
@@ -144,7 +145,7 @@ impl Lowerer<'_> {
             doc: message.doc().unwrap_or_default(),
             parameters,
             class: answers,
-            answer: Term::Me,
+            answer: Rc::new(Term::Me),
             is_asked: true,
             is_default: false,
             is_combining: false,
@@ -162,7 +163,8 @@ impl Lowerer<'_> {
                     return self.report(d.hint("write what it answers after `=>`"));
                 };
                 let locals = declared.parameters.iter().map(|p| Term::Local(p.name.clone()));
-                declared.answer = Term::Construct { what, class: answers, of: locals.collect() };
+                let of = locals.collect();
+                declared.answer = Rc::new(Term::Construct { what, class: answers, of });
                 self.named_at.insert((class, name.clone()), place);
                 let index = self.document.classes[class].messages.len();
                 self.messages.insert((class, name), index);

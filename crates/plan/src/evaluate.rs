@@ -246,7 +246,7 @@ impl<'a> Opening<'a> {
         let instance = named.ok_or_else(missing)?;
         let constraint = &document.classes[instance.class].constraints[instance.index as usize];
         let frame = Frame::of(instance.owner);
-        match (aspect, &constraint.rule) {
+        match (aspect, &*constraint.rule) {
             (Aspect::Error, Term::Binary(BinaryOperator::Equal, a, b)) => self.deeper(|o| {
                 let (a, b) = (o.meaning(a, &frame)?, o.meaning(b, &frame)?);
                 o.binary(BinaryOperator::Subtract, &a, &b)

@@ -242,7 +242,7 @@ fn number_said(state: &State, member: &Member) -> Option<NumberSaid> {
     let mut said = said.filter(|c| {
         state.lowered.own_span(c.origin).is_some_and(|span| span.end == u32::from(whole.end()))
     });
-    let Term::Binary(BinaryOperator::Equal, measured, _) = &said.next()?.rule else { return None };
+    let Term::Binary(BinaryOperator::Equal, measured, _) = &*said.next()?.rule else { return None };
     let Term::Send { name, .. } = &**measured else { return None };
     let evaluator = state.evaluator(&state.values);
     let Ok(eval::Answer::Number(_, dimension)) = evaluator.evaluate(measured, DOCUMENT) else {

@@ -439,7 +439,7 @@ pub(crate) fn read(state: &State, host: &dyn Host, named: &[&str]) -> Result<Vec
         let message = root.messages.iter().find(|m| m.name.as_str() == name);
         let message =
             message.ok_or_else(|| words::refuse(format!("{words} means nothing here")))?;
-        Ok(message.answer.clone())
+        Ok(Term::clone(&message.answer))
     };
     named.iter().enumerate().map(term).collect()
 }

@@ -268,11 +268,8 @@ impl Tool {
         let document = &state.lowered.document;
         let class = state.structure.things[thing].class;
         let message = document.find_message(class, &Name::new("inserted"), None);
-        let Some((_, kernel::Message { answer: kernel::Term::Make { arguments, .. }, .. })) =
-            message
-        else {
-            return;
-        };
+        let Some((_, message)) = message else { return };
+        let kernel::Term::Make { arguments, .. } = &*message.answer else { return };
         for argument in arguments {
             let Some(label) = &argument.label else { continue };
             let answer = state.evaluator(&state.values).evaluate(&argument.value, thing);

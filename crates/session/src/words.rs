@@ -200,7 +200,7 @@ fn sides_of(state: &State, source: Source) -> Option<(ConstraintInstance, &Term,
     let Source::Constraint(index) = source else { return None };
     let instance = state.structure.constraints[index as usize];
     let class = &state.lowered.document.classes[instance.class];
-    match &class.constraints[instance.index as usize].rule {
+    match &*class.constraints[instance.index as usize].rule {
         Term::Binary(operator, left, right) => {
             use kernel::BinaryOperator::{Equal, Greater, GreaterEqual, Less, LessEqual};
             let compares = matches!(operator, Equal | Greater | GreaterEqual | Less | LessEqual);

@@ -143,7 +143,7 @@ impl Build {
             doc: String::new(),
             parameters: parameters.iter().map(parameter).collect(),
             class: None,
-            answer,
+            answer: answer.into(),
             is_asked: false,
             is_default: false,
             is_combining: false,

@@ -65,7 +65,7 @@ impl<'l> Lowerer<'l> {
         });
         let says_other = |c: &Constraint| {
             let values = c.methods.iter().flat_map(|m| &m.values);
-            let mut terms = values.chain(c.within.as_deref()).chain([&c.rule]);
+            let mut terms = values.chain(c.within.as_deref()).chain([&*c.rule]);
             terms.any(is_other)
         };
         let constraints = all().flat_map(|(id, class)| {

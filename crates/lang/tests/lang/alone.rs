@@ -55,7 +55,7 @@ fn an_expression_alone_is_what_a_message_of_it_says() {
             let message = message.clone().find(|m| *m.name == *"alone");
             let alone = read_alone(&lowered, class, &[(*text).into()]);
             let term = alone.terms[0].as_ref().ok();
-            assert_eq!(term, message.map(|m| &m.answer), "{text}: {:?}", alone.terms);
+            assert_eq!(term, message.map(|m| &*m.answer), "{text}: {:?}", alone.terms);
         }
     }
 }

@@ -53,7 +53,7 @@ fn a_bare_number_takes_the_dimension_that_is_wanted() {
     );
     let volts = number(5e6, Dimension::VOLTAGE, true);
     assert_eq!(given(&lowered, &["v"]), volts);
-    let rules: Vec<&Term> = root(&lowered).constraints.iter().map(|c| &c.rule).collect();
+    let rules: Vec<&Term> = root(&lowered).constraints.iter().map(|c| &*c.rule).collect();
     let Term::Binary(_, _, right) = rules[0] else { panic!("an equation") };
     assert_eq!(**right, number(5e6, Dimension::VOLTAGE, false));
     let Term::Binary(_, left, _) = rules[1] else { panic!("an equation") };
@@ -100,7 +100,7 @@ fn a_body_with_more_makes_a_class_of_one() {
 fn a_body_sees_the_thing_around_it() {
     let lowered = right("use shapes\nsize: Length = 80\nbeam: Line { constraint length = size }");
     let one = root(&lowered).parts[1].class;
-    let Term::Binary(_, _, right) = &lowered.document.classes[one].constraints[0].rule else {
+    let Term::Binary(_, _, right) = &*lowered.document.classes[one].constraints[0].rule else {
         panic!("an equation")
     };
     assert_eq!(**right, Term::send(Term::Owner, "size"));
@@ -219,7 +219,7 @@ fn messages_have_labels_and_may_give_way() {
     let labels: Vec<(&str, &str)> =
         message.parameters.iter().map(|p| (p.label.as_str(), p.name.as_str())).collect();
     assert_eq!(labels, [("by", "k"), ("n", "n")]);
-    let Term::Send { search, .. } = &class(&lowered, "B").messages[0].answer else {
+    let Term::Send { search, .. } = &*class(&lowered, "B").messages[0].answer else {
         panic!("sent")
     };
     let b = lowered.document.class_named("B").expect("it is declared");

@@ -115,7 +115,7 @@ impl Builder {
             doc: String::new(),
             parameters,
             class: None,
-            answer,
+            answer: answer.into(),
             is_asked: false,
             is_default: false,
             is_combining: false,
@@ -321,7 +321,7 @@ impl Terms<'_> {
         &self.document.classes[constraint.class].constraints[constraint.index as usize]
     }
     fn sides(&self, constraint: ConstraintInstance) -> (&Term, &Term) {
-        match &self.rule(constraint).rule {
+        match &*self.rule(constraint).rule {
             Term::Binary(BinaryOperator::Equal, a, b) => (a, b),
             other => panic!("not an equality: {other:?}"),
         }
@@ -364,7 +364,7 @@ impl Host for Terms<'_> {
         side: SideOf,
         values: &Values,
     ) -> Result<f64, String> {
-        let Term::Binary(_, left, right) = &self.rule(constraint).rule else {
+        let Term::Binary(_, left, right) = &*self.rule(constraint).rule else {
             return Err("nothing is compared".into());
         };
         let term = if side.is_right { right } else { left };

@@ -429,7 +429,7 @@ pub(crate) fn serving(state: &State) -> BTreeSet<ClassId> {
     let messages = document.classes.iter().flat_map(|(_, class)| &class.messages);
     let constructions = messages.filter(|m| m.is_of_class() && !is_own(m.origin));
     let mut made = BTreeSet::new();
-    let mut left: Vec<&Term> = constructions.map(|m| &m.answer).collect();
+    let mut left: Vec<&Term> = constructions.map(|m| &*m.answer).collect();
     while let Some(term) = left.pop() {
         if let Term::Make { class, .. } = term {
             made.insert(*class);
@@ -682,7 +682,7 @@ fn small(class: &str) -> String {
 
 /// Returns the class of the new thing that a message answers for what it is given, if it does.
 fn made_by(message: &Message) -> Option<ClassId> {
-    let mut answer = &message.answer;
+    let mut answer = &*message.answer;
     while let Term::Let(_, _, body) = answer {
         answer = body;
     }

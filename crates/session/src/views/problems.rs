@@ -186,7 +186,7 @@ fn failing<'a>(
 fn sends<'a>(message: &Message, others: &(impl Iterator<Item = &'a Failing<'a>> + Clone)) -> bool {
     let is_other =
         |other: &Message, name: &Name| other.origin != message.origin && other.name == *name;
-    let mut terms = vec![&message.answer];
+    let mut terms = vec![&*message.answer];
     while let Some(term) = terms.pop() {
         terms.extend(term.operands());
         if let Term::Send { name, .. } = term

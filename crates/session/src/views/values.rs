@@ -669,7 +669,7 @@ fn virtual_parts(document: &Document, class: ClassId) -> Rc<[Answers]> {
     let is_drawn = |m: &&Message| m.name.as_str() == "picture" || is_picture(&m.answer);
     let mut open: Vec<&Message> = messages().filter(is_drawn).collect();
     while let Some(message) = open.pop() {
-        let mut terms = vec![&message.answer];
+        let mut terms = vec![&*message.answer];
         while let Some(term) = terms.pop() {
             terms.extend(term.operands());
             if let Term::Send { to, name, .. } = term
