@@ -46,6 +46,8 @@ pub enum LongQuestion {
         /// The two parameters.
         axes: [FamilyAxis; 2],
     },
+    /// What hands do first ([`crate::rehearsal`]); an answer says only that something of it was refused.
+    Rehearsal,
 }
 
 /// An answer, or a part of one.
@@ -64,6 +66,8 @@ pub enum LongAnswer {
     Row(RowOutcome),
     /// To [`LongQuestion::Map`]; or why there is none.
     Map(Result<FamilyMap, String>),
+    /// To [`LongQuestion::Rehearsal`]: why it could not go on.
+    Refused(String),
 }
 
 plain_struct!(Job { name, text, files, question });
@@ -71,13 +75,15 @@ plain_enum!(LongQuestion {
     0: Analysis,
     1: Rows { family, rows, formats },
     2: Map { family, thing, axes },
-    3: More
+    3: More,
+    4: Rehearsal
 });
 plain_enum!(LongAnswer {
     0: Analysis(analysis),
     1: Row(outcome),
     2: Map(map),
-    3: More { form, more }
+    3: More { form, more },
+    4: Refused(why)
 });
 
 impl LongQuestion {
@@ -85,7 +91,7 @@ impl LongQuestion {
     pub fn parts(&self) -> usize {
         match self {
             Self::Rows { rows, .. } => rows.len(),
-            Self::Analysis | Self::More | Self::Map { .. } => 1,
+            Self::Analysis | Self::More | Self::Map { .. } | Self::Rehearsal => 1,
         }
     }
 }
@@ -162,6 +168,9 @@ impl Session {
             LongQuestion::Map { family, thing, axes: [across, up] } => {
                 let map = self.family_map(id, (family, thing.as_deref()), [across, up]);
                 Some(LongAnswer::Map(map.map_err(|refusal| refusal.message)))
+            }
+            LongQuestion::Rehearsal => {
+                self.rehearse(id).err().map(|refusal| LongAnswer::Refused(refusal.message))
             }
         }
     }

@@ -52,6 +52,7 @@ pub mod plain;
 pub mod plotting;
 mod prototype;
 mod recognise;
+mod rehearsal;
 mod rules;
 mod session;
 mod sheet;

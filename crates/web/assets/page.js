@@ -226,7 +226,8 @@ export function startWorker(said) {
   }
   const begin = async () => {
     const { compiled } = await import("./bundle.js")
-    worker.postMessage(await compiled)
+    const { restIfThere } = await import("./rest.js")
+    worker.postMessage([await compiled, restIfThere()])
   }
   begin().catch((error) => said("failed", String(error)))
   return { ask: (job) => worker.postMessage(job), end: () => worker.terminate() }

@@ -6,15 +6,15 @@ import { initSync } from "./web.js"
 
 const address = new URL("web_rest.wasm", import.meta.url)
 const AGAIN_MS = 5000
-let isThere = false
+let there
 
-const isMissing = () => !isThere && "is_divided" in initSync()
+const isMissing = () => !there && "is_divided" in initSync()
 
 // Fetches it while the page goes on; where the server does not answer, later again. Returns whether it has come.
 export async function fetchRest() {
-  if (!isMissing()) return isThere
+  if (!isMissing()) return Boolean(there)
   try {
-    begin(await WebAssembly.compileStreaming(fetch(address)))
+    takeRest(await WebAssembly.compileStreaming(fetch(address)))
     return true
   } catch (error) {
     // what is of another build never fits; its first call says so
@@ -36,7 +36,7 @@ export function loadRest() {
     const text = request.responseText
     const bytes = new Uint8Array(text.length)
     for (let i = 0; i < bytes.length; i++) bytes[i] = text.charCodeAt(i)
-    begin(new WebAssembly.Module(bytes))
+    takeRest(new WebAssembly.Module(bytes))
   } catch (error) {
     const advice = "A part of its code could not be fetched. What you made is kept in this browser."
     if (!isWorker()) showCrash("The lab has stopped", advice, "Reload", String(error))
@@ -44,9 +44,13 @@ export function loadRest() {
   }
 }
 
-function begin(rest) {
+// What has come, compiled; the worker is handed it.
+export const restIfThere = () => there
+
+// Puts it in its place.
+export function takeRest(rest) {
   // it may have come both ways
-  if (isThere) return
+  if (there) return
   new WebAssembly.Instance(rest, { first: initSync() })
-  isThere = true
+  there = rest
 }

@@ -1,62 +1,52 @@
-//! The rehearsal: what a hand does first is done once beforehand, with a small document that nobody sees.
+//! The rehearsal: a worker does beforehand what hands do first ([`session::jobs::Job::rehearsal`]).
 //!
-//! A browser compiles a function when it is first called: the first drag that is let go would take several times as
-//! long as the next.
+//! It runs the page's own code, and what is compiled for one of them is compiled for both; nobody waits for it.
 
 use crate::files::Files;
-use crate::js;
+use crate::js::{self, Worker};
 use crate::lab::Lab;
-use leptos::prelude::*;
-use session::view::Refusal;
-use session::{Command, Path, Session, parse_path};
-
-/// It uses no library, which would take longer to read than all the rest.
-const DOCUMENT: &str = "a: Real = 1
-b: Real = 2
-c: Real = 4
-constraint b = 2 * a
-";
+use js_sys::Uint8Array;
+use session::jobs::{Job, LongAnswer};
+use session::plain::{read, written};
+use std::cell::OnceCell;
+use std::rc::Rc;
+use wasm_bindgen::closure::Closure;
+use wasm_bindgen::{JsCast, JsValue};
 
 impl Lab {
-    /// Fetches what is missing of the page's code, and tries it where it came by itself.
+    /// Fetches what is missing of the page's code, and rehearses where there is such a part.
     pub async fn fetch_rest(self) {
-        if js::fetch_rest().await.is_falsy() {
-            return;
-        }
-        if let Err(refusal) = self.rehearse().await {
-            leptos::logging::warn!("rehearsal: {}", refusal.message);
+        if js::fetch_rest().await.is_truthy() {
+            self.rehearse();
         }
     }
 
-    /// Opens a document, drags one of its numbers, joins two and takes that back; the page has its turn between.
-    ///
-    /// # Errors
-    /// Why something of it could not be done.
-    async fn rehearse(self) -> Result<(), Refusal> {
-        let mut session = Session::new(Box::new(Files(self.files)));
-        let mut opening = session.begin_opening("", DOCUMENT);
-        while !opening.is_over() {
-            opening = session.go_on_opening(opening);
-            self.rest().await;
-        }
-        let id = session.end_opening(opening);
-        let [one, other]: [Path; 2] = ["a", "c"].map(|path| parse_path(path).unwrap_or_default());
-        session.press_all(id, std::slice::from_ref(&one))?;
-        session.drag(id, (5.0, 0.0));
-        self.rest().await;
-        session.release(id)?;
-        self.rest().await;
-        session.apply(id, &Command::Merge(vec![one, other]))?;
-        self.rest().await;
-        session.apply(id, &Command::Undo)?;
-        Ok(())
-    }
-
-    /// Lets the page have its turn, and nobody who drags wait.
-    async fn rest(self) {
-        js::pause().await;
-        while self.dragging.try_with_untracked(Option::is_some) == Some(true) {
-            js::painted().await;
+    /// Starts a worker that rehearses and ends.
+    fn rehearse(self) {
+        let Some(job) = Job::rehearsal(&Files(self.files)) else { return };
+        let worker: Rc<OnceCell<Worker>> = Rc::default();
+        let told = worker.clone();
+        let said = Closure::<dyn FnMut(String, JsValue)>::new(
+            move |word: String, what: JsValue| match word.as_str() {
+                "ready" => {
+                    let bytes = Uint8Array::from(&written(&job)[..]);
+                    told.get().inspect(|worker| worker.ask(&bytes));
+                }
+                "part" => {
+                    let answer = read(&what.unchecked_ref::<Uint8Array>().to_vec());
+                    if let Some(LongAnswer::Refused(why)) = answer {
+                        leptos::logging::warn!("rehearsal: {why}");
+                    }
+                }
+                _ => {
+                    told.get().inspect(|worker| worker.end());
+                }
+            },
+        );
+        let started = js::start_worker(said.into_js_value().unchecked_ref());
+        if !started.is_undefined() {
+            // it is the only one
+            let _ = worker.set(started.unchecked_into());
         }
     }
 }

@@ -1,8 +1,8 @@
 //! Contradictions that are proved: of linear constraints by a sum that can be checked by hand, of whole numbers by a
 //! search of all there are.
 
-use crate::desk::Desk;
-use session::jobs::{Desk as Copies, LongAnswer, LongQuestion};
+use crate::desk::{Desk, Library};
+use session::jobs::{Desk as Copies, Job, LongAnswer, LongQuestion};
 
 fn told(text: &str) -> Vec<String> {
     let mut desk = Desk::of(text);
@@ -180,4 +180,12 @@ fn what_a_text_of_another_form_leaves_free_is_not_told_of_this_one() {
     desk.session.note_more(desk.id, form, more);
     assert_eq!(desk.session.standing(desk.id), at_once);
     assert_eq!(desk.session.status(desk.id).freedom, 2);
+}
+
+#[test]
+fn what_hands_do_first_is_rehearsed_to_its_end() {
+    let job = Job::rehearsal(&Library).expect("the library is there");
+    let mut copies = Copies::default();
+    copies.take(job);
+    assert_eq!(copies.answer(0), None, "nothing of it is refused");
 }
