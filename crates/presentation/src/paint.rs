@@ -22,6 +22,7 @@
 //! | 14, x, y, x, y, x, y | the ring goes on by a cubic curve |
 //! | 15, opacity | how much of what follows is seen, from 0 to 1 |
 
+mod kept;
 mod note;
 mod reach;
 mod shapes;

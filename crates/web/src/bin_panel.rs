@@ -196,7 +196,7 @@ fn Tile(lab: Lab, entry: BinEntry, is_used: bool) -> impl IntoView {
         painter
             .with_value(|painter| {
                 let painter = painter.as_ref().filter(|_| size.0 > 0.0)?;
-                Some(paint(painter, &list, Vec::new(), &view, last.unwrap_or_default()))
+                Some(paint(painter, (&list, &list.numbers), Vec::new(), &view, last.unwrap_or_default()))
             })
             .unwrap_or_default()
     });

@@ -135,7 +135,7 @@ pub fn Picture(
 }
 
 /// The display lists of the picture: what lies under what moves, where something is dragged, and the rest.
-type Lists = (Memo<Option<Arc<DisplayList>>>, Memo<DisplayList>);
+type Lists = (Memo<Option<Arc<DisplayList>>>, Memo<Arc<DisplayList>>);
 
 fn lists(lab: Lab) -> Lists {
     let marked = lab.marked;
@@ -191,7 +191,7 @@ fn lists(lab: Lab) -> Lists {
                     grip.inspect(|g| caught(&mut list, &Caught { at: (g.x, g.y), word }));
                 }
             });
-            list
+            Arc::new(list)
         })
     });
     (still, list)
@@ -244,7 +244,7 @@ fn keep_painted(
     });
 }
 
-/// Paints the picture's lists as they are now.
+/// Paints the picture's lists as they are now. What is as it was in the frame before lies under the rest, as a picture.
 fn paint_lists(
     lab: Lab,
     painter: &Painter,
@@ -252,39 +252,70 @@ fn paint_lists(
     ((still, list), last): (Lists, &mut Painted),
 ) {
     let (view, is_ruled) = (lab.view.get_untracked(), lab.grid.get_untracked());
-    let looks = lab.colors.changes.get_untracked();
+    let seen = Seen { view, size, grid: is_ruled, looks: lab.colors.changes.get_untracked() };
     let grid = || if is_ruled { grid(&view, size) } else { Vec::new() };
-    let under = still.get_untracked();
-    let under = under.map(|list| Under { list, view, size, grid: is_ruled, looks });
+    let list = list.get_untracked();
+    let (under, rest) = match still.get_untracked() {
+        Some(still) => (Some(still), None),
+        None => last.common(&list, &seen).unzip(),
+    };
+    let lies_there = last.seen.as_ref() == Some(&seen) && last.under == under;
+    let mut texts = std::mem::take(&mut last.texts);
     match &under {
-        Some(now) if last.under.as_ref() != Some(now) => {
+        Some(under) if !lies_there => {
             painter.forget();
-            last.texts = paint(painter, &now.list, grid(), &view, std::mem::take(&mut last.texts));
+            texts = paint(painter, (under, &under.numbers), grid(), &view, texts);
             painter.keep();
         }
         Some(_) => {}
         None => painter.forget(),
     }
     let lines = if under.is_some() { Vec::new() } else { grid() };
-    let texts = std::mem::take(&mut last.texts);
-    last.texts = list.with_untracked(|list| paint(painter, list, lines, &view, texts));
-    last.under = under;
+    let rest = rest.as_ref().unwrap_or(&list.numbers);
+    last.texts = paint(painter, (&list, rest), lines, &view, texts);
+    (last.under, last.list, last.seen) = (under, Some(list), Some(seen));
 }
 
 /// What the painter has painted last.
 #[derive(Default)]
 struct Painted {
     texts: Texts,
-    under: Option<Under>,
+    /// What lies under the rest.
+    under: Option<Arc<DisplayList>>,
+    list: Option<Arc<DisplayList>>,
+    seen: Option<Seen>,
+}
+
+impl Painted {
+    /// Returns a beginning of a list that lies there, or is worth to, and what is behind it.
+    fn common(&self, now: &DisplayList, seen: &Seen) -> Option<(Arc<DisplayList>, Vec<f64>)> {
+        /// Fewer numbers are painted sooner than a picture of them.
+        const WORTH: usize = 400;
+        if self.seen.as_ref() != Some(seen) {
+            return None;
+        }
+        let there = { self.under.as_ref() }.and_then(|under| Some((under, now.behind(under)?)));
+        if let Some((under, rest)) = &there
+            && 2 * rest.len() < under.numbers.len() + WORTH
+        {
+            return there.map(|(under, rest)| (under.clone(), rest));
+        }
+        let shared = now.shared(self.list.as_ref()?);
+        let most = there.as_ref().map_or(WORTH, |(under, _)| 3 * under.numbers.len() / 2);
+        if shared.numbers.len() < most {
+            return there.map(|(under, rest)| (under.clone(), rest));
+        }
+        let rest = now.behind(&shared)?;
+        Some((Arc::new(shared), rest))
+    }
 }
 
 /// Words and colours that the painter has.
 pub(crate) type Texts = (Vec<String>, Vec<String>);
 
-/// What lies under what moves: painted once while all of this is the same.
+/// How a list is seen: what was painted otherwise is painted anew.
 #[derive(PartialEq)]
-struct Under {
-    list: Arc<DisplayList>,
+struct Seen {
     view: View,
     size: (f64, f64),
     grid: bool,
@@ -301,10 +332,10 @@ pub(crate) fn new_painter(
     js::create_painter(canvas, on_size.into_js_value().unchecked_ref())
 }
 
-/// Paints one frame; returns the words and colours that the painter has now.
+/// Paints numbers before numbers of a list; returns the words and colours that the painter has now.
 pub(crate) fn paint(
     painter: &Painter,
-    list: &DisplayList,
+    (list, own): (&DisplayList, &[f64]),
     mut numbers: Vec<f64>,
     view: &View,
     (words, colors): Texts,
@@ -317,7 +348,7 @@ pub(crate) fn paint(
     if colors != list.colors {
         painter.set_colors(&array(&list.colors));
     }
-    numbers.extend_from_slice(&list.numbers);
+    numbers.extend_from_slice(own);
     painter.paint(&numbers, view.x, view.y, view.scale, view.scale_y());
     (list.words.clone(), list.colors.clone())
 }

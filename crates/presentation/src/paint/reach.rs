@@ -8,6 +8,12 @@ pub(super) struct Reach {
     length: f64,
 }
 
+/// The next power of two above a positive number.
+fn power_of_two_above(x: f64) -> f64 {
+    const MANTISSA_BITS: u32 = 52;
+    f64::from_bits(((x.to_bits() >> MANTISSA_BITS) + 1) << MANTISSA_BITS)
+}
+
 impl Reach {
     pub(super) fn of(picture: &Drawing) -> Self {
         /// Where there is nothing else to go by, in units of the sheet.
@@ -16,13 +22,15 @@ impl Reach {
         const TIMES: f64 = 4.0;
         let ends = picture.elements.iter().filter(|e| !e.style.is_unbounded);
         match drawing::bounds_of(ends, picture.vertical) {
-            Some(b) if b.most != b.least => Self {
-                middle: Point {
-                    x: f64::midpoint(b.least.x, b.most.x),
-                    y: f64::midpoint(b.least.y, b.most.y),
-                },
-                length: TIMES * (b.most.x - b.least.x + b.most.y - b.least.y),
-            },
+            // a picture that grows by a little shows them as they were
+            Some(b) if b.most != b.least => {
+                let length =
+                    TIMES * power_of_two_above(b.most.x - b.least.x + b.most.y - b.least.y);
+                let step = length / 32.0;
+                let middle = |a, b| (f64::midpoint(a, b) / step).round() * step;
+                let (x, y) = (middle(b.least.x, b.most.x), middle(b.least.y, b.most.y));
+                Self { middle: Point { x, y }, length }
+            }
             _ => Self { middle: Point::default(), length: ALONE },
         }
     }

@@ -49,7 +49,7 @@ pub fn Thumbnail(
         painter
             .with_value(|painter| {
                 let painter = painter.as_ref().filter(|_| size.0 > 0.0)?;
-                Some(paint(painter, &list, Vec::new(), &view, last.unwrap_or_default()))
+                Some(paint(painter, (&list, &list.numbers), Vec::new(), &view, last.unwrap_or_default()))
             })
             .unwrap_or_default()
     });
