@@ -35,7 +35,7 @@ use crate::visible::Visible;
 use base::{Diagnostic, FileId, IdVec, Mixer, Name, Place, Severity, Span};
 use indexmap::IndexMap;
 use kernel::{
-    ClassId, Document, Fault, FaultKind, OriginId, PartRef, Path, Scale, Search, Vertical,
+    ClassId, Document, Fault, FaultKind, OriginId, PartRef, Path, Scale, Search, Term, Vertical,
 };
 use std::collections::{BTreeMap, BTreeSet};
 use std::hash::BuildHasherDefault;
@@ -243,7 +243,9 @@ pub(crate) struct Lowerer<'l> {
     /// What bodies say of the names of their things, by the text and the first byte.
     pub(crate) told: BTreeMap<(FileId, u32), Rc<Told>>,
     /// Definitions of messages, by class and name, with the scope they stand in.
-    pub(crate) definitions: BTreeMap<(ClassId, Name), Definition>,
+    pub(crate) definitions: ByName<Rc<Definition>>,
+    /// What a message answers whose definition waits: one for all.
+    pub(crate) unsaid: Rc<Term>,
     /// What messages are worth, once known; nothing while it is being found out.
     pub(crate) message_kinds: BTreeMap<(ClassId, Name), Option<Kind>>,
     /// Every part that a class declares, by its name: its index among the class's parts.
@@ -358,7 +360,8 @@ impl<'l> Lowerer<'l> {
             object: ClassId(0),
             pending: Vec::new(),
             told: BTreeMap::new(),
-            definitions: BTreeMap::new(),
+            definitions: ByName::default(),
+            unsaid: Rc::new(Term::Me),
             message_kinds: BTreeMap::new(),
             parts: ByName::default(),
             messages: ByName::default(),

@@ -10,7 +10,7 @@ use crate::scope::Scope;
 use base::{Diagnostic, FileId, Name, Place, Span};
 use kernel::{
     ClassId, ClassKind, Count, Message, OriginId, Parameter, Part, Path, Primitive, Stay, Step,
-    Term,
+   
 };
 use std::cell::OnceCell;
 use std::rc::Rc;
@@ -42,15 +42,15 @@ pub(crate) enum Pending {
     /// They end here: so many values of the part of this index, which is this member.
     Noted { member: usize, part: u32, givens: u32 },
     /// The answer of a message.
-    Answer { scope: Rc<Scope>, index: usize, definition: Box<Definition> },
+    Answer { scope: Rc<Scope>, index: usize, definition: Rc<Definition> },
 }
 
 /// The definition of a message.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub(crate) struct Definition {
     pub(crate) answer: Expr,
     /// What names mean in it.
-    pub(crate) scope: Scope,
+    pub(crate) scope: Rc<Scope>,
     /// The loops that repeat it, the outermost first.
     pub(crate) loops: Vec<ast::For>,
     /// The elements of the answer where it is a list that is written out, once they were asked for.
@@ -582,7 +582,7 @@ impl Lowerer<'_> {
                 doc,
                 parameters: Vec::new(),
                 class,
-                answer: Rc::new(Term::Me),
+                answer: self.unsaid.clone(),
                 is_asked: false,
                 is_default: false,
                 is_combining: false,
@@ -620,7 +620,7 @@ impl Lowerer<'_> {
             doc,
             parameters,
             class,
-            answer: Rc::new(Term::Me),
+            answer: self.unsaid.clone(),
             is_asked: message.params().is_some(),
             is_default: message.is_default(),
             is_combining: message.is_combining(),
@@ -662,12 +662,12 @@ impl Lowerer<'_> {
         self.named_at.insert(key.clone(), Place { file: scope.file, span: word.span() });
         let (answer, loops) = (answer.clone(), loops.to_vec());
         let elements = OnceCell::new();
-        let definition = Definition { answer, scope: scope.clone(), loops, elements };
+        let scope = Rc::new(scope.clone());
+        let definition = Rc::new(Definition { answer, scope: scope.clone(), loops, elements });
         self.definitions.insert(key, definition.clone());
         let index = self.document.classes[class].messages.len();
         self.messages.insert((class, message.name.clone()), index);
         self.document.classes[class].messages.push(message);
-        let (scope, definition) = (Rc::new(scope.clone()), Box::new(definition));
         self.pending.push(Pending::Answer { scope, index, definition });
     }
 }

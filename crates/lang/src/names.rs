@@ -510,14 +510,14 @@ impl Lowerer<'_> {
         if self.depth > DEEPEST {
             return Kind::Unknown;
         }
-        let Some(Definition { answer, scope, loops, .. }) = self.definitions.get(&key).cloned()
-        else {
+        let Some(definition) = self.definitions.get(&key).cloned() else {
             self.define_program_of(definer);
             return self.message_kinds.get(&key).cloned().flatten().unwrap_or(Kind::Unknown);
         };
+        let Definition { answer, scope, loops, .. } = &*definition;
         self.message_kinds.insert(key.clone(), None);
         self.silent += 1;
-        let kind = self.kind_of_answer(&scope, &loops, &answer).unwrap_or(Kind::Unknown);
+        let kind = self.kind_of_answer(scope, loops, answer).unwrap_or(Kind::Unknown);
         self.silent -= 1;
         self.message_kinds.insert(key, Some(kind.clone()));
         kind

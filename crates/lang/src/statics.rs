@@ -145,7 +145,7 @@ impl Lowerer<'_> {
             doc: message.doc().unwrap_or_default(),
             parameters,
             class: answers,
-            answer: Rc::new(Term::Me),
+            answer: self.unsaid.clone(),
             is_asked: true,
             is_default: false,
             is_combining: false,

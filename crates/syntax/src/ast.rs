@@ -32,10 +32,10 @@ pub use statements::{
     Target, Task, Try, Undo, Unmerge,
 };
 
-use crate::kind::{SyntaxElement, SyntaxKind, SyntaxNode, SyntaxToken};
+use crate::kind::{Language, SyntaxElement, SyntaxKind, SyntaxNode, SyntaxToken};
 use crate::tree::{span_of, span_of_token};
 use base::{Name, Span};
-use rowan::TextRange;
+use rowan::{Language as _, TextRange};
 
 /// A wrapper of a node of the tree.
 pub trait AstNode: Sized {
@@ -171,12 +171,11 @@ pub(crate) fn child_after<N: AstNode>(node: &SyntaxNode, kind: SyntaxKind) -> Op
 
 /// Returns the doc comment of a member or parameter: its lines without `///`, joined.
 pub fn doc_comment(node: &SyntaxNode) -> Option<String> {
-    let lines: Vec<String> = node
-        .children_with_tokens()
-        .take_while(|e| e.kind().is_trivia())
-        .filter(|e| e.kind() == SyntaxKind::DocComment)
-        .filter_map(SyntaxElement::into_token)
-        .map(|t| t.text().trim_start_matches('/').trim().to_owned())
+    // most have none: the green tree tells so without a cursor for each token
+    let green = node.green();
+    let lines: Vec<&str> = leading_trivia(&green)
+        .filter(|(kind, _)| *kind == SyntaxKind::DocComment)
+        .map(|(_, text)| text.trim_start_matches('/').trim())
         .collect();
     (!lines.is_empty()).then(|| lines.join("\n"))
 }
@@ -184,8 +183,21 @@ pub fn doc_comment(node: &SyntaxNode) -> Option<String> {
 /// Returns the bytes of a node without the comments that it begins with.
 pub fn span_without_doc(node: &SyntaxNode) -> Span {
     let span = span_of(node);
-    let first = node.children_with_tokens().find(|e| !e.kind().is_trivia());
-    first.map_or(span, |e| Span::new(e.text_range().start().into(), span.end))
+    let green = node.green();
+    let trivia: usize = leading_trivia(&green).map(|(_, text)| text.len()).sum();
+    match span.start + trivia as u32 {
+        // there is nothing else
+        start if start == span.end => span,
+        start => Span::new(start, span.end),
+    }
+}
+
+/// The comments and blanks that a node begins with, as tokens of its own.
+fn leading_trivia(green: &rowan::GreenNodeData) -> impl Iterator<Item = (SyntaxKind, &str)> {
+    let tokens = green.children().map_while(rowan::NodeOrToken::into_token);
+    tokens
+        .map(|token| (Language::kind_from_raw(token.kind()), token.text()))
+        .take_while(|(kind, _)| kind.is_trivia())
 }
 
 ast_nodes! {

@@ -191,7 +191,7 @@ impl Lowerer<'_> {
         let mut line = self.document.primary_line(scope.class()).into_iter();
         let definition = line.find_map(|c| self.definitions.get(&(c, name.clone())))?;
         // the message may be inherited: its names are those of its own text, of the loop's thing
-        let there = Scope { classes: scope.classes.clone(), ..definition.scope.clone() };
+        let there = Scope { classes: scope.classes.clone(), ..Scope::clone(&definition.scope) };
         Some(Listed { elements: definition.elements()?, scope: Some(there) })
     }
 
