@@ -10,7 +10,6 @@ use crate::scope::Scope;
 use base::{Diagnostic, FileId, Name, Place, Span};
 use kernel::{
     ClassId, ClassKind, Count, Message, OriginId, Parameter, Part, Path, Primitive, Stay, Step,
-   
 };
 use std::cell::OnceCell;
 use std::rc::Rc;

@@ -10,26 +10,33 @@ use crate::session::{Session, parse_path};
 use crate::view::{DocumentId, Pointer, Refusal};
 use kernel::{Command, Path};
 
-/// What it uses.
+/// What the document uses.
 const LIBRARY: &str = "geometry";
-/// Lines to drag and to join, and a program to go on with.
-const DOCUMENT: &str = "use geometry
-program Rehearsed(size: Length = 4) {
-    floor = Axis.horizontal(y: 0)
-    first = Circle(center: Point(0, 10), radius: size)
-    second = Circle.concentric(with: first, radius: first.radius + 1)
+/// How many steps its program has: enough that what runs for each of them is worth optimising.
+const STEPS: usize = 60;
+/// How often a hand does the same.
+const TIMES: usize = 4;
+
+/// The document: lines to drag and to join, and a program to go on with.
+fn document() -> String {
+    let mut text = format!("use {LIBRARY}\n");
+    text += "a: Line { p1 = (40, 0)  p2 = (60, 0) }\nb: Line { p1 = (70, 0)  p2 = (90, 0) }\n";
+    text += "constraint a.length = b.length\nrehearsed: Rehearsed\n";
+    text += "program Rehearsed(size: Length = 4) {\n    floor = Axis.horizontal(y: 0)\n";
+    text += "    c0 = Circle(center: Point(0, 10), radius: size)\n";
+    for i in 1..STEPS {
+        let with = i - 1;
+        let radius = format!("c{with}.radius + 0.1");
+        text += &format!("    c{i} = Circle.concentric(with: c{with}, radius: {radius})\n");
+    }
+    text + "}\n"
 }
-rehearsed: Rehearsed
-a: Line { p1 = (40, 0)  p2 = (60, 0) }
-b: Line { p1 = (70, 0)  p2 = (90, 0) }
-constraint a.length = b.length
-";
 
 impl Job {
     /// The job that rehearses; nothing where the library that it uses is not there.
     pub fn rehearsal(host: &dyn Host) -> Option<Self> {
         let files = vec![(String::from(LIBRARY), host.read(LIBRARY)?)];
-        let (name, text) = (String::new(), String::from(DOCUMENT));
+        let (name, text) = (String::new(), document());
         Some(Self { name, text, files, question: LongQuestion::Rehearsal })
     }
 }
@@ -42,28 +49,36 @@ impl Session {
     pub(crate) fn rehearse(&mut self, id: DocumentId) -> Result<(), Refusal> {
         let [end, begin]: [Path; 2] =
             ["a.p2", "b.p1"].map(|path| parse_path(path).unwrap_or_default());
-        self.press_all(id, std::slice::from_ref(&end))?;
-        self.drag(id, (55.0, 5.0));
-        self.release(id)?;
-        self.picture(id);
+        let at = |x: f64, y: f64| Pointer { at: (x, y), reach: 2.0, ..Pointer::default() };
+        for i in 0..TIMES {
+            self.press_all(id, std::slice::from_ref(&end))?;
+            self.drag(id, (55.0 + i as f64, 5.0));
+            self.release(id)?;
+            self.picture(id);
+        }
         self.apply(id, &Command::Merge(vec![end, begin]))?;
         self.picture(id);
         self.apply(id, &Command::Undo)?;
         self.record(id, "Rehearsed")?;
-        let at = |x: f64, y: f64| Pointer { at: (x, y), reach: 2.0, ..Pointer::default() };
         self.begin(id, "Circle")?;
-        self.point(id, &at(20.0, 0.5))?;
-        self.hover(id, &at(20.0, 30.0), "size");
-        self.enter(id, "size")?;
-        self.picture(id);
+        for i in 0..TIMES {
+            let x = 20.0 + 5.0 * i as f64;
+            self.point(id, &at(x, 0.5))?;
+            self.hover(id, &at(x, 30.0), "size");
+            self.enter(id, "size")?;
+            let _ = (self.picture(id), self.steps(id, None), self.constructions(id));
+        }
         self.begin_loop(id, "")?;
         self.begin(id, "Circle.concentric(with,radius)")?;
-        self.point(id, &at(0.0, 15.0))?;
+        self.point(id, &at(0.0, 14.0))?;
         self.enter(id, "size")?;
         self.end_turn(id, Ends::Until)?;
-        self.hover(id, &at(0.0, 15.0), "");
-        self.point(id, &at(0.0, 15.0))?;
-        self.picture(id);
+        for _ in 0..TIMES {
+            self.hover(id, &at(0.0, 14.0), "");
+            self.point(id, &at(0.0, 14.0))?;
+            let _ = (self.picture(id), self.steps(id, None));
+            self.back(id);
+        }
         Ok(())
     }
 }

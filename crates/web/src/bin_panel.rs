@@ -4,7 +4,7 @@ use crate::dock::Sheet;
 use crate::js::Painter;
 use crate::lab::Lab;
 use crate::paint::{Part, display_list};
-use crate::picture::{new_painter, paint};
+use crate::picture::{new_painter, paint_alone};
 use crate::sheet::{fit, with_words};
 use crate::{icons, keyboard, words};
 use leptos::html::Canvas;
@@ -196,7 +196,7 @@ fn Tile(lab: Lab, entry: BinEntry, is_used: bool) -> impl IntoView {
         painter
             .with_value(|painter| {
                 let painter = painter.as_ref().filter(|_| size.0 > 0.0)?;
-                Some(paint(painter, (&list, &list.numbers), Vec::new(), &view, last.unwrap_or_default()))
+                Some(paint_alone(painter, &list, &view, last.unwrap_or_default()))
             })
             .unwrap_or_default()
     });

@@ -332,8 +332,18 @@ pub(crate) fn new_painter(
     js::create_painter(canvas, on_size.into_js_value().unchecked_ref())
 }
 
+/// Paints a list, and nothing under it; returns the words and colours that the painter has now.
+pub(crate) fn paint_alone(
+    painter: &Painter,
+    list: &DisplayList,
+    view: &View,
+    texts: Texts,
+) -> Texts {
+    paint(painter, (list, &list.numbers), Vec::new(), view, texts)
+}
+
 /// Paints numbers before numbers of a list; returns the words and colours that the painter has now.
-pub(crate) fn paint(
+fn paint(
     painter: &Painter,
     (list, own): (&DisplayList, &[f64]),
     mut numbers: Vec<f64>,

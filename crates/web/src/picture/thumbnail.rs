@@ -1,6 +1,6 @@
 //! A small picture of a document, which moves while one looks at it.
 
-use super::{Texts, new_painter, paint};
+use super::{Texts, new_painter, paint_alone};
 use crate::js::{self, Painter};
 use crate::lab::Lab;
 use crate::orbit;
@@ -49,7 +49,7 @@ pub fn Thumbnail(
         painter
             .with_value(|painter| {
                 let painter = painter.as_ref().filter(|_| size.0 > 0.0)?;
-                Some(paint(painter, (&list, &list.numbers), Vec::new(), &view, last.unwrap_or_default()))
+                Some(paint_alone(painter, &list, &view, last.unwrap_or_default()))
             })
             .unwrap_or_default()
     });

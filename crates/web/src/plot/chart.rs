@@ -2,7 +2,7 @@
 
 use crate::js::Painter;
 use crate::paint::{Part, display_list};
-use crate::picture::{Texts, new_painter, paint};
+use crate::picture::{Texts, new_painter, paint_alone};
 use crate::sheet::View;
 use crate::{theme, words};
 use drawing::{Point, Vertical};
@@ -57,7 +57,7 @@ pub fn Chart(
         let view = View { scale: 1.0, x: 0.0, y: 0.0, vertical: Vertical::Down };
         let paint_all = |painter: &Option<Painter>| {
             let painter = painter.as_ref().filter(|_| frame.size.0 > 0.0)?;
-            Some(paint(painter, (&list, &list.numbers), Vec::new(), &view, last.clone().unwrap_or_default()))
+            Some(paint_alone(painter, &list, &view, last.clone().unwrap_or_default()))
         };
         painter.with_value(paint_all).unwrap_or_default()
     });
