@@ -7,7 +7,7 @@
 //! that come to other bits, since they give way whenever the text is opened, are written as they are. What is bound to
 //! others keeps what it is bound by. Where the fewer digits do not say the same, all are written. A quantity that
 //! nothing decides and that nothing is placed by, as the voltages of a circuit without a ground, is not written: it is
-//! what opening the text gives.
+//! what opening the text gives, unless what the edit was about is bound to it.
 
 use crate::given_twice;
 use crate::host::Host;
@@ -149,8 +149,12 @@ fn written(
         let is_missing = |slot: &SlotId| {
             !written.contains(&unit(*slot)) && !state.structure.bound.contains(slot)
         };
-        let missing: Vec<SlotId> = differing(&next, wanted).filter(is_missing).collect();
-        let (mut missing, _) = decided(&next, missing, edited, &mut planner);
+        let mut missing: Vec<SlotId> = differing(&next, wanted).filter(is_missing).collect();
+        // what is bound, and was set, comes of what nothing else decides: that is written then
+        let is_lost = |slot: &SlotId| next.structure.bound.contains(slot) && edited.contains(slot);
+        if !differing(&next, wanted).any(|slot| is_lost(&slot)) {
+            missing = decided(&next, missing, edited, &mut planner).0;
+        }
         // what is off for want of digits is not to be given: then all digits are written
         if meant.is_some() && !missing.is_empty() && !missing.iter().any(|s| edited.contains(s)) {
             return (next, planner);
