@@ -25,6 +25,8 @@ pub const DEEPEST_MESSAGES: u32 = 200;
 const DEEPEST_TERMS: u32 = 1000;
 /// How many terms one question may evaluate: what a mistyped recursion may cost.
 const MOST_TERMS: u64 = 10_000_000;
+/// How many terms every question may evaluate, however many others ran out of them.
+const LEAST_TERMS: u64 = 10_000;
 /// From so many terms on a question remembers what messages answer: those that speak of each other twice are asked
 /// for once.
 const LONG: u64 = 100_000;
@@ -356,7 +358,7 @@ impl<'a> Evaluator<'a> {
                 Ok(())
             }
             None => {
-                self.most.set(self.most.get() / 2);
+                self.most.set((self.most.get() / 2).max(LEAST_TERMS));
                 let message = String::from("too many steps without an end");
                 Err(Fault::new(FaultKind::Endless, message))
             }

@@ -177,6 +177,10 @@ static BY_SPELLING: LazyLock<BTreeMap<&str, &NamedUnit>> =
 
 /// Returns the unit of a word without operators: one of the table, with a prefix where it takes one.
 fn simple(word: &str) -> Option<Unit> {
+    // nothing, and numbers, are asked for most
+    if word.bytes().next().is_none_or(|first| first.is_ascii_digit()) {
+        return None;
+    }
     if let Some(named) = BY_SPELLING.get(word) {
         return Some(named.unit);
     }

@@ -25,6 +25,8 @@ const DEEPEST: u32 = 200;
 const DEEPEST_TERMS: u32 = 1000;
 /// How many terms one rule may open into: what a mistyped recursion may cost.
 const MOST_TERMS: u32 = 1_000_000;
+/// How many terms every rule may open into, however many others ran away.
+const LEAST_TERMS: u32 = 10_000;
 
 /// How many nodes most rules open into at most.
 const NODES: usize = 28;
@@ -64,6 +66,8 @@ pub(crate) struct Opening<'a> {
     depth: u32,
     nested: u32,
     terms: u32,
+    /// How many terms a rule may open into: half as many after each that ran away, so that all of them together end soon.
+    most_terms: u32,
 }
 
 impl<'a> Opening<'a> {
@@ -103,6 +107,7 @@ impl<'a> Opening<'a> {
             depth: 0,
             nested: 0,
             terms: 0,
+            most_terms: MOST_TERMS,
         }
     }
 
@@ -285,11 +290,15 @@ impl<'a> Opening<'a> {
     /// Counts one more term of the rule at hand.
     pub(crate) fn count_term(&mut self) -> Result<(), Trouble> {
         self.terms += 1;
-        if self.terms > MOST_TERMS {
-            return Err(Trouble::new(
-                FaultKind::Endless,
-                "it opens into more than a million terms",
-            ));
+        if self.terms > self.most_terms {
+            let message = match self.most_terms {
+                MOST_TERMS => "it opens into more than a million terms".to_string(),
+                most => {
+                    format!("it opens into more than {most} terms, behind others without an end")
+                }
+            };
+            self.most_terms = (self.most_terms / 2).max(LEAST_TERMS);
+            return Err(Trouble::new(FaultKind::Endless, message));
         }
         Ok(())
     }

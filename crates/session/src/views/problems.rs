@@ -46,12 +46,10 @@ pub(crate) fn view(open: &mut Open) -> Vec<DiagnosticView> {
     let around = open.planner.connected(state.model(), &words::read_by(&state, &told));
     let around: BTreeSet<SlotId> = around.into_iter().collect();
     // what could not be planned is said where it stands already
-    let is_planned = |s: &Source| match s {
-        Source::Constraint(index) => state.is_planned(*index),
-        Source::Stay(_) | Source::Wish(_) => true,
-    };
     let is_told = |s: &Source| {
-        told.contains(s) || !is_planned(s) || !words::read_by(&state, &[*s]).is_disjoint(&around)
+        told.contains(s)
+            || !is_planned(&state, s)
+            || !words::read_by(&state, &[*s]).is_disjoint(&around)
     };
     let required = open.status.unmet.iter().filter(|u| u.level == Level::Required);
     let untold = required.map(|u| u.source).filter(|s| !is_told(s));
@@ -60,6 +58,14 @@ pub(crate) fn view(open: &mut Open) -> Vec<DiagnosticView> {
     problems.extend(without_value(&state, &open.values().clone()));
     problems.sort_by_key(|d| (d.place.file, d.place.span.start));
     super::text::diagnostics(&state, &problems)
+}
+
+/// Returns false for what could not be planned.
+fn is_planned(state: &State, source: &Source) -> bool {
+    match source {
+        Source::Constraint(index) => state.is_planned(*index),
+        Source::Stay(_) | Source::Wish(_) => true,
+    }
 }
 
 fn of_contradiction(
@@ -255,7 +261,7 @@ fn mechanism(open: &mut Open, state: &State) -> Option<(Diagnostic, Vec<Source>)
         | Primitive::Color => None,
     };
     let required = open.status.unmet.iter().filter(|u| u.level == Level::Required);
-    let unmet = required.map(|u| u.source);
+    let unmet = required.map(|u| u.source).filter(|s| is_planned(state, s));
     let unbalanced: Vec<Source> = unmet
         .filter(|&s| words::measure(state, s).is_some_and(|(measured, _)| is_load(measured)))
         .collect();

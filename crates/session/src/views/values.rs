@@ -157,7 +157,8 @@ fn renewed<'a>(
     let value = answer.clone().and_then(|answer| evaluator.from(answer, within));
     match value {
         Ok(value) => {
-            let class = element_class(document, state.structure.things[owner].class, name);
+            let class = state.structure.things[owner].class;
+            let class = element_class(document, class_of_answer(document, class, name));
             show_answer(document, &value, class).map(|shown| shown.0)
         }
         Err(fault) => without_value(&fault),
@@ -202,7 +203,8 @@ fn show_virtual(
 /// Says why something has no value; nothing where that is no matter of its numbers.
 fn without_value(fault: &Fault) -> Option<Cell> {
     let text = format!("no value: {}", fault.message);
-    (fault.kind == FaultKind::NoAnswer).then(|| Cell { words: words::plain(text), number: None })
+    matches!(fault.kind, FaultKind::NoAnswer | FaultKind::Endless)
+        .then(|| Cell { words: words::plain(text), number: None })
 }
 
 /// Returns the name of the class that is written for what a message answers; empty where none is.
@@ -216,9 +218,9 @@ fn class_of_answer(document: &Document, class: ClassId, name: &Name) -> Option<C
     message.and_then(|m| m.class)
 }
 
-/// Returns the name of the class of the numbers that are written for what a message lists; empty where none is.
-fn element_class<'d>(document: &'d Document, class: ClassId, name: &Name) -> &'d str {
-    let mut found = class_of_answer(document, class, name);
+/// Returns the name of the class of the numbers in what is listed as of a class; empty where none is.
+fn element_class(document: &Document, listed: Option<ClassId>) -> &str {
+    let mut found = listed;
     while let Some(class) = found {
         match &document.classes[class].kind {
             ClassKind::List(of) | ClassKind::Set(of) => found = Some(*of),
@@ -454,19 +456,23 @@ impl<'a> Maker<'a> {
         let end = path.len();
         let draws = document.program(class).is_some();
         let most = self.work.rows.len() + MOST_DRAWN;
-        for Answers { name, doc, is_pictured } in parts.clone().iter() {
+        for Answers { name, doc, is_pictured, class: written } in parts.clone().iter() {
             let (answer, read) = self.evaluator.listening(|| self.evaluator.ask(thing, name));
             let slots = &self.state.structure.slots;
             let is_layout = read.iter().all(|&slot| slots[slot].is_layout)
                 && (*is_pictured || !read.is_empty());
             append(&mut path, name);
-            let said = [answer_class(document, class, name), doc];
+            let said = [written.map_or("", |c| &document.classes[c].name), doc.as_str()];
             match answer {
                 Ok(answer) => match answered(document, &path, &answer, said, is_layout) {
                     None if draws => self.add_drawn(&answer, &mut path, most),
                     None if is_table(document, &answer, thing) => {
-                        let class = element_class(document, class, name);
-                        self.add_each(&answer, &mut path, [class, doc], is_layout);
+                        self.add_each(
+                            &answer,
+                            &mut path,
+                            [element_class(document, *written), doc],
+                            is_layout,
+                        );
                     }
                     row => self.work.rows.extend(row),
                 },
@@ -636,6 +642,8 @@ struct Answers {
     doc: String,
     /// Whether a picture speaks of it.
     is_pictured: bool,
+    /// The class that is written for its answer.
+    class: Option<ClassId>,
 }
 
 /// Returns the messages that read as values, with what `///` says of them, in order of declaration.
@@ -645,18 +653,26 @@ struct Answers {
 fn virtual_parts(document: &Document, class: ClassId) -> Rc<[Answers]> {
     let mut found: IndexMap<&Name, (&str, bool)> = IndexMap::new();
     let line: Vec<ClassId> = document.primary_line(class).into_iter().rev().collect();
-    let messages = || line.iter().flat_map(|&class| &document.classes[class].messages);
+    // of each name all that the line defines, from above
+    let mut named: BTreeMap<&Name, Vec<&Message>> = BTreeMap::new();
+    for message in line.iter().flat_map(|&class| &document.classes[class].messages) {
+        named.entry(&message.name).or_default().push(message);
+    }
+    // that of the nearest class counts
+    let mut classes: BTreeMap<&Name, Option<ClassId>> = BTreeMap::new();
+    for message in line.iter().rev().flat_map(|&class| &document.classes[class].messages) {
+        classes.entry(&message.name).or_insert(message.class);
+    }
     // a part takes the place of a message that a class above answers
-    let is_stored = |name: &Name| {
-        line.iter().any(|&class| document.classes[class].parts.iter().any(|p| p.name == *name))
-    };
+    let parts = line.iter().flat_map(|&class| &document.classes[class].parts);
+    let stored: BTreeSet<&Name> = parts.map(|part| &part.name).collect();
     for &class in &line {
         if document.classes[class].supers.is_empty() {
             continue;
         }
         let messages = document.classes[class].messages.iter();
-        for message in messages.filter(|m| !m.is_asked && !is_view(&m.name) && !is_stored(&m.name))
-        {
+        let is_read = |m: &&Message| !m.is_asked && !is_view(&m.name) && !stored.contains(&m.name);
+        for message in messages.filter(is_read) {
             let (doc, is_drawn) = found.entry(&message.name).or_default();
             if !message.doc.is_empty() {
                 *doc = &message.doc;
@@ -665,18 +681,18 @@ fn virtual_parts(document: &Document, class: ClassId) -> Rc<[Answers]> {
         }
     }
     // what pictures speak of, and what that speaks of in turn
-    let mut pictured: BTreeSet<Name> = BTreeSet::new();
+    let mut pictured: BTreeSet<&Name> = BTreeSet::new();
     let is_drawn = |m: &&Message| m.name.as_str() == "picture" || is_picture(&m.answer);
-    let mut open: Vec<&Message> = messages().filter(is_drawn).collect();
+    let mut open: Vec<&Message> = named.values().flatten().copied().filter(is_drawn).collect();
     while let Some(message) = open.pop() {
         let mut terms = vec![&*message.answer];
         while let Some(term) = terms.pop() {
             terms.extend(term.operands());
             if let Term::Send { to, name, .. } = term
                 && **to == Term::Me
-                && pictured.insert(name.clone())
+                && pictured.insert(name)
             {
-                open.extend(messages().filter(|m| m.name == *name));
+                open.extend(named.get(name).into_iter().flatten());
             }
         }
     }
@@ -687,6 +703,7 @@ fn virtual_parts(document: &Document, class: ClassId) -> Rc<[Answers]> {
         name: name.clone(),
         doc: doc.to_string(),
         is_pictured: pictured.contains(name),
+        class: classes.get(name).copied().flatten(),
     })
     .collect()
 }
