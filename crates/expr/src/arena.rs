@@ -395,6 +395,44 @@ impl Arena {
         }
         results[place(&order, id)]
     }
+    /// Returns true if every operation that the value of an expression needs has one: none is divided by zero, and no
+    /// branch is asked that is not taken.
+    ///
+    /// ```
+    /// use expr::{Arena, Unary, Var};
+    /// let mut arena = Arena::new();
+    /// let (one, x) = (arena.constant(1.0), arena.var(Var(0)));
+    /// let reciprocal = arena.div(one, x);
+    /// let id = arena.unary(Unary::Atan, reciprocal);
+    /// assert!(arena.has_value(id, &[2.0]) && !arena.has_value(id, &[0.0]));
+    /// ```
+    ///
+    /// # Panics
+    /// If a variable that occurs in it has no value.
+    pub fn has_value(&self, id: ExprId, values: &[f64]) -> bool {
+        let order = self.reachable(&[id]);
+        let mut results: Vec<f64> = Vec::with_capacity(order.len());
+        // NaN stands for none: it passes on to whatever needs it
+        for &id in &order {
+            let of = |id| results[place(&order, id)];
+            let result = match self.node(id) {
+                Node::Constant(bits) => f64::from_bits(bits),
+                Node::Var(var) => values[var.index()],
+                Node::Unary(op, a) if of(a).is_finite() => op.apply(of(a)),
+                Node::Binary(Binary::And, a, b) if of(a) == 0.0 || of(b) == 0.0 => 0.0,
+                Node::Binary(Binary::Or, a, b) if is_true(of(a)) || is_true(of(b)) => 1.0,
+                Node::Binary(op, a, b) if of(a).is_finite() && of(b).is_finite() => {
+                    op.apply(of(a), of(b))
+                }
+                Node::Unary(..) | Node::Binary(..) => f64::NAN,
+                Node::Select { condition, .. } if !of(condition).is_finite() => f64::NAN,
+                Node::Select { condition, then, .. } if of(condition) != 0.0 => of(then),
+                Node::Select { otherwise, .. } => of(otherwise),
+            };
+            results.push(result);
+        }
+        results[place(&order, id)].is_finite()
+    }
     /// Calls `visit` with every operation that an expression is made of, users before operands.
     pub fn each_node(&self, id: ExprId, mut visit: impl FnMut(Node)) {
         self.each_marked(&[id], id.index() + 1, |_, node| visit(node));
@@ -550,6 +588,11 @@ impl<'o> Places<'o> {
             None => place(self.order, id),
         }
     }
+}
+
+/// Returns true for a truth value that is known, and true.
+fn is_true(x: f64) -> bool {
+    x.is_finite() && x != 0.0
 }
 
 /// Returns where `id` stands in an order that holds it.

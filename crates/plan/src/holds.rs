@@ -1,7 +1,7 @@
 //! Whether rules hold: both sides of every equation, computed from the values alone.
 
 use crate::host::Host;
-use crate::rule::{Body, ByHost, Condition, How, Rule, Source, When};
+use crate::rule::{Body, ByHost, Condition, Formula, How, Rule, Source, When};
 use kernel::{Structure, Values};
 use solve::modes::is_true_within;
 use solve::{Patterns, Scratch};
@@ -68,6 +68,8 @@ pub(crate) fn fails(
                 let sway = || patterns.get(e.pattern).sway(arguments, scratch);
                 if !rule.shape.within.is_met_with(left, right, sway) {
                     worst = larger(worst, Some((left - right).abs()));
+                } else if !has_value(patterns, rule, e, values) {
+                    worst = Some(f64::INFINITY);
                 }
             }
             worst.map(Some)
@@ -77,7 +79,9 @@ pub(crate) fn fails(
                 rule.slots_at(&formula.slots).map(|s| values.numbers[s]).collect();
             let pattern = patterns.get(formula.pattern);
             let (arena, root) = (pattern.arena(), pattern.roots()[0]);
-            (!is_true_within(arena, root, &arguments, rule.shape.within)).then_some(None)
+            let holds = is_true_within(arena, root, &arguments, rule.shape.within)
+                && pattern.has_value(arguments);
+            (!holds).then_some(None)
         }
         Body::Different(formula) => {
             let mut all = rule.evaluate(formula, patterns, &values.numbers, scratch).to_vec();
@@ -97,6 +101,12 @@ pub(crate) fn fails(
         }
         Body::Hold(_) => None,
     }
+}
+
+/// Returns false where something in a formula has no value with these values, though the formula comes to one.
+fn has_value(patterns: &Patterns, rule: Rule<'_>, formula: &Formula, values: &Values) -> bool {
+    let arguments = rule.slots_at(&formula.slots).map(|s| values.numbers[s]);
+    patterns.get(formula.pattern).has_value(arguments)
 }
 
 /// Returns the larger of two errors; one without a number is the smallest.

@@ -59,6 +59,10 @@ impl Planner {
         let is_unmet: BTreeSet<Source> = required.map(|u| u.source).collect();
         let mut may_be_more = false;
         for (i, task) in tasks.iter().enumerate().filter(|(i, _)| !is_quiet[*i]) {
+            // of what fails that is to be told, and nothing else
+            if self.fails(task, &is_unmet) {
+                continue;
+            }
             if self.may_follow(model, task, values, &is_unmet, host) {
                 may_be_more |= !task.is_of_layout(structure);
             } else if let (Some(Some(came)), Some(plan)) = (self.came.get(i), task.number()) {

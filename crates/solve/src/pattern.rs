@@ -30,6 +30,7 @@ pub struct Pattern {
     plain: Option<Plain>,
     has_pieces: bool,
     has_angles: bool,
+    may_hide: bool,
     values: OnceCell<Rc<Tape>>,
     kernel: OnceCell<Rc<Kernel>>,
     /// Few patterns have some.
@@ -70,6 +71,7 @@ impl Pattern {
         let plain = plain(&excerpt);
         let has_pieces = excerpt.nodes.iter().any(|&node| pieces::has_pieces(node));
         let has_angles = excerpt.nodes.iter().any(|&node| speaks_of_angles(node));
+        let may_hide = may_hide(&excerpt);
         Self {
             excerpt,
             arena: OnceCell::new(),
@@ -77,6 +79,7 @@ impl Pattern {
             plain,
             has_pieces,
             has_angles,
+            may_hide,
             values: OnceCell::new(),
             kernel: OnceCell::new(),
             identified: RefCell::default(),
@@ -197,6 +200,15 @@ impl Pattern {
     pub(crate) fn has_angles(&self) -> bool {
         self.has_angles
     }
+    /// Returns false where an operation in it has no value with these arguments, and what is made of that has one: `exp(-1 / x)`
+    /// is 0 where `x` is.
+    pub fn has_value(&self, arguments: impl IntoIterator<Item = f64>) -> bool {
+        if !self.may_hide {
+            return true;
+        }
+        let arguments: Vec<f64> = arguments.into_iter().collect();
+        self.roots().iter().all(|&root| self.arena().has_value(root, &arguments))
+    }
     /// Returns what it says if that is next to nothing.
     pub(crate) fn plain(&self) -> Option<Plain> {
         self.plain
@@ -234,6 +246,33 @@ impl Pattern {
         identified.get_or_insert_default().insert(which.into(), made.clone());
         made
     }
+}
+
+/// Returns true if an operation that may have no value stands within one whose result does not show it.
+fn may_hide(excerpt: &Excerpt) -> bool {
+    let mut may_lack: Vec<bool> = Vec::with_capacity(excerpt.nodes.len());
+    let mut is_hidden = false;
+    for &node in &excerpt.nodes {
+        let mut within = false;
+        node.each_operand(|operand| within |= may_lack[operand.index()]);
+        let (lacks, hides) = match node {
+            Node::Binary(op, ..) => match op {
+                Binary::Div | Binary::Pow => (true, true),
+                Binary::Add | Binary::Sub | Binary::Mul => (false, false),
+                _ => (false, true),
+            },
+            Node::Unary(op, _) => {
+                use Unary::{Atan, Atanh, Exp, Ln, Log2, Log10, Sign, Tanh};
+                let lacks = matches!(op, Ln | Log10 | Log2 | Atanh);
+                (lacks, matches!(op, Exp | Atan | Tanh | Sign | Unary::Not))
+            }
+            Node::Select { .. } => (false, true),
+            Node::Constant(_) | Node::Var(_) => (false, false),
+        };
+        is_hidden |= within && hides;
+        may_lack.push(within || lacks);
+    }
+    is_hidden
 }
 
 fn plain(excerpt: &Excerpt) -> Option<Plain> {

@@ -193,7 +193,7 @@ impl Planner {
     }
 
     /// Returns true if a component has a constraint that is unmet.
-    fn fails(&self, task: &Task, unmet: &BTreeSet<Source>) -> bool {
+    pub(crate) fn fails(&self, task: &Task, unmet: &BTreeSet<Source>) -> bool {
         let fails = |&r: &u32| unmet.contains(&self.rules.source(r));
         !unmet.is_empty() && task.component.rules().iter().any(fails)
     }
