@@ -10,7 +10,7 @@ use crate::yielding;
 use base::number::ROUNDING;
 use base::{Diagnostic, IdVec, Place};
 use eval::Answer;
-use kernel::{Class, GivenTerm, Path, SlotId, Structure, Term, ThingId, Value};
+use kernel::{Class, GivenTerm, Path, SlotId, Structure, Term, ThingId, Value, Values};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The code of the warning.
@@ -83,7 +83,9 @@ pub(crate) fn warnings(state: &State) -> Vec<Diagnostic> {
         line.holds |= holds;
         line.values.push((slot, [was, is]));
     }
-    lines.into_values().map(|(place, line)| warning(state, place, &line)).collect()
+    let mut values = state.values.clone();
+    let told = lines.into_values();
+    told.map(|(place, line)| warning(&mut bodies, &mut values, place, &line)).collect()
 }
 
 /// Returns what a slot is bound to: of the parts that are one, the first that is given by others.
@@ -96,35 +98,21 @@ fn binding(structure: &Structure, thing: ThingId, slot: SlotId) -> Option<(&Give
     given.find(|(given, _)| !matches!(given.term, Term::Number { .. } | Term::Text(_)))
 }
 
-/// Returns where the classes of what has a part say that it is one with another, or what has it is.
-///
-/// Cost: a look at every merge of these classes.
-fn merged_at(state: &State, thing: ThingId, other: ThingId) -> Option<Place> {
-    let (structure, document) = (&state.structure, &state.lowered.document);
-    let all: Vec<ThingId> = around(structure, thing).chain(around(structure, other)).collect();
-    let hosts = around(structure, thing);
-    let mut merges = hosts.flat_map(|host| {
-        let class = structure.things[host].class;
-        document.classes[class].merges.iter().map(move |merge| (host, merge))
-    });
-    let found = merges.find(|(host, merge)| {
-        let things = merge.paths.iter().filter_map(|p| structure.follow(*host, p).ok());
-        let within = |t: &ThingId| all.contains(t) || all.contains(&structure.merged[*t]);
-        things.filter(within).count() > 1
-    });
-    found.map(|(_, merge)| state.lowered.place(merge.origin))
-}
-
 /// What bodies say of parts, by the thing whose body it is: found once for each.
 struct Bodies<'a> {
     state: &'a State,
     connected: BTreeMap<ThingId, BTreeSet<ThingId>>,
     anchored: BTreeMap<ThingId, BTreeSet<ThingId>>,
+    merged: BTreeMap<ThingId, Merges>,
 }
+
+/// The merges of a thing's class by what they name: which of them, and the how manieth path there.
+type Merges = BTreeMap<ThingId, Vec<(usize, usize)>>;
 
 impl<'a> Bodies<'a> {
     fn of(state: &'a State) -> Self {
-        Self { state, connected: BTreeMap::new(), anchored: BTreeMap::new() }
+        let (connected, anchored, merged) = Default::default();
+        Self { state, connected, anchored, merged }
     }
 
     /// Returns what has a thing and anchors it by its class, the innermost; nothing where the document's own text does.
@@ -143,6 +131,22 @@ impl<'a> Bodies<'a> {
         })
     }
 
+    /// Returns where the classes of what has a part say that it is one with another, or what has it is.
+    fn merged_at(&mut self, thing: ThingId, other: ThingId) -> Option<Place> {
+        let (state, structure) = (self.state, &self.state.structure);
+        let all: BTreeSet<ThingId> =
+            around(structure, thing).chain(around(structure, other)).collect();
+        around(structure, thing).find_map(|host| {
+            let named = self.merged.entry(host).or_insert_with(|| merges_of(state, host));
+            let paths: BTreeSet<(usize, usize)> =
+                all.iter().filter_map(|t| named.get(t)).flatten().copied().collect();
+            let mut paths = paths.iter().map(|(merge, _)| *merge).zip(paths.iter().skip(1));
+            let (merge, _) = paths.find(|(merge, (next, _))| merge == next)?;
+            let class = &state.lowered.document.classes[structure.things[host].class];
+            Some(state.lowered.place(class.merges[merge].origin))
+        })
+    }
+
     /// Returns true if a body of `giver`, or of what that is in, connects a thing with another.
     fn is_connected(&mut self, thing: ThingId, giver: ThingId) -> bool {
         let state = self.state;
@@ -153,6 +157,22 @@ impl<'a> Bodies<'a> {
             around(&state.structure, thing).any(|t| parts.contains(&t))
         })
     }
+}
+
+/// Finds what the merges of a thing's class name. Cost: a look at each of them.
+fn merges_of(state: &State, host: ThingId) -> Merges {
+    let structure = &state.structure;
+    let merges = &state.lowered.document.classes[structure.things[host].class].merges;
+    let mut named = Merges::new();
+    for (i, merge) in merges.iter().enumerate() {
+        for (j, path) in merge.paths.iter().enumerate() {
+            let Ok(thing) = structure.follow(host, path) else { continue };
+            for thing in BTreeSet::from([thing, structure.merged[thing]]) {
+                named.entry(thing).or_default().push((i, j));
+            }
+        }
+    }
+    named
 }
 
 /// Returns the parts of a thing that its classes speak of.
@@ -200,16 +220,19 @@ fn are_alike(a: &Value, b: &Value) -> bool {
     }
 }
 
-fn warning(state: &State, place: Place, line: &Line) -> Diagnostic {
+/// Tells of a line; `values` are those of the state.
+fn warning(bodies: &mut Bodies<'_>, values: &mut Values, place: Place, line: &Line) -> Diagnostic {
+    let state = bodies.state;
     let path = |thing| state.structure.path(&state.lowered.document, thing).to_string();
-    let shown = |which: usize| {
-        let mut values = state.values.clone();
+    let mut shown = |which: usize| {
         line.values.iter().for_each(|(slot, both)| values.put(*slot, both[which].clone()));
-        show_thing(state, line.parts[0], &values).unwrap_or_default()
+        let shown = show_thing(state, line.parts[0], values).unwrap_or_default();
+        line.values.iter().for_each(|(slot, _)| values.put(*slot, state.values.get(*slot)));
+        shown
     };
     let [part, other] = line.parts.map(path);
     let (was, is) = (shown(0), shown(1));
-    let merged = merged_at(state, line.parts[0], line.parts[1]);
+    let merged = bodies.merged_at(line.parts[0], line.parts[1]);
     if line.holds {
         let message =
             format!("{part} is anchored at {was}, and {other} at {is}: they cannot be one");
