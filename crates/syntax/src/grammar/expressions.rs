@@ -515,6 +515,9 @@ pub(super) fn bracketed(
                 p.bump();
                 continue;
             }
+            if mistakes::elsewhere::without_comma(p) {
+                continue;
+            }
             if !p.eat(Comma) || p.pos() == before {
                 break;
             }

@@ -3,8 +3,9 @@
 use super::MEMBER;
 use crate::kind::SyntaxKind;
 use crate::kind::SyntaxKind::{
-    AndKw, Caret, Colon, Comma, Eof, Eq, FatArrow, Greater, GreaterEq, Ident, LBrace, LParen, Less,
-    LessEq, Minus, NotEq, NotKw, Number, Plus, RBrace, RParen, Semicolon, Slash, Star, Text, Unit,
+    AndKw, Caret, Colon, ColonEq, Comma, Eof, Eq, FatArrow, Greater, GreaterEq, Ident, LBrace,
+    LParen, Less, LessEq, Minus, NotEq, NotKw, Number, Plus, RBrace, RParen, Semicolon, Slash,
+    Star, Text, Unit,
 };
 use crate::parser::Parser;
 use crate::units::follows_operand;
@@ -119,7 +120,9 @@ fn class_in_brackets(p: &Parser<'_>) -> Option<String> {
     let (class, inner) = (p.text_between(p.pos() - 1, p.pos() - 1), p.word(1));
     Some(match (p.nth(1), p.nth(2)) {
         (RParen, _) => format!("a class has no brackets: `class {class} {{ … }}`"),
-        (Ident, RParen | Comma) => format!("write `class {class} is {inner}`"),
+        (Ident, RParen | Comma) if inner.starts_with(char::is_uppercase) => {
+            format!("write `class {class} is {inner}`")
+        }
         (Ident, _) => {
             format!("the parts of a class stand in its body: `class {class} {{ {inner}: Real }}`")
         }
@@ -222,6 +225,22 @@ fn sign(p: &Parser<'_>) -> Option<String> {
             )
         }
         Ident if p.word(0) == "between" => "write `1 <= x <= 3`".into(),
+        ColonEq if of == "constraint" => {
+            let rule = p.quoted_line(p.pos() + 1);
+            format!("a rule is an equation: `constraint {} = {rule}`", before(1))
+        }
+        // `3 4`, and no thousands
+        Number if p.behind(1) == Number && p.behind(2) == Eq && p.word(0).len() != 3 => {
+            format!("several values stand in a list: `[{}, {}]`", before(1), p.word(0))
+        }
+        // `= a b`, `2 * a b`
+        Ident
+            if p.behind(1) == Ident
+                && matches!(p.behind(2), Eq | Plus | Minus | Star | Slash)
+                && !p.names_itself(1) =>
+        {
+            format!("a product has its sign: `{} * {}`", before(1), p.word(0))
+        }
         Ident if p.word(0) == "per" && p.behind(1) == Unit => {
             format!("a unit is divided without spaces: `{}/{}`", before(1), p.word(1))
         }
@@ -513,7 +532,21 @@ pub(in crate::grammar) fn strange_unit(p: &mut Parser<'_>) -> bool {
     is_one
 }
 
-/// `Point(3 4)`, `[2 * i for i in 1..3]`, `Circle(…)` where a parameter stands: what brackets hold elsewhere, where their
+/// `Point(3 4)`: returns true where it was reported. What follows is the next element.
+pub(in crate::grammar) fn without_comma(p: &mut Parser<'_>) -> bool {
+    let is_one = p.at(Number) && matches!(p.behind(1), Number | Unit) && !p.begins_line(0);
+    if is_one {
+        let said = (
+            "expected-comma",
+            format!("found `{}`, wanted `,` before it", p.word(0)),
+            "what stands in brackets has commas between: `(3, 4)`".to_string(),
+        );
+        p.report_mistake((p.pos(), p.pos()), said, None);
+    }
+    is_one
+}
+
+/// `[2 * i for i in 1..3]`, `Circle(…)` where a parameter stands: what brackets hold elsewhere, where their
 /// end is wanted. Returns true where it was reported.
 pub(in crate::grammar) fn in_brackets(p: &mut Parser<'_>, wanted: &str) -> bool {
     let at = p.pos();
@@ -522,11 +555,6 @@ pub(in crate::grammar) fn in_brackets(p: &mut Parser<'_>, wanted: &str) -> bool 
             "expected-bracket",
             format!("found `for`, wanted {wanted}"),
             "a list of what is computed is `(1..3).map(i => 2 * i)`".to_string(),
-        ),
-        Number if matches!(p.behind(1), Number | Unit) && !p.begins_line(0) => (
-            "expected-comma",
-            format!("found `{}`, wanted `,` before it", p.word(0)),
-            "what stands in brackets has commas between: `(3, 4)`".to_string(),
         ),
         LParen if p.behind(1) == Ident && p.member_word().starts_with(char::is_uppercase) => (
             "expected-bracket",
