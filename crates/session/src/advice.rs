@@ -9,7 +9,7 @@ use crate::host::Host;
 use crate::recognise::{free_name, is_candidate};
 use crate::view::Advice;
 use crate::words;
-use kernel::{ClassId, ClassKind, Path, Step, ThingId};
+use kernel::{ClassId, ClassKind, Document, Path, Step, ThingId};
 use plan::{PlanKind, Source};
 
 /// So many things are looked at for one view.
@@ -28,6 +28,12 @@ struct View {
 
 /// Returns the views that make the opening of a document lighter.
 pub(crate) fn advice(open: &Open, host: &dyn Host) -> Vec<Advice> {
+    let (state, document) = (&open.state, &open.state.lowered.document);
+    let classes = document.classes.iter().filter(|&(id, class)| is_candidate(state, id, class));
+    // where nothing looks at others nothing is to be tried, and the document is not opened again
+    if !{ classes }.any(|(class, _)| lens(document, class).is_some()) {
+        return Vec::new();
+    }
     let mut now = Open::of(&open.name, open.state.text.clone(), host);
     let kind = now.planner.latest_kind();
     if !matches!(kind, PlanKind::Block | PlanKind::Relaxation) {
@@ -41,7 +47,8 @@ pub(crate) fn advice(open: &Open, host: &dyn Host) -> Vec<Advice> {
     let (state, document) = (&now.state, &now.state.lowered.document);
     let mut advice = Vec::new();
     let classes = document.classes.iter().filter(|&(id, class)| is_candidate(state, id, class));
-    let views = classes.flat_map(|(class, _)| views(&now, class, &things));
+    let lenses = classes.filter_map(|(class, _)| lens(document, class));
+    let views = lenses.flat_map(|lens| views(&now, &lens, &things));
     for view in views.take(MOST_TRIALS) {
         let class = &document.classes[view.class].name;
         let name = free_name(state, class);
@@ -88,10 +95,15 @@ fn things_solved_together(open: &Open) -> Vec<ThingId> {
     things
 }
 
-/// Every way in which some of the things, in any order, could be the parts of a class that merges parts
-/// of theirs which are one already.
-fn views(open: &Open, class: ClassId, things: &[ThingId]) -> Vec<View> {
-    let (document, structure) = (&open.state.lowered.document, &open.state.structure);
+/// A class that looks at a few things at once: these, by name, and the parts of theirs that it makes one.
+struct Lens<'d> {
+    class: ClassId,
+    fields: Vec<(String, ClassId)>,
+    merges: Vec<&'d kernel::Merge>,
+}
+
+/// Returns a class as one that looks at others, where it does.
+fn lens(document: &Document, class: ClassId) -> Option<Lens<'_>> {
     let fields = document.layout(class).into_iter();
     let fields: Vec<(String, ClassId)> = fields
         .map(|f| (document.field_name(f).to_string(), document.field_class(f)))
@@ -102,11 +114,17 @@ fn views(open: &Open, class: ClassId, things: &[ThingId]) -> Vec<View> {
         .into_iter()
         .flat_map(|c| document.classes[c].merges.iter())
         .collect();
-    if merges.is_empty() || !(2..=3).contains(&fields.len()) {
-        return Vec::new();
-    }
+    let looks = !merges.is_empty() && (2..=3).contains(&fields.len());
+    looks.then_some(Lens { class, fields, merges })
+}
+
+/// Every way in which some of the things, in any order, could be the parts of a class that merges parts
+/// of theirs which are one already.
+fn views(open: &Open, lens: &Lens<'_>, things: &[ThingId]) -> Vec<View> {
+    let (document, structure) = (&open.state.lowered.document, &open.state.structure);
+    let Lens { class, fields, merges } = lens;
     let mut chosen: Vec<Vec<ThingId>> = vec![Vec::new()];
-    for (_, wanted) in &fields {
+    for (_, wanted) in fields {
         let longer = |some: &Vec<ThingId>| {
             let fits = |t: &ThingId| {
                 !some.contains(t) && document.is_a(structure.things[*t].class, *wanted)
@@ -131,5 +149,5 @@ fn views(open: &Open, class: ClassId, things: &[ThingId]) -> Vec<View> {
     };
     let found = chosen.into_iter().map(named);
     let found = found.filter(|parts| merges.iter().all(|merge| is_one(parts, merge)));
-    found.map(|parts| View { class, parts }).collect()
+    found.map(|parts| View { class: *class, parts }).collect()
 }
