@@ -15,16 +15,37 @@ use base::{Id, Place, Span};
 use kernel::{Count, Given, Part};
 use std::ops::Range;
 use std::rc::Rc;
-use syntax::ast::{Member, Value};
+use syntax::ast::{AstNode, Expr, Member, Value};
 use syntax::{Changed, Parse, SyntaxKind};
 
-/// What a member at the top of the text added to the document's class, where that depends on the
-/// classes alone: one part, and some given values.
+/// What a member at the top of the text added to the document's class: one part whose class depends on the classes
+/// alone, with some given values; or one value of a part that another member declares.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) struct Added {
-    part: u32,
+    part: Option<u32>,
     first_given: u32,
     givens: u32,
+}
+
+/// How much there is that values may add to.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) struct SoFar {
+    givens: usize,
+    /// Merges, constraints and the like of the document.
+    rules: usize,
+    classes: usize,
+    diagnostics: usize,
+}
+
+impl SoFar {
+    /// How many values the document gives.
+    pub(crate) fn givens(self) -> usize {
+        self.givens
+    }
+    /// The same with so many values.
+    pub(crate) fn with_givens(self, givens: usize) -> Self {
+        Self { givens, ..self }
+    }
 }
 
 impl Added {
@@ -32,6 +53,14 @@ impl Added {
     pub(crate) fn givens_range(self) -> Range<usize> {
         let first = self.first_given as usize;
         first..first + self.givens as usize
+    }
+    /// The same with more values before it.
+    pub(crate) fn behind(self, more: u32) -> Self {
+        Self { first_given: self.first_given + more, ..self }
+    }
+    /// One value, of a part that another member declares.
+    pub(crate) fn value(first_given: u32) -> Self {
+        Self { part: None, first_given, givens: 1 }
     }
 }
 
@@ -122,6 +151,7 @@ impl<'l> Lowerer<'l> {
         let before = self.known();
         let members: Vec<Span> = self.files[OWN].parse.outline().map(|(_, span)| span).collect();
         self.added = vec![None; members.len()];
+        self.given_from = vec![0; members.len()];
         if let Some(before) = before {
             self.reserve(before);
         }
@@ -164,18 +194,22 @@ impl<'l> Lowerer<'l> {
     fn declare_anew(&mut self, own: &OwnMembers, (member, part): (usize, u32), node: Member) {
         let effects = |l: &Self| (l.pending.len(), l.document.classes.len(), l.diagnostics.len());
         let (from, made, said) = effects(self);
-        let is_plain = is_plain(&node);
+        let (is_plain, is_value) = (is_plain(&node), plain_value(&node).is_some());
+        self.pending.push(Pending::Note(member));
         self.declare_body(&own.scope, vec![node]);
         let (to, made_now, said_now) = effects(self);
+        let givens = (to - from - 1) as u32;
+        let is_alone = (made, said) == (made_now, said_now);
+        if is_value && is_alone && givens == 1 {
+            return self.pending.push(Pending::Noted { member, part: None, givens });
+        }
         let is_one = match &self.document.classes[own.scope.class()].parts[part as usize..] {
             // how many elements a list is given is counted where it is declared
             [part] => part.class.index() < own.classes && part.count != Some(Count::Given),
             _ => false,
         };
-        if is_plain && is_one && (made, said) == (made_now, said_now) {
-            let givens = (to - from) as u32;
-            self.pending.insert(from, Pending::Note);
-            self.pending.push(Pending::Noted { member, part, givens });
+        if is_plain && is_one && is_alone {
+            self.pending.push(Pending::Noted { member, part: Some(part), givens });
         }
     }
 
@@ -193,8 +227,9 @@ impl<'l> Lowerer<'l> {
     /// Declares a part as it was declared before; false where its name is taken now.
     fn keep_part(&mut self, scope: &Scope, before: &Lowered, was: usize, span: Span) -> bool {
         let Some(Some(added)) = before.added.get(was) else { return false };
+        let Some(index) = added.part else { return false };
         let root = before.document.root;
-        let part = &before.document.classes[root].parts[added.part as usize];
+        let part = &before.document.classes[root].parts[index as usize];
         if self.named_at.contains_key(&(scope.class(), part.name.clone())) {
             return false;
         }
@@ -227,30 +262,52 @@ impl<'l> Lowerer<'l> {
                 };
                 self.document.classes[root].givens.push(given);
             }
-            self.added[member] = Some(Added { part, first_given, givens: was.givens });
+            self.given_from[member] = first_given;
+            self.added[member] = Some(Added { part: Some(part), first_given, givens: was.givens });
         }
     }
 
-    /// Returns what tells whether values did more than give: givens, classes, diagnostics.
-    pub(crate) fn so_far(&self) -> (usize, usize, usize) {
-        let givens = self.document.classes[self.document.root].givens.len();
-        (givens, self.document.classes.len(), self.diagnostics.len())
+    /// Returns what tells whether values did more than give.
+    pub(crate) fn so_far(&self) -> SoFar {
+        let root = &self.document.classes[self.document.root];
+        let rules = root.constraints.len() + root.merges.len() + root.bindings.len();
+        let rules = rules + root.stays.len() + root.switches.len() + root.sides.len();
+        SoFar {
+            givens: root.givens.len(),
+            rules,
+            classes: self.document.classes.len(),
+            diagnostics: self.diagnostics.len(),
+        }
     }
 
-    /// Notes what a part of the document and its values added, if they did no more than that.
-    pub(crate) fn note(
-        &mut self,
-        member: usize,
-        part: u32,
-        givens: u32,
-        before: (usize, usize, usize),
-    ) {
-        let first_given = before.0 as u32;
-        let is_as_declared = !self.counts.from_outside.contains(&part);
-        if is_as_declared && self.so_far() == (before.0 + givens as usize, before.1, before.2) {
+    /// Begins the values of a member of the document.
+    pub(crate) fn begin_note(&mut self, member: usize) -> SoFar {
+        let now = self.so_far();
+        self.given_from[member] = now.givens as u32;
+        now
+    }
+
+    /// Notes what a member of the document and its values added, if they did no more than that.
+    pub(crate) fn note(&mut self, member: usize, part: Option<u32>, givens: u32, before: SoFar) {
+        let first_given = before.givens as u32;
+        let is_as_declared = part.is_none_or(|part| !self.counts.from_outside.contains(&part));
+        let wanted = SoFar { givens: before.givens + givens as usize, ..before };
+        if is_as_declared && self.so_far() == wanted {
             self.added[member] = Some(Added { part, first_given, givens });
         }
     }
+}
+
+/// Returns what one value alone says, of which part and what: numbers, words and truth values, places of such.
+pub(crate) fn plain_value(member: &Member) -> Option<(Expr, Expr)> {
+    let Member::Assign(assign) = member else { return None };
+    let (target, value) = (assign.target()?, assign.value()?.expr()?);
+    // a list says how many elements there are, a thing of a class which class it is
+    let is_made = |kind| matches!(kind, SyntaxKind::ListExpr | SyntaxKind::CallExpr);
+    let is_plain = !assign.is_guide()
+        && is_constant(&value)
+        && !value.syntax().descendants().any(|node| is_made(node.kind()));
+    is_plain.then_some((target, value))
 }
 
 /// Returns true for one part without a comment, all of whose values are constants.

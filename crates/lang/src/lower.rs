@@ -76,6 +76,8 @@ pub struct Lowered {
     pub(crate) effective_parse: Parse,
     /// What each member at the top of the effective text added, where that may be kept.
     pub(crate) added: Vec<Option<Added>>,
+    /// How many values the document gives before those of each of these members, and before what follows them.
+    pub(crate) given_from: Vec<u32>,
     /// What the next text may take over of the texts that are used.
     pub(crate) used: Option<Rc<Used>>,
     /// Where the effective text differs from the text.
@@ -216,6 +218,8 @@ pub(crate) struct Lowerer<'l> {
     pub(crate) changed: Vec<Changed>,
     /// What each member at the top of the text added, where that may be kept.
     pub(crate) added: Vec<Option<Added>>,
+    /// How many values the document gives before those of each of these members, and before what follows them.
+    pub(crate) given_from: Vec<u32>,
     /// What the earlier text meant, where used texts say what they said in it.
     pub(crate) used: Option<(&'l Lowered, Rc<Used>)>,
     /// What the next text may take over of used texts.
@@ -327,6 +331,7 @@ impl<'l> Lowerer<'l> {
             before,
             changed: Vec::new(),
             added: Vec::new(),
+            given_from: Vec::new(),
             used: None,
             next_used: None,
             files: IdVec::new(),
@@ -421,6 +426,7 @@ impl<'l> Lowerer<'l> {
             missing: self.missing,
             parts: self.parts,
             added: self.added,
+            given_from: self.given_from,
             used: self.next_used,
             reader: Reader::default(),
             names: Rc::new(Names {

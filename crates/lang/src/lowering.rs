@@ -3,7 +3,7 @@
 //! There is one way through a text. [`crate::lower`] goes it at once.
 
 use crate::checks;
-use crate::kept::OwnMembers;
+use crate::kept::{OwnMembers, SoFar};
 use crate::lower::{Blocks, Lowered, Lowerer, OWN};
 use crate::members::Pending;
 use crate::scale;
@@ -47,7 +47,7 @@ pub(crate) struct Waiting {
     merges: usize,
     pub(crate) trails: Trails,
     /// What there was before the values of the part that they are at.
-    pub(crate) noted: (usize, usize, usize),
+    pub(crate) noted: SoFar,
 }
 
 impl Lowering {
@@ -146,6 +146,7 @@ impl Lowerer<'_> {
                 if self.define_waiting(&mut waiting, MEMBERS) {
                     return Stage::Pending { of, waiting };
                 }
+                self.given_from.push(self.so_far().givens() as u32);
                 self.end_members();
                 Stage::Ends
             }

@@ -36,10 +36,10 @@ pub(crate) enum Pending {
     Absolute { scope: Rc<Scope>, path: Path, target: Expr },
     /// The values of parts of the document that are kept.
     Kept(Run),
-    /// The values of one part of the document follow.
-    Note,
-    /// They end here: so many values of the part of this index, which is this member.
-    Noted { member: usize, part: u32, givens: u32 },
+    /// The values of this member of the document follow.
+    Note(usize),
+    /// They end here: so many values, of the part of this index where the member declares one.
+    Noted { member: usize, part: Option<u32>, givens: u32 },
     /// The answer of a message.
     Answer { scope: Rc<Scope>, index: usize, definition: Rc<Definition> },
 }

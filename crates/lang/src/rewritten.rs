@@ -1,13 +1,15 @@
 //! Rewritten: a text of which no more than given numbers are others means what it meant, but for these.
 //!
 //! In: what the text meant before, and the text after an edit of values. Out: what it means now, with nothing declared
-//! anew: the values of the parts that changed are read alone, and all places are moved. Nothing where more than that may
+//! anew: the values that changed or came anew are read alone, and all places are moved. Nothing where more than that may
 //! be another: a part that changed is not plain ([`crate::kept`]), is declared otherwise, or gives other parts of its
-//! own; something was wrong before or is now; what is used is another text.
+//! own; a value is given to another part, or says how many parts there are; something was wrong before or is now; what
+//! is used is another text.
 
 use crate::alone::{Reader, knowing};
 use crate::checks::Check;
-use crate::kept::is_plain;
+use crate::edits::is_count;
+use crate::kept::{Added, is_plain, plain_value};
 use crate::lessons::Lesson;
 use crate::lower::{Lowered, Lowerer, OWN};
 use crate::members::values_alone;
@@ -18,18 +20,38 @@ use std::rc::Rc;
 use syntax::Reparsed;
 use syntax::ast::{self, AstNode, Expr, Member};
 
-/// A part at the top of the text that is written otherwise than before.
+/// A member at the top of the text that is written otherwise than before.
 struct Other {
-    member: usize,
-    was: ast::Part,
-    is: ast::Part,
+    was: usize,
+    is: usize,
+    written: Written,
 }
 
-/// What a part gives now, in the order in which it gave it.
+/// How it is written.
+enum Written {
+    /// A part, before and now.
+    Part(ast::Part, ast::Part),
+    /// A value of a part that another member declares: which, and what.
+    Value(Expr, Expr),
+    /// As it was: it stands between others.
+    Alike,
+}
+
+/// What a member gives now, in the order in which it gave it.
 struct Anew {
     /// Where that begins among what the document gives.
     first: usize,
     givens: Vec<(Given, Place, Option<Name>)>,
+}
+
+/// What is not as it was.
+#[derive(Default)]
+struct Others {
+    /// Members that are written otherwise.
+    changed: Vec<Other>,
+    /// Values that came anew: which member each is, before which member of the text before it stands, of which part and
+    /// what.
+    new: Vec<(usize, usize, (Expr, Expr))>,
 }
 
 /// Returns what a text means that differs from the one before by given numbers alone.
@@ -49,13 +71,16 @@ pub(crate) fn rewritten(
     let others = others(before, &again)?;
     let mut l = knowing(before);
     l.origins = before.origins.clone();
-    let anew: Option<Vec<Anew>> = others.iter().map(|other| l.given_anew(before, other)).collect();
-    let anew = anew?;
+    let changed = others.changed.iter().filter(|o| !matches!(o.written, Written::Alike));
+    let anew = changed.map(|other| l.given_anew(before, other));
+    let anew = anew.collect::<Option<Vec<Anew>>>()?;
+    let new = others.new.iter().map(|(_, at, value)| l.given_more(before, *at, value));
+    let new = new.collect::<Option<Vec<Anew>>>()?;
     let is_as_it_was = l.document.classes.len() == before.document.classes.len();
     if !is_as_it_was || !l.diagnostics.is_empty() {
         return None;
     }
-    let moves = Moves::of(before, &again, &others);
+    let moves = Moves::of(before, &again, &others.changed);
     let mut next = Lowered {
         document: l.document,
         parts: l.parts,
@@ -73,6 +98,7 @@ pub(crate) fn rewritten(
         effective: text.into(),
         effective_parse: again.parse,
         added: before.added.clone(),
+        given_from: before.given_from.clone(),
         used: before.used.clone(),
         patches: Vec::new(),
         class_spans: before.class_spans.clone(),
@@ -95,6 +121,11 @@ pub(crate) fn rewritten(
             };
         }
     }
+    for (n, ((member, ..), Anew { first, givens })) in others.new.iter().zip(new).enumerate() {
+        for (given, place, unit) in givens {
+            next.give(*member, first + n, (given, place, unit));
+        }
+    }
     Some(next)
 }
 
@@ -105,32 +136,56 @@ fn uses_the_same(before: &Lowered, load: &dyn Fn(&str) -> Option<String>) -> boo
         && before.missing.iter().all(|name| load(name).is_none())
 }
 
-/// Returns the parts that are written otherwise; nothing where one may be another part, or where something else is.
-fn others(before: &Lowered, again: &Reparsed) -> Option<Vec<Other>> {
-    let mut others = Vec::new();
+/// Returns what is written otherwise or came anew; nothing where that may be another part, or where something else is.
+fn others(before: &Lowered, again: &Reparsed) -> Option<Others> {
+    let mut others = Others::default();
     let (was, is) = (&before.effective_parse, &again.parse);
     let spans = |parse: &syntax::Parse| parse.outline().map(|(_, span)| span).collect::<Vec<_>>();
     let (were, are) = (spans(was), spans(is));
     let (was, is) = (was.file(), is.file());
     for changed in &again.changed {
-        if changed.before != changed.after {
-            return None;
-        }
+        let mut old = changed.before.clone();
         for member in changed.after.clone() {
-            before.added.get(member)?.as_ref()?;
-            let part = |file: &ast::File, spans: &[Span]| match file.member_at(spans[member])? {
-                part @ Member::Part(_) if !is_plain(&part) => None,
-                Member::Part(part) => Some(part),
-                _ => None,
+            let new = is.member_at(are[member])?;
+            let known = old.start;
+            let written = match old.is_empty() {
+                true => None,
+                false => otherwise(&was.member_at(were[known])?, &new),
             };
-            let (was, is) = (part(&was, &were)?, part(&is, &are)?);
-            if declared(&was) != declared(&is) {
-                return None;
+            match written {
+                Some(written) => {
+                    let is_known = matches!(before.added.get(known), Some(Some(_)));
+                    if !is_known && !matches!(written, Written::Alike) {
+                        return None;
+                    }
+                    others.changed.push(Other { was: known, is: member, written });
+                    old.next();
+                }
+                None => others.new.push((member, known, plain_value(&new)?)),
             }
-            others.push(Other { member, was, is });
+        }
+        if !old.is_empty() {
+            return None;
         }
     }
     Some(others)
+}
+
+/// Returns how a member is written that gives the parts that another gave; nothing where it may be something else.
+fn otherwise(was: &Member, is: &Member) -> Option<Written> {
+    match (was, is) {
+        _ if was.syntax().green() == is.syntax().green() => Some(Written::Alike),
+        (Member::Part(part), Member::Part(now)) if is_plain(was) && is_plain(is) => {
+            let is_same = declared(part)? == declared(now)?;
+            is_same.then(|| Written::Part(part.clone(), now.clone()))
+        }
+        (Member::Assign(_), Member::Assign(_)) => {
+            let ((was, _), (is, value)) = (plain_value(was)?, plain_value(is)?);
+            let is_same = was.syntax().text() == is.syntax().text();
+            is_same.then_some(Written::Value(is, value))
+        }
+        _ => None,
+    }
 }
 
 /// Returns what a part says before its values.
@@ -144,39 +199,74 @@ fn declared(part: &ast::Part) -> Option<String> {
 }
 
 impl Lowerer<'_> {
-    /// Returns what a part gives now, where it gives the same parts as before.
+    /// Returns what a member gives now, where it gives the same parts as before.
     fn given_anew(&mut self, before: &Lowered, other: &Other) -> Option<Anew> {
-        let added = before.added[other.member]?;
-        let root = self.document.root;
-        let (scope, from) = (Scope::of(OWN, root), self.document.classes[root].givens.len());
-        let name = other.is.names().next()?.name();
-        let values = |part: &ast::Part| -> Option<Vec<(Option<Expr>, Expr)>> {
-            let body = part.body().map(|body| values_alone(&body.members().collect::<Vec<_>>()));
-            let mut all = match body {
-                Some(values) => values?.into_iter().map(|(to, value)| (Some(to), value)).collect(),
-                None => Vec::new(),
-            };
-            all.extend(part.value().and_then(ast::Value::expr).map(|value| (None, value)));
-            Some(all)
+        let added = before.added[other.was]?;
+        let (prefix, values) = match &other.written {
+            Written::Part(was, is) => {
+                let (were, are) = (values_of(was)?, values_of(is)?);
+                if were.len() != are.len() {
+                    return None;
+                }
+                (vec![Step::Part(is.names().next()?.name())], are)
+            }
+            Written::Value(target, value) => {
+                (Vec::new(), vec![(Some(target.clone()), value.clone())])
+            }
+            Written::Alike => return None,
         };
-        let (were, are) = (values(&other.was)?, values(&other.is)?);
-        if were.len() != are.len() {
-            return None;
-        }
-        for (target, value) in are {
-            self.define_value(&scope, vec![Step::Part(name.clone())], target.as_ref(), &value);
-        }
-        let new = self.document.classes[root].givens.split_off(from);
+        let new = self.given_alone(&prefix, &values)?;
         let range = added.givens_range();
         let old = &before.document.classes[before.document.root].givens[range.clone()];
-        let are_same = new.len() == old.len() && new.iter().zip(old).all(|(a, b)| a.path == b.path);
+        let are_same = new.len() == old.len()
+            && new.iter().zip(old).all(|((a, ..), b)| a.path == b.path)
+            && (!prefix.is_empty() || new.iter().all(|(given, ..)| !is_count(before, &given.path)));
+        are_same.then_some(Anew { first: range.start, givens: new })
+    }
+
+    /// Returns what a value gives that comes anew before a member of the text before.
+    fn given_more(
+        &mut self,
+        before: &Lowered,
+        at: usize,
+        (target, value): &(Expr, Expr),
+    ) -> Option<Anew> {
+        let new = self.given_alone(&[], &[(Some(target.clone()), value.clone())])?;
+        let is_one = new.len() == 1 && new.iter().all(|(given, ..)| !is_count(before, &given.path));
+        let first = *before.given_from.get(at)? as usize;
+        is_one.then_some(Anew { first, givens: new })
+    }
+
+    /// Reads values alone; returns what they give, where they do no more than that.
+    fn given_alone(
+        &mut self,
+        prefix: &[Step],
+        values: &[(Option<Expr>, Expr)],
+    ) -> Option<Vec<(Given, Place, Option<Name>)>> {
+        let root = self.document.root;
+        let (scope, from) = (Scope::of(OWN, root), self.so_far());
+        for (target, value) in values {
+            self.define_value(&scope, prefix.to_vec(), target.as_ref(), value);
+        }
+        let to = self.so_far();
+        let new = self.document.classes[root].givens.split_off(from.givens());
         let told = |given: Rc<Given>| {
             let unit = self.document.units.remove(&given.origin);
             (Given::clone(&given), self.origins.place(given.origin), unit)
         };
-        let givens = new.into_iter().map(told).collect();
-        are_same.then_some(Anew { first: range.start, givens })
+        (to == from.with_givens(to.givens())).then(|| new.into_iter().map(told).collect())
     }
+}
+
+/// Returns the values that a part gives itself, in order; nothing where its body says more.
+fn values_of(part: &ast::Part) -> Option<Vec<(Option<Expr>, Expr)>> {
+    let body = part.body().map(|body| values_alone(&body.members().collect::<Vec<_>>()));
+    let mut all = match body {
+        Some(values) => values?.into_iter().map(|(to, value)| (Some(to), value)).collect(),
+        None => Vec::new(),
+    };
+    all.extend(part.value().and_then(ast::Value::expr).map(|value| (None, value)));
+    Some(all)
 }
 
 /// How places in the document's own text have moved.
@@ -194,8 +284,8 @@ impl Moves {
         let by = |was: u32, is: u32| (was, i64::from(is) - i64::from(was));
         let mut others = others.iter().peekable();
         for changed in &again.changed {
-            while let Some(other) = others.next_if(|other| other.member < changed.after.end) {
-                let (was, is) = (were[other.member], are[other.member]);
+            while let Some(other) = others.next_if(|other| other.is < changed.after.end) {
+                let (was, is) = (were[other.was], are[other.is]);
                 steps.extend([by(was.start, is.start), by(was.end, is.end)]);
             }
             steps
@@ -214,6 +304,27 @@ impl Moves {
 }
 
 impl Lowered {
+    /// Adds a value as a member gives it, at a place among what the document gives.
+    fn give(
+        &mut self,
+        member: usize,
+        at: usize,
+        (given, place, unit): (Given, Place, Option<Name>),
+    ) {
+        let root = self.document.root;
+        let origin = self.origins.add(place);
+        if let Some(unit) = unit {
+            self.document.units.insert(origin, unit);
+        }
+        self.document.classes[root].givens.insert(at, Rc::new(Given { origin, ..given }));
+        for added in self.added[member..].iter_mut().flatten() {
+            *added = added.behind(1);
+        }
+        self.given_from[member..].iter_mut().for_each(|from| *from += 1);
+        self.added.insert(member, Some(Added::value(at as u32)));
+        self.given_from.insert(member, at as u32);
+    }
+
     fn move_all(&mut self, moves: &Moves) {
         self.origins.each(|place| {
             if place.file == OWN {

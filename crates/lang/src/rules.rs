@@ -92,7 +92,7 @@ impl Lowerer<'_> {
         }
         match pending {
             Pending::Kept(run) => self.keep_values(run),
-            Pending::Note => among.noted = self.so_far(),
+            Pending::Note(member) => among.noted = self.begin_note(member),
             Pending::Noted { member, part, givens } => {
                 self.note(member, part, givens, among.noted);
             }

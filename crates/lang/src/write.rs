@@ -187,8 +187,8 @@ struct Body {
 
 /// The members of a body that speak of values.
 struct Members {
-    /// Those that say what they speak of, by the first step to it.
-    by_first: BTreeMap<Step, Vec<Member>>,
+    /// Those that say what they speak of, by the path to it.
+    by_path: BTreeMap<Path, Vec<Member>>,
     /// What loops give, and the last loop that does.
     repeated: BTreeMap<Path, Member>,
 }
@@ -200,23 +200,24 @@ impl Members {
         lowered: &Lowered,
         owner: Option<ClassId>,
     ) -> Self {
-        let mut by_first: BTreeMap<Step, Vec<Member>> = BTreeMap::new();
+        let mut by_path: BTreeMap<Path, Vec<Member>> = BTreeMap::new();
         let mut loops: Vec<Member> = Vec::new();
         for member in members {
             if matches!(member, Member::For(_)) {
                 loops.push(member);
                 continue;
             }
-            let first: Vec<Step> = match &member {
+            let paths: Vec<Path> = match &member {
                 Member::Assign(assign) => {
-                    let target = assign.target().and_then(|t| loose_path(&t));
-                    target.and_then(|t| t.0.first().cloned()).into_iter().collect()
+                    assign.target().and_then(|t| loose_path(&t)).into_iter().collect()
                 }
-                Member::Part(part) => part.names().map(|n| Step::Part(n.name())).collect(),
+                Member::Part(part) => {
+                    part.names().map(|n| Path(vec![Step::Part(n.name())])).collect()
+                }
                 _ => continue,
             };
-            for step in first {
-                by_first.entry(step).or_default().push(member.clone());
+            for path in paths {
+                by_path.entry(path).or_default().push(member.clone());
             }
         }
         let gives = |n: SyntaxNode| matches!(n.kind(), SyntaxKind::Assign);
@@ -229,7 +230,7 @@ impl Members {
             let each = loops.iter().find(|each| each.span().range().contains(&(at as usize)))?;
             Some((given.path.clone(), each.clone()))
         });
-        Self { by_first, repeated: repeated.collect() }
+        Self { by_path, repeated: repeated.collect() }
     }
     /// Returns the loop that gives what a path leads to, or a part of it.
     fn repeated(&self, path: &Path) -> Option<&Member> {
@@ -241,9 +242,16 @@ impl Members {
         };
         around.next().or_else(below)
     }
-    /// Returns the members that may speak of what a path leads to, in the order of the text.
-    fn about(&self, path: &Path) -> &[Member] {
-        path.0.first().and_then(|step| self.by_first.get(step)).map_or(&[], |members| members)
+    /// Returns the members that speak of what a path leads to, of a whole that it is part of or of a part, in the order
+    /// of the text.
+    fn about(&self, path: &Path) -> Vec<&Member> {
+        let around = (1..path.0.len()).map(|n| Path(path.0[..n].to_vec()));
+        let around = around.filter_map(|path| self.by_path.get(&path));
+        let below = self.by_path.range(path.clone()..);
+        let below = below.take_while(|(p, _)| p.0.starts_with(&path.0)).map(|(_, all)| all);
+        let mut found: Vec<&Member> = around.chain(below).flatten().collect();
+        found.sort_by_key(|member| member.span().start);
+        found
     }
 }
 
@@ -262,7 +270,7 @@ impl Writer<'_> {
         // later values win, so the last that speaks of the part counts
         let repeated = members.repeated(path);
         let after = |each: &Member| Spot::After(each.syntax().clone());
-        for member in members.about(path).iter().rev() {
+        for member in members.about(path).into_iter().rev() {
             if let Some(each) = repeated.filter(|e| e.span().start > member.span().start) {
                 return self.add(after(each), path, value);
             }

@@ -2,7 +2,7 @@
 //!
 //! What the document's class says of its parts (merges, constraints, stays, memberships) stands apart
 //! from what its parts are. Where an edit left these as they were, they are taken over by identity, and so
-//! are they where it gave a few numbers more.
+//! are they where it gave a few numbers and places more.
 
 use super::body::{Body, ROOT};
 use crate::class::{Class, ClassKind, Given};
@@ -107,9 +107,11 @@ fn given_again(
     let (grown, mut again) = match new.is_empty() {
         true => (grown, Givens::clone(givens)),
         false => {
-            let paths = new.iter().map(|id| (*id, &*now[id.index() - first]));
-            let more = given_more(document, &grown, paths)?;
-            (Rc::new(more), with_more(givens, new.iter().map(|id| (*id, term(id.index() - first)))))
+            let given: Vec<_> = new.iter().map(|id| (*id, &*now[id.index() - first])).collect();
+            let terms = new.iter().map(|id| (*id, term(id.index() - first)));
+            let mut again = with_more(givens, terms);
+            let more = given_more(document, &grown, &mut again, &given)?;
+            (Rc::new(more), again)
         }
     };
     let mut is_changed = IdVec::<GivenId, bool>::filled(false, again.len());
@@ -142,50 +144,85 @@ fn with_more(givens: &Givens, new: impl Iterator<Item = (GivenId, GivenTerm)>) -
     again
 }
 
-/// Returns the parts where some numbers and texts are given a constant that the document gave nothing before.
-/// Nothing where that may change more.
-fn given_more<'d>(
+/// Returns the parts and the given values where some numbers, texts and places are given constants that the document
+/// gave nothing before, or that stand behind all that it gave them. `new` is where they stand among `again`. Nothing
+/// where that may change more.
+fn given_more(
     document: &Document,
     grown: &Grown,
-    new: impl Iterator<Item = (GivenId, &'d Given)>,
+    again: &mut Givens,
+    new: &[(GivenId, &Given)],
 ) -> Option<Grown> {
     let mut body = grown.body.clone();
     // where values decide how many things there are, what is given makes them
     if body.counts_givens {
         return None;
     }
-    let mut leaves: Vec<(GivenId, ThingId)> = Vec::new();
-    for (id, given) in new {
-        let is_constant = matches!(
-            given.value,
-            Term::Number { .. } | Term::Text(_) | Term::Bool(_) | Term::Option(..)
-        );
-        let leaf = leaf(document, grown, &given.path).filter(|_| is_constant)?;
-        let is_given = body.givens[leaf].is_some_and(|given| given.me == ROOT);
-        if is_given || leaves.iter().any(|(_, other)| *other == leaf) {
-            return None;
-        }
-        leaves.push((id, leaf));
-    }
     // each stands behind those that it stood behind
-    let before: Vec<usize> = leaves.iter().enumerate().map(|(n, (id, _))| id.index() - n).collect();
+    let before: Vec<usize> = new.iter().enumerate().map(|(n, (id, _))| id.index() - n).collect();
     let moved = |id: GivenId| {
         GivenId::from_index(id.index() + before.partition_point(|&at| at <= id.index()))
     };
+    let of_part = |s: &Shared| Shared { value: moved(s.value), whole: moved(s.whole), ..*s };
+    let mut shared: Vec<Shared> = grown.shared.iter().map(of_part).collect();
     let givens = Rc::make_mut(&mut body.givens);
     for (_, given) in givens.iter_mut() {
         *given = given.map(|given| GivenIn { value: moved(given.value), ..given });
     }
-    for (value, leaf) in leaves {
-        givens[leaf] = Some(GivenIn { value, me: ROOT });
+    for (id, given) in new {
+        let thing = thing_at(document, grown, &given.path)?;
+        for (value, leaf) in shares(document, grown, (again, &mut shared), (*id, thing))? {
+            let is_behind = body.givens[leaf]
+                .is_none_or(|given| given.me != ROOT || whole(&shared, given.value) < *id);
+            if !is_behind {
+                return None;
+            }
+            Rc::make_mut(&mut body.givens)[leaf] = Some(GivenIn { value, me: ROOT });
+        }
     }
-    let of_part = |s: &Shared| Shared { value: moved(s.value), whole: moved(s.whole), ..*s };
-    let shared = grown.shared.iter().map(of_part).collect();
     Some(Grown { body, layouts: grown.layouts.clone(), shared })
 }
 
-/// Returns the number or text that a path of parts leads to, each of which the thing before it has itself.
-fn leaf(document: &Document, grown: &Grown, path: &Path) -> Option<ThingId> {
+/// Returns the value that was written of which another is a part; `shared` is in order of its values.
+fn whole(shared: &[Shared], mut value: GivenId) -> GivenId {
+    while let Ok(at) = shared.binary_search_by_key(&value, |s| s.value) {
+        value = shared[at].whole;
+    }
+    value
+}
+
+/// Shares a constant that a thing is given among its parts; returns what each number and text gets. Nothing where it is
+/// no constant, or another value than its parts have.
+fn shares(
+    document: &Document,
+    grown: &Grown,
+    (again, shared): (&mut Givens, &mut Vec<Shared>),
+    given: (GivenId, ThingId),
+) -> Option<Vec<(GivenId, ThingId)>> {
+    let (mut leaves, mut left) = (Vec::new(), vec![given]);
+    while let Some((value, thing)) = left.pop() {
+        let t = &grown.body.things[thing];
+        let (parts, GivenTerm { term, origin, of_class, .. }) = (t.parts, again[value].clone());
+        match (&document.classes[t.class].kind, term) {
+            (
+                ClassKind::Primitive(_),
+                Term::Number { .. } | Term::Text(_) | Term::Bool(_) | Term::Option(..),
+            ) => leaves.push((value, thing)),
+            (ClassKind::Composite, Term::Tuple(items)) if items.len() == parts as usize => {
+                for (part, term) in (0..).zip(items) {
+                    let share = again.push(GivenTerm { term, origin, of_class, of_copy: false });
+                    shared.push(Shared { value: share, whole: value, part });
+                    left.push((share, grown.body.part(thing, part as usize)));
+                }
+            }
+            _ => return None,
+        }
+    }
+    Some(leaves)
+}
+
+/// Returns the thing that a path of parts leads to, each of which the thing before it has itself.
+fn thing_at(document: &Document, grown: &Grown, path: &Path) -> Option<ThingId> {
     let mut at = ROOT;
     for step in &path.0 {
         let t = &grown.body.things[at];
@@ -197,8 +234,7 @@ fn leaf(document: &Document, grown: &Grown, path: &Path) -> Option<ThingId> {
         };
         at = (part < t.parts).then(|| grown.body.part(at, part as usize))?;
     }
-    let class = grown.body.things[at].class;
-    matches!(document.classes[class].kind, ClassKind::Primitive(_)).then_some(at)
+    Some(at)
 }
 
 /// Returns true if two terms differ in constants alone.

@@ -354,3 +354,49 @@ fn coordinates_get_of_a_changed_place_what_is_theirs() {
     assert_eq!(was, numbers([3.0, 4.0, 5.0, 6.0]));
     assert_eq!(is, numbers([3.5, 4.0, 5.0, 6.0]));
 }
+
+/// What every slot is given, and what every thing is given apart from what it is merged with.
+fn all_given(s: &Structure) -> Vec<(Option<kernel::GivenTerm>, Option<kernel::GivenTerm>)> {
+    let slot = |slot| (s.given(slot).cloned(), s.given_apart(s.slots[slot].thing).cloned());
+    s.slots.ids().map(slot).collect()
+}
+
+#[test]
+fn a_place_that_is_given_more_is_given_what_is_theirs() {
+    let (mut b, object, real) = Builder::new();
+    let point = b.composite("Point", object, &[("x", real), ("y", real)]);
+    let line = b.composite("Line", object, &[("p", point), ("q", point)]);
+    let root = b.composite("", object, &[("a", line), ("b", line)]);
+    let place = |x, y| Term::Tuple(vec![Term::number(x), Term::number(y)]);
+    b.given(root, &["a"], Term::Tuple(vec![place(1.0, 2.0), place(3.0, 4.0)]));
+    b.given(root, &["b", "q", "x"], Term::number(9.0));
+    let before = b.document(root);
+    let (structure, _) = instantiate(&before);
+    let path = |steps: &[&str]| Path::of(steps);
+    let new = [
+        (2, path(&["a", "q"]), place(5.0, 6.0), true),
+        (1, path(&["b", "p"]), place(7.0, 8.0), true),
+        (2, path(&["b"]), Term::Tuple(vec![place(1.0, 1.0), place(2.0, 2.0)]), true),
+        // what stands behind it counts
+        (0, path(&["a", "q"]), place(5.0, 6.0), false),
+        (0, path(&["b", "q"]), place(5.0, 6.0), false),
+        (2, path(&["a", "q"]), Term::Me, false),
+    ];
+    for (at, path, value, is_kept) in new {
+        let mut after = before.clone();
+        let given = Given { path, value, origin: OriginId(7) };
+        after.classes[root].givens.insert(at, Rc::new(given));
+        let (again, _) = instantiate_again(&after, (&before, &structure));
+        let (anew, _) = instantiate(&after);
+        assert_eq!(all_given(&again), all_given(&anew));
+        assert_eq!(Rc::ptr_eq(&again.form.things, &structure.form.things), is_kept, "{after:?}");
+        // what came anew is followed like any other
+        let mut moved = after.clone();
+        let given = Rc::make_mut(&mut moved.classes[root].givens[at]);
+        if let Term::Tuple(items) = &mut given.value {
+            items.reverse();
+        }
+        let (again, _) = instantiate_again(&moved, (&after, &again));
+        assert_eq!(all_given(&again), all_given(&instantiate(&moved).0));
+    }
+}

@@ -2,6 +2,7 @@
 
 use base::Dice;
 use lang::{Lowered, lower, lower_written};
+use std::collections::BTreeMap;
 use std::rc::Rc;
 
 const CLASSES: &str = "class Widget { left: Real = 1  bottom: Real = 2  top: Real
@@ -234,6 +235,10 @@ z: Widget { left = x }
 v: Widget
 merge v.left = w.left
 q: Box { size = (1, 2) }
+r: Box
+r.corner.left = 11
+merge u.bottom = w.bottom
+r.size = (4, 5)
 // a word between
 k: Integer in 0..9 = 4
 check "it is so" {
@@ -315,4 +320,113 @@ fn what_is_more_than_a_number_is_lowered_anew() {
     let text = NUMBERS.replace("= 3\n", "= 4\n");
     let changed = |name: &str| some(name).map(|text| format!("{text}// more\n"));
     assert!(is_taken_over(&text, &some) && !is_taken_over(&text, &changed));
+}
+
+/// What a text means, its members told by where they are written: what is numbered later is numbered otherwise.
+fn told_by_place(l: &Lowered) -> String {
+    let Lowered { document, checks, lessons, diagnostics, doc, files, .. } = l;
+    let mut document = document.clone();
+    let units: BTreeMap<base::Place, base::Name> =
+        document.units.into_iter().map(|(origin, unit)| (l.origins.place(origin), unit)).collect();
+    document.units = Default::default();
+    let told =
+        format!("{document:#?}{units:?}{checks:?}{lessons:#?}{diagnostics:#?}{doc}{files:?}");
+    let mut by_place = String::new();
+    let mut rest = told.as_str();
+    while let Some(at) = rest.find("origin: o").or_else(|| rest.find("    o")) {
+        let at = at + rest[at..].find('o').unwrap_or_default();
+        let at = if rest[at..].starts_with("origin: ") { at + "origin: ".len() } else { at };
+        let (before, after) = rest.split_at(at);
+        let digits = after[1..].find(|c: char| !c.is_ascii_digit()).unwrap_or_default();
+        by_place += before;
+        match after[1..=digits].parse() {
+            Ok(number) => by_place += &format!("{:?}", l.origins.place(kernel::OriginId(number))),
+            Err(_) => by_place += &after[..=digits],
+        }
+        rest = &after[1 + digits..];
+    }
+    by_place + rest
+}
+
+/// A document whose parts are given what they are beside their declarations, by loops and by lines.
+const BESIDE: &str = "use some
+all: List of 6 Box
+box: Box
+wide: Length = 30 mm
+for i in 0..3 { all[i].size = (i, 2) }
+all[4].size = (8, 9)
+merge all[4].corner = all[5].corner
+all[5].size = (1, 1)
+constraint box.size.x > -90
+box.corner.left = 4
+check \"it is so\" {
+    expect box.corner.left = 4
+}
+";
+
+#[test]
+fn values_that_come_anew_mean_what_lowering_the_text_gives() {
+    const NEW: [&str; 5] = [
+        "all[1].size = (3, -4)\n",
+        "all[2].corner.left = 7\n",
+        "box.size = (5, 6)\n",
+        "box.size.x = 7\n",
+        "wide = 4 mm\n",
+    ];
+    let given = |l: &Lowered| {
+        let class = l.document.class_named("Corner")?;
+        l.document.classes[class].givens.first().cloned()
+    };
+    let is_taken = |now: &Lowered, before: &Lowered| matches!((given(now), given(before)), (Some(a), Some(b)) if Rc::ptr_eq(&a, &b));
+    let mut dice = Dice::new(11);
+    let (mut taken, mut more) = (0, 0);
+    for _ in 0..40 {
+        let mut text = BESIDE.to_string();
+        let mut before = lower(&text, &some, None);
+        assert_eq!(before.diagnostics, []);
+        for _ in 0..6 {
+            let lines: Vec<_> = text.match_indices('\n').map(|(at, _)| at + 1).collect();
+            let mut other = text.clone();
+            match dice.below(3) {
+                0 => {
+                    let numbers: Vec<_> =
+                        text.match_indices(|c: char| c.is_ascii_digit()).collect();
+                    let (at, _) = numbers[dice.below(numbers.len())];
+                    other.replace_range(at..=at, ["1", "3", "12.5"][dice.below(3)]);
+                }
+                _ => other.insert_str(lines[dice.below(lines.len())], NEW[dice.below(NEW.len())]),
+            }
+            let anew = lower(&other, &some, None);
+            if !anew.diagnostics.is_empty() || anew.document.scale != before.document.scale {
+                continue;
+            }
+            let now = lower_written(&other, &some, &before);
+            if is_taken(&now, &before) {
+                let (now, anew) = (told_by_place(&now), told_by_place(&anew));
+                let differs = now.lines().zip(anew.lines()).find(|(a, b)| a != b);
+                assert!(now == anew, "{other}\n{differs:?}");
+                taken += 1;
+                more += usize::from(other.matches('\n').count() > text.matches('\n').count());
+            }
+            (text, before) = (other, now);
+        }
+    }
+    assert!(taken > 60 && more > 40, "{taken} times, {more} with a value more");
+}
+
+#[test]
+fn a_value_that_says_how_many_there_are_is_lowered_anew() {
+    const COUNTED: &str = "class Held { a: Real = 1 }
+class Row { n: Integer = 2  all: List of n Held }
+row: Row
+x: Real = 3
+row.n = 3
+";
+    let before = lower(COUNTED, &some, None);
+    for text in [COUNTED.replace("row.n = 3", "row.n = 4"), format!("{COUNTED}row.n = 5\n")] {
+        let (now, anew) = (lower_written(&text, &some, &before), lower(&text, &some, None));
+        let (now, anew) = (told(&now), told(&anew));
+        let differs = now.lines().zip(anew.lines()).find(|(a, b)| a != b);
+        assert!(now == anew, "{text}\n{differs:?}");
+    }
 }
