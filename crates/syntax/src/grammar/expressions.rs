@@ -515,7 +515,8 @@ pub(super) fn bracketed(
                 p.bump();
                 continue;
             }
-            if mistakes::elsewhere::without_comma(p) {
+            // an element that takes nothing here would take nothing again
+            if p.pos() > before && mistakes::elsewhere::without_comma(p) {
                 continue;
             }
             if !p.eat(Comma) || p.pos() == before {
