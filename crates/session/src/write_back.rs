@@ -45,11 +45,7 @@ pub(crate) fn write_back(
     let Some(given) = &edited.by_hand else {
         return written(state, wanted, &edited.slots, None, (host, plans));
     };
-    let slots = state.structure.slots.ids();
-    let stays = |slot: &SlotId| wanted.get(*slot).same_bits(&state.values.get(*slot));
-    let kept = slots.filter(stays).map(|slot| wanted.numbers[slot]);
-    let meant: BTreeSet<u64> = kept.chain(given.iter().copied()).map(f64::to_bits).collect();
-    let (next, mut planner) = written(state, wanted, &edited.slots, Some(&meant), (host, plans));
+    let (next, mut planner) = written(state, wanted, &edited.slots, Some(given), (host, plans));
     if is_as_exact(&next, wanted, &edited.slots, &mut planner) {
         return (next, planner);
     }
@@ -101,12 +97,38 @@ fn decided(
     differing.into_iter().partition(|slot| !(is_quantity(slot) && arbitrary.contains(slot)))
 }
 
-/// Makes the state whose text gives these values, and its planner: numbers to the digits that are meant, or all.
+/// Returns which of the numbers that are written are to have all their digits: those that a hand gave, and those that
+/// something has that stays as it is.
+fn meant(
+    state: &State,
+    wanted: &Values,
+    given: &[f64],
+    writes: &[(Path, Literal)],
+) -> BTreeSet<u64> {
+    let mut numbers = BTreeSet::new();
+    let mut literals: Vec<&Literal> = writes.iter().map(|(_, literal)| literal).collect();
+    while let Some(literal) = literals.pop() {
+        match literal {
+            Literal::Number(x) => {
+                numbers.insert(x.to_bits());
+            }
+            Literal::Tuple(items) => literals.extend(items),
+            Literal::Bool(_) | Literal::Text(_) | Literal::Path(_) => {}
+        }
+    }
+    let was = &state.values.numbers;
+    let stays = wanted.numbers.iter().map(|(slot, x)| (x.to_bits(), was[slot].to_bits()));
+    let stays = stays.filter(|(is, was)| is == was && numbers.contains(is)).map(|(is, _)| is);
+    given.iter().map(|x| x.to_bits()).chain(stays).collect()
+}
+
+/// Makes the state whose text gives these values, and its planner: numbers to the digits that are meant, or all; of what
+/// is done by hand, `given` are the numbers that it gave.
 fn written(
     state: &State,
     wanted: &Values,
     edited: &[SlotId],
-    meant: Option<&BTreeSet<u64>>,
+    given: Option<&[f64]>,
     (host, mut plans): (&dyn Host, Plans),
 ) -> (State, Planner) {
     let unit = |slot: SlotId| unit_of_change(state, wanted, slot);
@@ -117,9 +139,8 @@ fn written(
         given.is_some_and(|g| is_lone || state.lowered.is_own_given(g.origin))
     };
     let is_same = |slot: SlotId| wanted.get(slot).same_bits(&state.values.get(slot));
-    let slots = state.structure.slots.ids();
-    let mut written: BTreeSet<ThingId> =
-        slots.filter(|&slot| is_given(slot) && !is_same(slot)).map(unit).collect();
+    let changed = wanted.changed(&state.values);
+    let mut written: BTreeSet<ThingId> = changed.filter(|&slot| is_given(slot)).map(unit).collect();
     let mut more = 1;
     loop {
         let writes: Vec<(Path, Literal)> = written
@@ -130,8 +151,11 @@ fn written(
             })
             .map(|t| (state.structure.path(&state.lowered.document, t), literal(state, t, wanted)))
             .collect();
-        let edits = match meant {
-            Some(meant) => lang::write_rounded(&state.lowered, &writes, meant),
+        let edits = match given {
+            Some(given) => {
+                let meant = meant(state, wanted, given, &writes);
+                lang::write_rounded(&state.lowered, &writes, &meant)
+            }
             None => lang::write_values(&state.lowered, &writes),
         };
         let text = syntax::edit::apply(&state.text, &edits);
@@ -156,7 +180,7 @@ fn written(
             missing = decided(&next, missing, edited, &mut planner).0;
         }
         // what is off for want of digits is not to be given: then all digits are written
-        if meant.is_some() && !missing.is_empty() && !missing.iter().any(|s| edited.contains(s)) {
+        if given.is_some() && !missing.is_empty() && !missing.iter().any(|s| edited.contains(s)) {
             return (next, planner);
         }
         missing.sort_by_key(rank);
