@@ -368,6 +368,36 @@ fn what_was_drawn_is_drawn_again_as_the_interpreter_draws_it() {
 }
 
 #[test]
+fn curves_by_places_and_poles_are_drawn_and_measured_again_as_the_interpreter_does() {
+    let text = "use drafting\nprogram Blade(w: Length = 90, h: Length = 50) {\n    \
+                edge = Spline([Point(0, 0), Point(w / 2, h), Point(w, 0)])\n    \
+                tip = Nurbs([Point(w, 0), Point(w + h, 0), Point(w + h, h)], weights: [1, 1 + h / w, 1])\n    \
+                foot = edge.nearest(to: Point(w / 3, h / 4))\n    \
+                hole = Circle(center: Point(w / 2, h / 3), radius: edge.clearance(to: Point(w / 2, h / 3)) / 2)\n    \
+                area => picture(edge, Line(Point(0, 0), Point(w, 0))).area\n    \
+                long => edge.length + tip.length\n}\np: Blade\n";
+    let opened = Opened::new(text).unwrap_or_else(|why| panic!("{why}"));
+    let model = opened.model();
+    let drawn: ThingId = opened.thing("p").expect("it has a program");
+    let class = model.document.class_named("Blade").expect("the program");
+    let (known, mut values) = (Known::default(), opened.given().clone());
+    for time in 0..12 {
+        let reference = Evaluator::new(model.document, model.structure, &values);
+        let again = Evaluator::knowing(model.document, model.structure, &values, &known);
+        let [a, b] = [&reference, &again].map(|e| e.run(drawn).expect("a run").expect("a program"));
+        assert!(same_run(&a, &b), "{time}: {a:?}\n{b:?}");
+        let [a, b] = [&reference, &again].map(|e| e.picture(drawn).drawing.elements);
+        assert_eq!(a, b, "{time}");
+        assert_eq!(again.why_interpreted(class), None);
+        for part in ["p.w", "p.h"] {
+            let slot = opened.slots(part)[0];
+            values.put(slot, Value::Number(values.numbers[slot] * 1.01));
+        }
+    }
+    let (asked, replayed) = known.replays();
+    assert!(2 * replayed > asked, "{replayed} of {asked}");
+}
+#[test]
 fn what_lines_surround_is_filled_anew_and_the_reason_is_told() {
     let text = "use geometry\nclass Panel {\n    a, b, c: Point\n    picture => picture(segment(a, b), segment(b, c), \
                 segment(c, a)).filled(\"silver\")\n}\nprogram Sheet(long: Length = 3) {\n    \

@@ -3,12 +3,13 @@
 //! Coordinates are in the document's units of length on the sheet; `y` runs as the drawing says.
 //! Every element has a [`Tag`], which the session maps to the path of a thing.
 //!
-//! Reading order: [`element`], [`metrics`], [`curve`], [`spline`], [`nurbs`], [`mod@bounds`], [`svg`], [`dxf`].
+//! Reading order: [`element`], [`metrics`], [`curve`], [`spline`], [`nurbs`], [`measure`], [`mod@bounds`], [`svg`], [`dxf`].
 pub mod bounds;
 pub mod color;
 pub mod curve;
 pub mod dxf;
 pub mod element;
+pub mod measure;
 pub mod metrics;
 pub mod nurbs;
 pub mod spline;

@@ -83,6 +83,11 @@ impl Nurbs {
     pub fn moved(&self, to: impl Fn(Point) -> Point) -> Self {
         Self { poles: self.poles.iter().map(|p| to(*p)).collect(), ..self.clone() }
     }
+    /// Returns the curve with other poles and weights, as many as it has.
+    #[must_use]
+    pub fn with(self, poles: Vec<Point>, weights: Vec<f64>) -> Self {
+        Self { poles, weights, ..self }
+    }
     /// Visits its numbers.
     pub(crate) fn each_number(&mut self, visit: &mut impl FnMut(&mut f64)) {
         for pole in &mut self.poles {
@@ -111,12 +116,12 @@ impl Nurbs {
     }
 
     /// The spans of its knots that are not empty, by their first knot.
-    fn spans(&self) -> impl DoubleEndedIterator<Item = usize> + '_ {
+    pub(crate) fn spans(&self) -> impl DoubleEndedIterator<Item = usize> + '_ {
         (self.degree..self.poles.len()).filter(|&k| self.knots[k] < self.knots[k + 1])
     }
 
     /// The point and the derivative at a parameter, by the curve of one span: the recursion of de Boor.
-    fn in_span(&self, k: usize, t: f64) -> (Point, Point) {
+    pub(crate) fn in_span(&self, k: usize, t: f64) -> (Point, Point) {
         let p = self.degree;
         let weighted = |i: usize| -> Weighted {
             let (w, pole) = (self.weights[i], self.poles[i]);

@@ -11,7 +11,7 @@ use base::Name;
 use base::number::{decimals, joined, shortest};
 use expr::dimension::Dimension;
 use kernel::builtin::{
-    Builtin, Domain, FUNCTIONS, Function, LIST_MESSAGES, ListMessage, NUMBER_MESSAGES,
+    Builtin, Domain, FUNCTIONS, Function, Kind, LIST_MESSAGES, ListMessage, NUMBER_MESSAGES,
     NumberMessage, PICTURE_MESSAGES, TEXT_MESSAGES, THING_MESSAGES, ThingMessage, find,
 };
 use kernel::{ClassKind, Quantity, ThingId, Vertical};
@@ -127,7 +127,11 @@ impl<'a> Evaluator<'a> {
             }
             Answer::Picture(elements) => {
                 let builtin = self.known(PICTURE_MESSAGES, to, name)?;
-                self.styled(builtin.function, elements, &in_place(builtin, arguments)?)
+                let arguments = in_place(builtin, arguments)?;
+                match builtin.result {
+                    Kind::Picture => self.styled(builtin.function, elements, &arguments),
+                    _ => self.measured(builtin.function, elements, &arguments),
+                }
             }
             Answer::List(_) => self.send_list(to, name, arguments),
             Answer::Thing(t) => match (find(THING_MESSAGES, name), self.class_kind(*t)) {

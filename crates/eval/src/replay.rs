@@ -10,14 +10,16 @@
 //! A run counts as much fuel, and as many things, as it did when it was noted. What makes texts of numbers, looks for an
 //! edge of a region, or fills what lines surround, is not noted; [`Evaluator::why_interpreted`] says so.
 //!
-//! Reading order: `op`, `outline`, `routine`, `record`, `form`.
+//! Reading order: `op`, `outline`, `curves`, `routine`, `record`, `form`.
 
+mod curves;
 mod form;
 mod op;
 mod outline;
 mod record;
 mod routine;
 
+pub(crate) use curves::Measure;
 pub(crate) use op::{Binary, Unary};
 
 use crate::answer::{Answer, Made};
@@ -311,6 +313,16 @@ impl<'a> Evaluator<'a> {
     ) -> std::result::Result<Vec<Surface>, NoRegion> {
         let noted = self.recorder(|r| r.recorder.offset(of, by));
         noted.unwrap_or_else(|| geometry::offset(of, by))
+    }
+
+    /// Makes something of lines whose numbers may be marked.
+    pub(crate) fn of_lines(
+        &self,
+        what: Measure,
+        shapes: &[drawing::Shape],
+    ) -> std::result::Result<Vec<f64>, &'static str> {
+        let noted = self.recorder(|r| r.recorder.measure(what, shapes));
+        noted.unwrap_or_else(|| what.of(shapes))
     }
 
     /// Compares numbers that may be marked, exactly; answers are finite, so that the order is total up to the sign of

@@ -3,13 +3,16 @@
 use crate::answer::Answer;
 use crate::evaluator::{Evaluator, Result};
 use crate::fault::Fault;
-use crate::replay::Unary;
+use crate::measure;
+use crate::operate::finite;
+use crate::replay::{Measure, Unary};
 use crate::rings;
 use base::Name;
 use drawing::{
-    Anchoring, Color, Corner, Dimension, DimensionKind, Element, Layer, Line, Placement, Point,
-    Shape, Tag, curve, nurbs::Nurbs, spline,
+    Anchoring, Color, Corner, Dimension as Dimensioned, DimensionKind, Element, Layer, Line,
+    Placement, Point, Shape, Tag, curve, nurbs::Nurbs,
 };
+use expr::dimension::Dimension;
 use kernel::builtin::{Function, PictureMessage};
 use kernel::{ClassKind, ThingId};
 use std::collections::BTreeSet;
@@ -59,8 +62,10 @@ impl<'a> Evaluator<'a> {
                 curve::ellipse(center, major, number(2)?, from, sweep)
             }
             Function::Spline => {
-                let places = self.places(arguments)?.into_iter().map(|p| self.plain(p));
-                Shape::Spline(spline::through(&places.collect::<Result<Vec<_>>>()?))
+                let places = Shape::Spline(self.places(arguments)?);
+                let poles = self.of_lines(Measure::Through, &[places]).map_err(Fault::wrong)?;
+                let place = |p: &[f64]| Point { x: p[0], y: p[1] };
+                Shape::Spline(poles.chunks_exact(2).map(place).collect())
             }
             Function::Bezier => {
                 let poles = self.places(arguments)?;
@@ -133,19 +138,57 @@ impl<'a> Evaluator<'a> {
 
     /// Reads poles, weights, the degree and knots.
     fn nurbs(&self, arguments: &[Answer<'a>]) -> Result<Shape> {
-        let numbers = |i: usize| -> Result<Vec<f64>> {
-            self.items(&arguments[i])?.iter().map(|x| Ok(self.number(x)?.0)).collect()
-        };
+        let knots = self.items(&arguments[3])?;
+        let knots = knots.iter().map(|x| Ok(self.number(x)?.0)).collect::<Result<Vec<_>>>()?;
         let poles = self.items(&arguments[0])?;
-        let poles: Result<Vec<Point>> = poles.iter().map(|p| self.plain(self.place(p)?)).collect();
+        let poles = poles.iter().map(|p| self.place(p)).collect::<Result<Vec<_>>>()?;
+        let weights = self.items(&arguments[1])?;
+        let weights = weights.iter().map(|x| Ok(self.operand(x)?.0)).collect::<Result<Vec<_>>>()?;
         let (degree, _) = self.number(&arguments[2])?;
         if !(degree >= 1.0 && degree.fract() == 0.0) {
             return Err(Fault::wrong(format!(
                 "a degree of {degree}, where it is 1, 2, 3 and so on"
             )));
         }
-        let curve = Nurbs::new(degree as usize, numbers(3)?, poles?, numbers(1)?);
-        curve.map(Shape::Nurbs).map_err(Fault::wrong)
+        // of numbers that may be marked only the signs of the weights decide whether there is such a curve
+        let read = |x: &f64| self.value_of(*x);
+        let place = |p: &Point| Point { x: read(&p.x), y: read(&p.y) };
+        let places = poles.iter().map(place).collect();
+        let counts = weights.iter().map(read).collect();
+        let curve = Nurbs::new(degree as usize, knots, places, counts).map_err(Fault::wrong)?;
+        weights.iter().for_each(|&weight| {
+            self.order_of(weight, 0.0);
+        });
+        Ok(Shape::Nurbs(curve.with(poles, weights)))
+    }
+
+    /// Measures the lines of a picture.
+    pub(crate) fn measured(
+        &self,
+        message: PictureMessage,
+        elements: &[Element],
+        arguments: &[Answer<'a>],
+    ) -> Result<Answer<'a>> {
+        let mut shapes: Vec<Shape> = elements.iter().map(|e| e.shape.clone()).collect();
+        let n = shapes.len() as u64;
+        let what = match message {
+            PictureMessage::Nearest => {
+                shapes.push(Shape::Dot(self.place(&arguments[0])?));
+                Measure::Nearest
+            }
+            PictureMessage::Area => Measure::Area,
+            _ => Measure::Length,
+        };
+        self.burn_several(1 + n.saturating_mul(n) / 16)?;
+        let made = self.of_lines(what, &shapes).map_err(Fault::no_answer)?;
+        let dimension = match what {
+            Measure::Area => measure::power(Dimension::LENGTH, 2.0),
+            Measure::Length | Measure::Nearest | Measure::Through => Dimension::LENGTH,
+        };
+        match made[..] {
+            [x] => finite(x, dimension),
+            _ => Ok(Answer::List(made.iter().map(|&x| Answer::Number(x, dimension)).collect())),
+        }
     }
 
     /// Reads places: each an argument, or all in one list.
@@ -356,6 +399,8 @@ impl<'a> Evaluator<'a> {
                     }
                 }
                 PictureMessage::Centered => anchor(element, Anchoring::Center),
+                // what is measured is no picture
+                PictureMessage::Length | PictureMessage::Area | PictureMessage::Nearest => {}
                 PictureMessage::Away => {
                     away.into_iter().for_each(|from| anchor(element, Anchoring::Away(from)));
                 }
@@ -388,7 +433,7 @@ impl<'a> Evaluator<'a> {
     }
 
     /// Reads what a dimension of a drawing measures.
-    fn dimension(&self, kind: &str, points: &Answer<'a>) -> Result<Dimension> {
+    fn dimension(&self, kind: &str, points: &Answer<'a>) -> Result<Dimensioned> {
         let kind = match kind {
             "aligned" => DimensionKind::Aligned,
             "linear" => DimensionKind::Linear,
@@ -403,7 +448,7 @@ impl<'a> Evaluator<'a> {
             let message = format!("{found} points, where such a dimension has {wanted}");
             return Err(Fault::wrong(message));
         }
-        Ok(Dimension { kind, points })
+        Ok(Dimensioned { kind, points })
     }
 
     fn color(&self, answer: &Answer<'a>) -> Result<Color> {

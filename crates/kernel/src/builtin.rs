@@ -307,6 +307,9 @@ table! {
     Measured "measured" Picture [one("kind", Kind::Text), one("points", Kind::List)] Picture "The picture as a dimension of what is exported as DXF: `aligned`, `linear`, `radius`, `diameter` or `angle`, with the points that such a one has.";
     Turned "turned" Picture [one("by", Kind::Plain)] Picture "The picture with its words turned to the left by an angle, each around its place.";
     Centered "centered" Picture [] Picture "The picture with the middle of its words at their places.";
+    Length "length" Picture [] Length "How long its lines are, those of curves too.";
+    Area "area" Picture [] Number "How much its lines surround, in whichever order and whichever way they run; a fault where they are open.";
+    Nearest "nearest" Picture [one("to", Kind::Place)] List "The place on its lines that is nearest to a point, [x, y].";
     Away "away" Picture [one("from", Kind::Place)] Picture "The picture with its words beyond their places, as seen from a point: above, below or beside them, and never across.";
 }
 

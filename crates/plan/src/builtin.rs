@@ -6,7 +6,7 @@ use crate::meaning::Meaning;
 use base::Name;
 use expr::dimension::Dimension;
 use expr::{Binary, ExprId, Unary};
-use kernel::builtin::{THING_MESSAGES, find};
+use kernel::builtin::{FUNCTIONS, Kind, THING_MESSAGES, find};
 use kernel::{BinaryOperator, ClassId, ClassKind, Primitive, Vertical};
 
 /// So many numbers are sorted by comparisons in the rule, for which it has about as many squared.
@@ -45,6 +45,10 @@ impl<'a> Opening<'a> {
                 }
             }
             ("rgb", of) => Ok(self.opaque(of)),
+            // what is measured of a picture follows one way
+            (_, of) if find(FUNCTIONS, name).is_some_and(|f| f.result == Kind::Picture) => {
+                Ok(self.opaque(of))
+            }
             ("allDifferent", [list]) if self.items(list).is_ok() => {
                 let items = self.items(list)?;
                 self.all_different(&items)

@@ -3,6 +3,7 @@
 //! In: notes, each of one run from its beginning to its end. Out: for other numbers, as long as they decide as one of
 //! these runs did, the registers of that run and its outcome. Runs that begin alike share the pieces that they share.
 
+use super::curves::Curved;
 use super::op::{Binary, Constructed, Unary};
 use super::outline::Outlined;
 use base::number::close;
@@ -25,6 +26,8 @@ pub(crate) enum Op {
     Construct(Box<Constructed>),
     /// Writes how many numbers its form has, the form, and the numbers that it is of.
     Outline(Box<Outlined>),
+    /// Writes as many numbers as it did when it was noted.
+    Curve(Box<Curved>),
 }
 
 /// What is asked of numbers, so that what comes next depends on the answer.
@@ -200,6 +203,11 @@ impl Routine {
                     }
                     Op::Outline(outlined) => {
                         outlined.compute(registers)?.push(registers);
+                        continue;
+                    }
+                    Op::Curve(curved) => {
+                        let made = curved.compute(registers)?;
+                        registers.extend(made);
                         continue;
                     }
                 };

@@ -23,7 +23,7 @@ enum Sort {
     Point,
     Straight,
     Round,
-    /// What has edges: a contour, a surface, a region.
+    /// What has edges, a contour, a surface, a region; or a curve by places or poles.
     Outlined,
 }
 
@@ -33,7 +33,7 @@ fn sort(state: &State, found: &Found) -> Option<Sort> {
         () if is_of("Point") => Some(Sort::Point),
         () if is_of("Straight") => Some(Sort::Straight),
         () if is_of("Circle") || is_of("Arc") => Some(Sort::Round),
-        () if is_of("Outlined") => Some(Sort::Outlined),
+        () if is_of("Outlined") || is_of("Freeform") => Some(Sort::Outlined),
         () => None,
     }
 }
@@ -69,7 +69,7 @@ impl Measuring {
     pub(crate) fn words(&self) -> &'static str {
         match (self.kind, self.picked.len()) {
             (MeasureKind::Radius, _) => "radius: pick a circle or an arc",
-            (MeasureKind::Length, _) => "length: pick a line or an arc",
+            (MeasureKind::Length, _) => "length: pick a line, an arc or another curve",
             (MeasureKind::Across | MeasureKind::Up, _) => "coordinate: pick a point",
             (MeasureKind::Area, _) => "area: pick a circle, or a surface",
             (MeasureKind::Distance, 0) => "distance: pick a point, a line, a circle or a contour",
@@ -87,7 +87,11 @@ impl Measuring {
         let sort = sort(state, found);
         match self.kind {
             MeasureKind::Radius => sort == Some(Sort::Round),
-            MeasureKind::Length => is_a(state, found, "Line") || is_a(state, found, "Arc"),
+            // whatever answers how long it is
+            MeasureKind::Length => {
+                is_a(state, found, "Circle")
+                    || state.lowered.document.find_message(found.class, "length", None).is_some()
+            }
             MeasureKind::Across | MeasureKind::Up => sort == Some(Sort::Point),
             MeasureKind::Area => {
                 is_a(state, found, "Circle")
@@ -127,6 +131,9 @@ impl Measuring {
         self.picked.push(found);
         match (self.kind, self.picked.as_slice()) {
             (MeasureKind::Radius, [a, ..]) => Some(radius(a)),
+            (MeasureKind::Length, [a, ..]) if is_a(state, a, "Circle") => {
+                Some(format!("2 * pi() * {}", radius(a)))
+            }
             (MeasureKind::Length, [a, ..]) => Some(format!("{}.length", a.text)),
             (MeasureKind::Across, [a, ..]) => Some(format!("{}.x", a.text)),
             (MeasureKind::Up, [a, ..]) => Some(format!("{}.y", a.text)),

@@ -714,7 +714,10 @@ fn is_picture(term: &Term) -> bool {
         Term::Call { name, .. } => {
             find(FUNCTIONS, name).is_some_and(|function| function.result == Kind::Picture)
         }
-        Term::Send { to, name, .. } => is_picture(to) && find(PICTURE_MESSAGES, name).is_some(),
+        Term::Send { to, name, .. } => {
+            let message = find(PICTURE_MESSAGES, name);
+            is_picture(to) && message.is_some_and(|message| message.result == Kind::Picture)
+        }
         Term::If(_, a, b) => is_picture(a) && is_picture(b),
         Term::Let(_, _, term) => is_picture(term),
         _ => false,

@@ -7,6 +7,7 @@ mod completing;
 mod constructed;
 mod copying;
 mod counting;
+mod curves;
 mod demonstrations;
 mod desk;
 mod drafting;
