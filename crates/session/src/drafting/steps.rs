@@ -11,6 +11,7 @@ use crate::view::Refusal;
 use crate::views::values;
 use crate::words;
 use eval::{Answer, Evaluator};
+use kernel::program::Program;
 use kernel::{DOCUMENT, Path, Values};
 use syntax::ast::{AstNode, Expr, Member, Value};
 
@@ -26,7 +27,26 @@ pub(crate) fn view(open: &Open, home: &Home, thing: Option<&str>) -> Option<Step
         way.truncate(visited.count());
     }
     let rows = found.rows(&open.state, &around, &evaluator);
-    Some(StepsView { rows, ..found.head(open, home, &evaluator) })
+    let selected = thing.and_then(|thing| row_of(&rows, &found.path, thing));
+    Some(StepsView { rows, selected, ..found.head(open, home, &evaluator) })
+}
+
+/// Finds the step that drew something, by its path through the thing that shows the program: of two branches that make
+/// it, the one that did.
+fn row_of(rows: &[StepRow], shown: &Path, drawn: &str) -> Option<String> {
+    let path = crate::session::parse_path(drawn)?;
+    let names: Vec<&str> = { path.0.strip_prefix(&shown.0[..])?.iter() }
+        .filter_map(|step| match step {
+            kernel::Step::Part(name) => Some(name.as_str()),
+            kernel::Step::Index(_) | kernel::Step::Last | kernel::Step::Owner => None,
+        })
+        .collect();
+    let found = rows.iter().filter_map(|row| {
+        let made: Vec<&str> = row.path.split('.').filter(|s| text::is_name(s)).collect();
+        let is_of = !row.name.is_empty() && names.starts_with(&made);
+        is_of.then_some(((made.len(), !row.is_unmade), row))
+    });
+    found.max_by_key(|(rank, _)| *rank).map(|(_, row)| row.path.clone())
 }
 
 /// Returns the same without the steps.
@@ -37,7 +57,7 @@ pub(crate) fn head(open: &Open, home: &Home, thing: Option<&str>) -> Option<Step
 
 /// A program whose steps are shown, and where it is written.
 struct Found<'s> {
-    program: &'s kernel::program::Program,
+    program: &'s Program,
     name: base::Name,
     example: String,
     path: Path,
@@ -53,11 +73,8 @@ impl<'s> Found<'s> {
             (Home::Document, Some(thing)) => thing.to_string(),
             (Home::Document, None) => return None,
         };
-        let document = &state.lowered.document;
-        let path = crate::session::parse_path(&example)?;
-        let thing = state.structure.follow(DOCUMENT, &path).ok()?;
-        let program = document.program(state.structure.things[thing].class)?;
-        let name = program_of(state, &example)?;
+        let (path, program, name) = drawn_by(state, &example)?;
+        let example = path.to_string();
         // a program of a library is shown as well
         let own = text::Source::now(state);
         let others =
@@ -117,6 +134,7 @@ impl<'s> Found<'s> {
             has_steps: { self.written.as_ref() }
                 .is_some_and(|(_, body, _)| !text::steps_of(body).is_empty()),
             rows: Vec::new(),
+            selected: None,
             open: recording.map(|it| blocks::view(&source, it)).unwrap_or_default(),
             at: recording.filter(|_| visit::is_inside(open)).map(|recording| {
                 let before = recording.before.clone().unwrap_or_default();
@@ -131,12 +149,23 @@ impl<'s> Found<'s> {
 
 /// Returns the name of the program that draws a thing of a document.
 pub(crate) fn program_of(state: &State, thing: &str) -> Option<base::Name> {
+    program_at(state, &crate::session::parse_path(thing)?).map(|(_, name)| name)
+}
+
+/// Returns the program of the thing that a path leads to, with its name.
+fn program_at<'s>(state: &'s State, path: &Path) -> Option<(&'s Program, base::Name)> {
     let document = &state.lowered.document;
-    let path = crate::session::parse_path(thing)?;
-    let thing = state.structure.follow(DOCUMENT, &path).ok()?;
+    let thing = state.structure.follow(DOCUMENT, path).ok()?;
     let line = document.primary_line(state.structure.things[thing].class);
-    let program = line.into_iter().find(|&c| document.classes[c].program.is_some())?;
-    Some(document.classes[program].name.clone())
+    let class = line.into_iter().find(|&c| document.classes[c].program.is_some())?;
+    Some((document.program(class)?, document.classes[class].name.clone()))
+}
+
+/// Returns the innermost thing on the way to something that a program draws, with the program and its name.
+fn drawn_by<'s>(state: &'s State, drawn: &str) -> Option<(Path, &'s Program, base::Name)> {
+    let way = crate::session::parse_path(drawn)?.0;
+    let ways = (1..=way.len()).rev().map(|n| Path(way[..n].to_vec()));
+    ways.filter_map(|path| program_at(state, &path).map(|(p, name)| (path, p, name))).next()
 }
 
 /// A program and the thing that shows what it draws.

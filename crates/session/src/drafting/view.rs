@@ -199,6 +199,8 @@ pub struct StepsView {
     pub has_steps: bool,
     /// Its steps, in order.
     pub rows: Vec<StepRow>,
+    /// The address of the step that drew what is selected, if one did.
+    pub selected: Option<String>,
 }
 
 /// A parameter of a program.

@@ -39,6 +39,7 @@ mod saving;
 mod sheets;
 mod showing;
 mod sides;
+mod steps;
 mod tables;
 mod undoing;
 mod updating;

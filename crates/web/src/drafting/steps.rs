@@ -32,29 +32,29 @@ pub fn Steps(
     };
     // each row with what it is of: of many only those that are others are made anew
     let rows = move || {
-        let StepsView { rows, example, program, is_recorded, at, .. } = listed.get();
+        let StepsView { rows, example, program, is_recorded, at, selected, .. } = listed.get();
         let one = |row: StepRow| {
             let (example, program) = (example.clone(), program.clone());
             let at = at.clone().filter(|at| *at == row.path);
-            (StepsView { example, program, is_recorded, at, ..StepsView::default() }, row)
+            let selected = selected.clone().filter(|selected| *selected == row.path);
+            let of =
+                StepsView { example, program, is_recorded, at, selected, ..StepsView::default() };
+            (of, row)
         };
         rows.into_iter().map(one).collect::<Vec<_>>()
     };
-    // the step that was drawn last, or comes next, is in sight
-    Effect::new(move |seen: Option<(usize, Option<String>)>| {
-        let drawn = listed.with(|s| match s.is_recorded {
-            true => (s.rows.len(), s.at.clone()),
-            false => (0, None),
-        });
-        if seen.is_some_and(|seen| seen != drawn) {
-            request_animation_frame(show_newest);
+    Effect::new(move |seen: Option<Sight>| {
+        let sight = listed.with(|s| Sight::of(s, lab.drafting.lit.get()));
+        let shown = sight.since(seen.as_ref());
+        if let Some(what) = shown {
+            request_animation_frame(move || show(what));
         }
         let is_asked = lab.drafting.prompt.with_untracked(Option::is_some);
-        if drawn.0 > 0 && !is_asked && !js::coarse() {
+        if sight.recorded > 0 && !is_asked && !js::coarse() {
             // the rows are others now: who had the keyboard in one of them has it beside them
             keyboard::rest_at(".drawing [data-visit='step']");
         }
-        drawn
+        sight
     });
     Effect::new(move |_| {
         listed.track();
@@ -107,13 +107,57 @@ pub fn Steps(
     }
 }
 
-/// Brings the step that comes next, or the last one, into the list's frame; where one is visited, into the drawer's as
-/// well, which scrolls as a whole on narrow pages.
-fn show_newest() {
+/// What of the steps a person looks at: where one of these changes, it comes into sight.
+#[derive(Clone, PartialEq, Eq, Debug)]
+struct Sight {
+    /// How many steps are recorded.
+    recorded: usize,
+    /// Where it is visited.
+    at: Option<String>,
+    /// Where the drawing ended early.
+    failed: Option<String>,
+    /// The step that drew what is selected.
+    selected: Option<String>,
+    /// The step that is lit.
+    lit: Option<String>,
+}
+
+impl Sight {
+    fn of(steps: &StepsView, lit: Option<String>) -> Self {
+        let failed = steps.rows.iter().find(|row| row.why.is_some());
+        Self {
+            recorded: if steps.is_recorded { steps.rows.len() } else { 0 },
+            at: steps.at.clone().filter(|_| steps.is_recorded),
+            failed: failed.map(|row| row.path.clone()),
+            selected: steps.selected.clone(),
+            lit,
+        }
+    }
+
+    /// Which rows, the first of which is shown, are of what is new in it.
+    fn since(&self, seen: Option<&Self>) -> Option<&'static [&'static str]> {
+        let is_new = |get: fn(&Self) -> &Option<String>| {
+            get(self).is_some() && seen.is_none_or(|seen| get(seen) != get(self))
+        };
+        match seen {
+            _ if is_new(|s| &s.failed) => Some(&[".steps li.failed"]),
+            Some(seen) if (seen.recorded, &seen.at) != (self.recorded, &self.at) => {
+                Some(&[".steps li.next", ".steps li:last-child"])
+            }
+            _ if is_new(|s| &s.selected) => Some(&[".steps li.selected"]),
+            _ if is_new(|s| &s.lit) => Some(&[".steps li.lit"]),
+            _ => None,
+        }
+    }
+}
+
+/// Brings a row into the list's frame; where it is not merely the last, into the drawer's as well, which scrolls as a
+/// whole on narrow pages.
+fn show(rows: &[&str]) {
     let found = |selector: &str| document().query_selector(selector).ok().flatten();
-    let next = found(".steps li.next");
-    if let Some(step) = next.clone().or_else(|| found(".steps li:last-child")) {
-        let frames = [found(LIST), next.and_then(|_| found(".drawer .drawing"))];
+    let row = rows.iter().find_map(|row| Some((found(row)?, row.ends_with("last-child"))));
+    if let Some((step, is_last)) = row {
+        let frames = [found(LIST), found(".drawer .drawing").filter(|_| !is_last)];
         frames.into_iter().flatten().for_each(|frame| bring_into(&frame, &step));
     }
     // rows that come push down what has the keyboard
@@ -124,12 +168,12 @@ fn show_newest() {
     }
 }
 
-/// Scrolls a frame so far that something in it is in sight.
+/// Scrolls a frame so far that something in it is in sight, of what is higher than the frame its beginning.
 fn bring_into(frame: &Element, what: &Element) {
     let (own, around) = (what.get_bounding_client_rect(), frame.get_bounding_client_rect());
+    let above = own.top() - around.top();
     let below = (own.bottom() - around.bottom()).max(0.0);
-    let above = (own.top() - around.top()).min(0.0);
-    frame.set_scroll_top(frame.scroll_top() + (below + above).round() as i32);
+    frame.set_scroll_top(frame.scroll_top() + below.min(above).round() as i32);
 }
 
 /// What a parameter's value is changed for.
@@ -205,6 +249,8 @@ fn Row(lab: Lab, steps: StepsView, row: StepRow) -> impl IntoView {
     let asks = RwSignal::new(None::<Vec<String>>);
     let is_recorded = steps.is_recorded;
     let is_next = steps.at.as_deref() == Some(row.path.as_str());
+    let is_selected = steps.selected.is_some();
+    let is_failed = row.why.is_some();
     let own = StoredValue::new((steps, row.clone()));
     let path = row.path.clone();
     let is_lit = Memo::new(move |_| lab.drafting.lit.with(|lit| lit.as_ref() == Some(&path)));
@@ -233,7 +279,8 @@ fn Row(lab: Lab, steps: StepsView, row: StepRow) -> impl IntoView {
     let indent = format!("{}px", 14 * row.depth);
     let name = row.path.clone();
     view! {
-        <li class:lit=is_lit class:guide=row.is_guide class:unmade=row.is_unmade class:next=is_next style:margin-left=indent data-step=name>
+        <li class:lit=is_lit class:guide=row.is_guide class:unmade=row.is_unmade class:next=is_next
+            class:failed=is_failed class:selected=is_selected style:margin-left=indent data-step=name>
             <button class="bare step" title=row.formula on:click=light>
                 <b>{row.name}</b>" "{row.words}
                 {row.value.map(|value| view! { <span class="quiet">{value}</span> })}
