@@ -48,7 +48,9 @@ pub(crate) fn read(
             Ok((class, example)) => {
                 let bare = example.parse::<f64>().is_ok();
                 let worth = outcome::worth(&open.state, &Home::Document, &example);
-                if let Some(why) = wrong_kind(&class, worth.as_ref().ok()) {
+                let why = wrong_kind(&class, worth.as_ref().ok())
+                    .or_else(|| wrong_unit(open, &class, &example));
+                if let Some(why) = why {
                     reading.wrong.push((ParameterField::Example, why));
                 }
                 let value = match (worth, class.as_str()) {
@@ -112,6 +114,19 @@ fn wrong_kind(class: &str, worth: Option<&Worth>) -> Option<String> {
         }
         _ => None,
     }
+}
+
+/// Why the unit of an example is none of the class that was chosen for it.
+fn wrong_unit(open: &Open, class: &str, example: &str) -> Option<String> {
+    let (none, wanted) = match class {
+        "Length" => ("0 mm", "a length"),
+        "Angle" => ("0 deg", "an angle"),
+        "Real" | "Integer" => ("0", "a plain number"),
+        _ => return None,
+    };
+    let sum = format!("({example}) + {none}");
+    let is_wrong = outcome::worth(&open.state, &Home::Document, &sum).is_err();
+    is_wrong.then(|| format!("{wanted} is wanted, and `{example}` is none"))
 }
 
 /// Why an example is not among the values that are allowed.

@@ -88,6 +88,24 @@ program G(holes: Length = 6) {
 }
 
 #[test]
+fn a_unit_of_another_kind_is_told_before_the_parameter_is_changed() {
+    let desk_of = |class: &str, example: &str| {
+        let mut desk = flange();
+        let id = desk.id;
+        desk.session.read_parameter(id, &anew("d", (class, "", example), "")).wrong
+    };
+    let wrong = desk_of("Length", "60 kg");
+    assert_eq!(wrong.len(), 1, "{wrong:?}");
+    assert_eq!(wrong[0].1, "a length is wanted, and `60 kg` is none");
+    for (class, example) in
+        [("Length", "60"), ("Length", "6 cm"), ("Angle", "30"), ("Angle", "1 rad"), ("Real", "3")]
+    {
+        assert_eq!(desk_of(class, example), [], "{class} {example}");
+    }
+    assert_eq!(desk_of("Angle", "3 mm")[0].1, "an angle is wanted, and `3 mm` is none");
+}
+
+#[test]
 fn an_inch_mark_in_a_question_or_comment_hides_no_names() {
     for is_asked in [true, false] {
         let mut desk = flange();
