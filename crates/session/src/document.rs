@@ -170,6 +170,10 @@ impl Open {
         let plans = self.planner.take_plans();
         (self.planner, _) = Planner::new(self.state.model(), plans);
         self.back_on_course();
+        // what is asked of a step is asked of the text as it was
+        if let Some(recording) = &mut self.recording {
+            (recording.removing, recording.changing) = (None, None);
+        }
         Some(label)
     }
     /// Returns how much more is presumed to be free than the form says in a state that comes after the present one.

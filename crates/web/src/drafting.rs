@@ -146,6 +146,28 @@ impl Lab {
         }
     }
 
+    /// Another document is shown: what is asked is what that one waits for.
+    pub fn renew_drafting(self) {
+        let Drafting { calculator, banding, seeking, lit, parameter, pointer, .. } = self.drafting;
+        [calculator, banding, seeking].iter().for_each(|asked| asked.set(false));
+        lit.set(None);
+        parameter.set(NewParameter::default());
+        pointer.set_value(None);
+        self.show_waiting();
+    }
+
+    /// Shows what is waited for, where that is something else than before.
+    pub fn renew_waiting(self) {
+        let asked = |prompt: Option<&Prompt>| {
+            prompt.map(|p| (p.tool.clone(), p.label.clone(), p.words.clone()))
+        };
+        let now = self.ask_of_shown(session::Session::prompt).flatten();
+        if self.drafting.prompt.with_untracked(|shown| asked(shown.as_ref()) != asked(now.as_ref()))
+        {
+            self.show_waiting();
+        }
+    }
+
     /// Shows what the session waits for now.
     fn show_waiting(self) {
         let prompt = self.ask_of_shown(session::Session::prompt).flatten();

@@ -617,3 +617,56 @@ async fn a_recording_that_was_broken_off_goes_on_in_its_loop() {
     visit.picture("flange").await;
     press(&visit, "[data-draft='stop']").await;
 }
+
+#[tokio::test]
+async fn the_step_that_failed_comes_into_sight_and_so_does_the_one_of_what_is_selected() {
+    let visit = hands::begin().await;
+    let circles = (1..15)
+        .map(|i| format!("    c{i} = Circle(center: Point({}, 10), radius: d / 4)\n", 20 * i - 10));
+    let lines = (1..14).map(|i| format!("    l{i} = Line(c{i}.center, c{}.center)\n", i + 1));
+    let text = format!(
+        "use geometry\nprogram Row(d: Length = 20, w: Length = 60) {{\n{}    t = \
+         Circle.tangent(-c1, -c2, radius: w - 20)\n{}}}\nrow: Row\n",
+        circles.collect::<String>(),
+        lines.collect::<String>()
+    );
+    visit.put("row.thing", &text);
+    visit.script("location.hash = '#/gallery/row.thing'").await;
+    visit.until("window.__thinglab.state().path === 'gallery/row.thing'").await;
+    press(&visit, "#tab-draw").await;
+    pick(&visit, 270.0, 15.0).await;
+    visit.until("document.querySelector('.steps li')").await;
+    let is_in_sight = |step: &str| {
+        format!(
+            "(([a, b]) => b && a.top <= b.top + 1 && b.top < a.bottom)(['.steps', '.steps {step}']
+                .map(s => document.querySelector(s)?.getBoundingClientRect()))"
+        )
+    };
+    assert_eq!(visit.script(&format!("return {}", is_in_sight("[data-step=t]"))).await, false);
+    set(&visit, "w", "21").await;
+    visit.until(&is_in_sight("[data-step=t].failed")).await;
+    set(&visit, "w", "60").await;
+    visit.until("!document.querySelector('.steps .failed')").await;
+    // once more there: what is within it
+    pick(&visit, 150.0, 15.0).await;
+    visit.until(&is_in_sight("[data-step=c8].selected")).await;
+    visit.picture("steps-selected").await;
+}
+
+#[tokio::test]
+async fn a_question_of_a_document_is_asked_beside_no_other() {
+    let visit = hands::begin().await;
+    record(&visit, "Ring", &[("d", "10")]).await;
+    construct(&visit, "Circle").await;
+    asked(&visit, "pick a point").await;
+    let path = state(&visit).await["path"].as_str().unwrap_or_default().to_string();
+    visit.put("other.thing", "use geometry\n");
+    visit.script("location.hash = '#/gallery/other.thing'").await;
+    visit.until("window.__thinglab.state().path === 'gallery/other.thing'").await;
+    visit.until("!document.querySelector('.prompt')").await;
+    visit.script(&format!("location.hash = '#/{path}'")).await;
+    asked(&visit, "pick a point").await;
+    pick(&visit, 0.0, 0.0).await;
+    enter(&visit, "d").await;
+    has(&visit, "circle = Circle(center: Point(0, 0), radius: d)").await;
+}

@@ -345,7 +345,7 @@ async fn curve(hand: &Hand) {
     hand.press("select[name='class'] option[value='Integer']").await;
     hand.define("depth", "0").await;
     hand.draft("if").await;
-    hand.press("[data-parameter='depth']").await;
+    hand.press(".prompt [data-value='depth']").await;
     hand.keys(&["=", "0", "give"]).await;
     hand.construct("Line").await;
     hand.pick(0.0, 0.0).await;
@@ -375,6 +375,17 @@ async fn curve(hand: &Hand) {
     hand.draft("end-if").await;
     hand.draft("stop").await;
     hand.has("koch4 = Koch(from: point2, to: to, depth: depth - 1)").await;
+}
+
+#[tokio::test]
+async fn the_curve_of_koch_is_drawn_on_a_narrow_page() {
+    let hand = Hand::begin().await;
+    hand.visit.client.set_window_size(500, 844).await.expect("a narrow window");
+    hand.press(".handles button").await;
+    curve(&hand).await;
+    hand.set("depth", "5").await;
+    hand.made("#0.else.koch4", "4 figures").await;
+    hand.visit.picture("koch-narrow").await;
 }
 
 #[tokio::test]

@@ -259,6 +259,12 @@ impl<'a> Rows<'_, 'a> {
                 formula,
                 value: answer.map(|answer| match (&answer, visited) {
                     (Answer::List(turns), Some(turn)) => turn_in_words(turn, turns.len()),
+                    // an empty list does not tell what it is of
+                    (Answer::List(items), None)
+                        if items.is_empty() && matches!(step.value, Some(Value::Expr(_))) =>
+                    {
+                        counted(0, "figure")
+                    }
                     _ => value_words(self.state, self.evaluator, &answer),
                 }),
                 is_guide: step.is_guide,

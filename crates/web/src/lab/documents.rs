@@ -405,6 +405,7 @@ impl Lab {
         note_shown(path);
         self.current.set(Some(String::from(path)));
         self.document.set(Some(opened));
+        self.renew_drafting();
         self.offer_draft(path);
         self.show_views();
         self.meet_lesson(path);
@@ -427,6 +428,7 @@ impl Lab {
         self.arriving.set(false);
         self.current.set(None);
         self.document.set(None);
+        self.renew_drafting();
     }
 
     /// The names of the libraries.

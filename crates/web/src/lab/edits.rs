@@ -52,7 +52,11 @@ impl Lab {
 
     /// Applies a command without asking.
     pub fn apply_as_meant(self, command: &Command) -> bool {
-        self.settle(self.tell(|session, id| session.apply(id, command)))
+        let done = self.settle(self.tell(|session, id| session.apply(id, command)));
+        if matches!(command, Command::Undo | Command::Redo) {
+            self.renew_waiting();
+        }
+        done
     }
 
     /// Sets a value as a person types it.

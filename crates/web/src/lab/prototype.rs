@@ -55,6 +55,7 @@ impl Lab {
         self.plotting.clear();
         self.notice.set(None);
         self.update_document(|document| document.id = id);
+        self.renew_drafting();
         self.refresh();
         crate::keyboard::focus("#picture");
         self.zoom.set(Some(Zoom::Fit));
