@@ -52,6 +52,9 @@ fn report(form: Form, good: bool, words: String, json: &Value) -> Report {
     Report { text, aside: String::new(), good }
 }
 
+/// The code of what is given and gives way.
+const GIVES_WAY: &str = "given-yields";
+
 /// Prints the diagnostics of documents, with their source lines.
 ///
 /// # Errors
@@ -70,7 +73,10 @@ pub(crate) fn check(
         // what cannot hold may well follow from what is missing
         let is_broken = diagnostics.iter().any(|d| d.severity == "error");
         let told = if is_broken { &[] } else { problems.as_slice() };
-        for d in diagnostics.iter().chain(told) {
+        // so may what gives way
+        let (kept, later): (Vec<_>, Vec<_>) =
+            diagnostics.iter().partition(|d| !is_broken || d.code != GIVES_WAY);
+        for d in kept.into_iter().chain(told) {
             words.push_str(&show_diagnostic(&opened, d));
             match d.severity.as_str() {
                 "error" => errors += 1,
@@ -85,14 +91,14 @@ pub(crate) fn check(
         let status = opened.session.status(opened.id);
         let is_told = |note: &&String| {
             let mut all = diagnostics.iter().chain(&problems);
-            let yields = all.any(|told| told.code == "given-yields");
+            let yields = all.any(|told| told.code == GIVES_WAY);
             is_broken || yields && note.starts_with(session::GAVE_WAY)
         };
         for note in status.notes.iter().filter(|note| !is_told(note)) {
             let _ = writeln!(words, "{}: {note}", path.display());
         }
-        if told.len() < problems.len() {
-            let rest = "what cannot hold is told once the text has no errors";
+        if told.len() < problems.len() || !later.is_empty() {
+            let rest = "what cannot hold, or gives way, is told once the text has no errors";
             let _ = writeln!(words, "{}: {rest}", path.display());
         }
         let found = json!({

@@ -1,5 +1,6 @@
 //! Hints: what to write instead, where a value, a target or a word is not what can stand there.
 
+use crate::classes::small_first;
 use crate::kinds::Kind;
 use crate::lower::Lowerer;
 use crate::members::is_constant;
@@ -73,6 +74,9 @@ impl Lowerer<'_> {
         self.diagnostics[before + at] = match near {
             Some(near) => plain.meant(&near),
             None if let Some(hint) = maker => plain.hint(hint),
+            None if let Some(part) = self.part_called_otherwise(class, word.text()) => {
+                plain.hint(format!("its {} is called {part}: `{part} = {written}`", word.text()))
+            }
             None if let Some(part) = self.part_with(class, word.text()) => {
                 plain.hint(format!("its {part} has one: `{part}.{} = {written}`", word.text()))
             }
@@ -93,6 +97,20 @@ impl Lowerer<'_> {
             }
             None => plain.hint(format!("there are {}", names.join(", "))),
         };
+    }
+
+    /// Returns the one part of a class, not of the document itself, whose class has this name: `emf` for the `voltage` of a
+    /// battery.
+    fn part_called_otherwise(&self, class: ClassId, name: &str) -> Option<Name> {
+        let document = &self.document;
+        if class == document.root {
+            return None;
+        }
+        let is_it = |of: ClassId| small_first(&document.classes[of].name) == *name;
+        let fields = document.layout(class).into_iter();
+        let mut alike = fields.filter(|&field| is_it(document.field_class(field)));
+        let one = alike.next()?;
+        alike.next().is_none().then(|| document.field_name(one).clone())
     }
 
     /// Returns the part of a class, not of the document itself, that has a part of this name.

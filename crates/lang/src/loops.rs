@@ -14,7 +14,7 @@ use base::{Diagnostic, Name, Place};
 pub(crate) use decided::decided;
 pub(crate) use declared::Repeated;
 use declared::{declared_names, is_declaration};
-use kernel::{ClassId, Path, Step};
+use kernel::{ClassId, ClassKind, Path, Primitive, Step};
 use listed::{Listed, inside, zipped};
 use std::rc::Rc;
 use syntax::ast::{self, AstNode, Expr, Member};
@@ -201,8 +201,16 @@ impl Lowerer<'_> {
         }
         let (path, class) = self.path(scope, &list)?;
         let Some(element) = class.and_then(|c| self.element(c)) else {
-            let message = format!("{path} is not a list");
-            self.error("value-of-wrong-class", scope.file, list.span(), message);
+            let place = Place { file: scope.file, span: list.span() };
+            let d =
+                Diagnostic::error("value-of-wrong-class", place, format!("{path} is not a list"));
+            let is_whole = class.is_some_and(|c| {
+                self.document.classes[c].kind == ClassKind::Primitive(Primitive::Integer)
+            });
+            self.report(match is_whole {
+                true => d.hint(format!("write `0..<{path}` for the numbers below {path}")),
+                false => d,
+            });
             return None;
         };
         // a list of the thing's own that nothing is said of is empty; what gives it elements goes on

@@ -88,7 +88,8 @@ impl Lowerer<'_> {
         let is_whole =
             |e: &i8| (f64::from(*e) * exponent - (f64::from(*e) * exponent).round()).abs() < 1e-9;
         // lengths of a sheet are plain numbers to many a program
-        let is_of_length = *dimension == Dimension::LENGTH.power(dimension.0[0]);
+        let is_of_length =
+            *dimension == Dimension::LENGTH.power(dimension.0[0]) && !self.document.writes_lengths;
         if dimension.0.iter().all(is_whole) || is_of_length || scope.file != OWN || self.silent > 0
         {
             return;

@@ -78,7 +78,12 @@ impl<'a> Opening<'a> {
         };
         let path = self.structure.path(self.document, *list);
         let elements = match count {
-            0 => "no elements".to_string(),
+            0 => {
+                return Trouble::wrong(format!(
+                    "{path} has no elements: there is no {path}[{index}]; how many it has is said where it is declared, \
+                     `List of 3 …`"
+                ));
+            }
             1 => "1 element, [0] alone".to_string(),
             n => format!("{n} elements, [0] to [{}]", n - 1),
         };

@@ -9,7 +9,7 @@ use crate::state::State;
 use crate::words::{listed, show_thing};
 use crate::write_back::unit_of_writing;
 use base::{Diagnostic, Place};
-use kernel::{DOCUMENT, SlotId, ThingId, Values};
+use kernel::{DOCUMENT, SlotId, Term, ThingId, Values};
 use plan::{Planner, Source};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -109,7 +109,15 @@ fn warning(
         true => String::new(),
         false => format!(", because of {}", listed(&constraints)),
     };
+    // what is computed of numbers alone is seldom meant to yield
+    let is_computed = |slot: &SlotId| {
+        let given = state.structure.given(*slot);
+        given.is_some_and(|given| matches!(given.term, Term::Binary(..) | Term::Call { .. }))
+    };
     let hint = match line.of_class {
+        false if line.slots.iter().all(is_computed) => {
+            "give a value with which the constraints hold, or write `constant` before it where it never yields"
+        }
         true => "give it a value with which the constraints hold, in the body of the part",
         false => {
             "give a value with which the constraints hold, or `anchor` it and let another yield"

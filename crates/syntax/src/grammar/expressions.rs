@@ -515,8 +515,9 @@ pub(super) fn bracketed(
                 p.bump();
                 continue;
             }
-            // an element that takes nothing here would take nothing again
-            if p.pos() > before && mistakes::elsewhere::without_comma(p) {
+            // where a list lacks one, its elements may be of two kinds; what took nothing here would take nothing again
+            let may_lack = closer == RParen && p.pos() > before;
+            if may_lack && mistakes::elsewhere::without_comma(p) {
                 continue;
             }
             if !p.eat(Comma) || p.pos() == before {

@@ -3,9 +3,9 @@
 use super::MEMBER;
 use crate::kind::SyntaxKind;
 use crate::kind::SyntaxKind::{
-    AndKw, Caret, Colon, ColonEq, Comma, Eof, Eq, FatArrow, Greater, GreaterEq, Ident, LBrace,
-    LParen, Less, LessEq, Minus, NotEq, NotKw, Number, Plus, RBrace, RParen, Semicolon, Slash,
-    Star, Text, Unit,
+    AndKw, Arrow, Caret, Colon, ColonEq, Comma, Eof, Eq, FatArrow, Greater, GreaterEq, Ident,
+    LBrace, LParen, Less, LessEq, Minus, NotEq, NotKw, Number, Plus, RBrace, RParen, Semicolon,
+    Slash, Star, Text, Unit,
 };
 use crate::parser::Parser;
 use crate::units::follows_operand;
@@ -228,6 +228,11 @@ fn sign(p: &Parser<'_>) -> Option<String> {
         ColonEq if of == "constraint" => {
             let rule = p.quoted_line(p.pos() + 1);
             format!("a rule is an equation: `constraint {} = {rule}`", before(1))
+        }
+        // `x: Real = 3 within 0.1`
+        Ident if p.word(0) == "within" && (p.behind(2) == Eq || p.behind(3) == Eq) => {
+            "a value is exact; how nearly something holds is said of a rule: `constraint x = 3 within 0.1`"
+                .into()
         }
         // `3 4`, and no thousands
         Number if p.behind(1) == Number && p.behind(2) == Eq && p.word(0).len() != 3 => {
@@ -534,16 +539,24 @@ pub(in crate::grammar) fn strange_unit(p: &mut Parser<'_>) -> bool {
 
 /// `Point(3 4)`: returns true where it was reported. What follows is the next element.
 pub(in crate::grammar) fn without_comma(p: &mut Parser<'_>) -> bool {
-    let is_one = p.at(Number) && matches!(p.behind(1), Number | Unit) && !p.begins_line(0);
-    if is_one {
-        let said = (
-            "expected-comma",
-            format!("found `{}`, wanted `,` before it", p.word(0)),
-            "what stands in brackets has commas between: `(3, 4)`".to_string(),
-        );
+    let said = comma_left_out(p);
+    let is_one = said.is_some();
+    if let Some(said) = said {
         p.report_mistake((p.pos(), p.pos()), said, None);
     }
     is_one
+}
+
+/// What is said of a number behind another.
+fn comma_left_out(p: &Parser<'_>) -> Option<(&'static str, String, String)> {
+    let is_one = p.at(Number) && matches!(p.behind(1), Number | Unit) && !p.begins_line(0);
+    is_one.then(|| {
+        (
+            "expected-comma",
+            format!("found `{}`, wanted `,` before it", p.word(0)),
+            "what stands in brackets has commas between: `(3, 4)`".to_string(),
+        )
+    })
 }
 
 /// `[2 * i for i in 1..3]`, `Circle(…)` where a parameter stands: what brackets hold elsewhere, where their
@@ -551,6 +564,12 @@ pub(in crate::grammar) fn without_comma(p: &mut Parser<'_>) -> bool {
 pub(in crate::grammar) fn in_brackets(p: &mut Parser<'_>, wanted: &str) -> bool {
     let at = p.pos();
     let said = match p.current() {
+        _ if let Some(said) = comma_left_out(p) => said,
+        Arrow if p.behind(1) == Ident => (
+            "expected-bracket",
+            format!("found `->` after `{}`, wanted `=>`", p.text_between(at - 1, at - 1)),
+            format!("a function is written `{0} => 2 * {0}`", p.text_between(at - 1, at - 1)),
+        ),
         Ident if p.word(0) == "for" && p.nth(1) == Ident && !p.begins_line(0) => (
             "expected-bracket",
             format!("found `for`, wanted {wanted}"),
