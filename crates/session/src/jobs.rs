@@ -46,7 +46,7 @@ pub enum LongQuestion {
         /// The two parameters.
         axes: [FamilyAxis; 2],
     },
-    /// What hands do first ([`crate::rehearsal`]); an answer says only that something of it was refused.
+    /// What hands do first, in the document of [`Job::rehearsal`]; an answer says only that something of it was refused.
     Rehearsal,
 }
 

@@ -216,6 +216,15 @@ fn sign(p: &Parser<'_>) -> Option<String> {
         Eq if of == "class" && p.nth(1) == LBrace => {
             format!("a body follows its class: `class {} {{ … }}`", before(1))
         }
+        _ => return behind_value(p, of),
+    };
+    Some(hint)
+}
+
+/// The same where that stands behind a value; `of` is the word before the member.
+fn behind_value(p: &Parser<'_>, of: &str) -> Option<String> {
+    let before = |n: usize| p.text_between(p.pos().saturating_sub(n), p.pos().saturating_sub(n));
+    Some(match p.current() {
         // `List of Bolt 3`
         Number if p.behind(1) == Ident && p.behind(2) == Ident && before(2) == "of" => {
             format!(
@@ -250,8 +259,7 @@ fn sign(p: &Parser<'_>) -> Option<String> {
             format!("a unit is divided without spaces: `{}/{}`", before(1), p.word(1))
         }
         _ => return None,
-    };
-    Some(hint)
+    })
 }
 
 /// `5 % per year`, `3 m x 4 m`, `x between 1 and 3`: words that stand for a sign.
