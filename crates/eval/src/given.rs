@@ -29,7 +29,7 @@ pub fn given_values(document: &Document, structure: &Structure) -> (Values, Vec<
         if !s.primitive.is_number() {
             values.put(slot, Value::Text("".into()));
         }
-        match (structure.given(slot).map(|given| &given.term), s.primitive) {
+        match (structure.given(slot).map(|given| &*given.term), s.primitive) {
             (None, _) => {}
             // speaks of nothing, as most values that are given
             (Some(Term::Number { value, dimension, .. }), Primitive::Real(wanted))

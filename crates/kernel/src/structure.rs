@@ -59,8 +59,8 @@ pub struct GivenIn {
 /// A given value as it was written, or what a part gets of one: a coordinate of `(3, 4)`.
 #[derive(Clone, PartialEq, Debug)]
 pub struct GivenTerm {
-    /// The value.
-    pub term: Term,
+    /// The value; shared by structures that follow one another.
+    pub term: Rc<Term>,
     /// Where it was written; for a coordinate of `(3, 4)`, where the whole was.
     pub origin: OriginId,
     /// True if a class gives it to all its things, false if the document says so itself.

@@ -61,7 +61,7 @@ fn followed(before: &State, state: &State, planner: &mut Planner) -> Option<Foll
     };
     let typed: Vec<SlotId> = new.slots.ids().filter(is_typed).collect();
     let is_number = |slot: &SlotId| {
-        let given = new.given(*slot).map(|g| &g.term);
+        let given = new.given(*slot).map(|g| &*g.term);
         matches!(given, Some(Term::Number { .. })) && new.slots[*slot].primitive.is_number()
     };
     // a place is set as a whole, as it is anchored

@@ -73,7 +73,7 @@ fn is_given_another(state: &State, thing: ThingId) -> bool {
     };
     // a lone number holds what it is given, whoever gives it
     let is_lone = structure.slots[slot].place.is_none();
-    match (&given.term, state.values.get(slot)) {
+    match (&*given.term, state.values.get(slot)) {
         (Term::Number { value, .. }, Value::Number(is)) => {
             value.to_bits() != is.to_bits() && (is_lone || state.lowered.is_own_given(given.origin))
         }

@@ -95,7 +95,7 @@ fn binding(structure: &Structure, thing: ThingId, slot: SlotId) -> Option<(&Give
     }
     let all = structure.merged_with(thing).into_iter();
     let mut given = all.filter_map(|thing| structure.given_apart_in(thing));
-    given.find(|(given, _)| !matches!(given.term, Term::Number { .. } | Term::Text(_)))
+    given.find(|(given, _)| !matches!(*given.term, Term::Number { .. } | Term::Text(_)))
 }
 
 /// What bodies say of parts, by the thing whose body it is: found once for each.

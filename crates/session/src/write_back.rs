@@ -383,11 +383,10 @@ fn written_at(state: &State, unit: ThingId) -> ThingId {
 /// Returns what else the text gives of what is merged with a thing, where it gives the same numbers: they go on agreeing.
 fn given_alike(state: &State, at: ThingId) -> Vec<ThingId> {
     let structure = &state.structure;
-    let number = |given: Option<&GivenTerm>| match given {
-        Some(GivenTerm { term: Term::Number { value, .. }, origin, .. }) => {
-            state.lowered.is_own_given(*origin).then_some((*value, *origin))
-        }
-        _ => None,
+    let number = |given: Option<&GivenTerm>| {
+        let given = given?;
+        let Term::Number { value, .. } = *given.term else { return None };
+        state.lowered.is_own_given(given.origin).then_some((value, given.origin))
     };
     let is_alike = |&leaf: &ThingId| {
         let given = structure.slot_of(leaf).and_then(|slot| number(structure.given(slot)));

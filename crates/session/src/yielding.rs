@@ -112,7 +112,7 @@ fn warning(
     // what is computed of numbers alone is seldom meant to yield
     let is_computed = |slot: &SlotId| {
         let given = state.structure.given(*slot);
-        given.is_some_and(|given| matches!(given.term, Term::Binary(..) | Term::Call { .. }))
+        given.is_some_and(|given| matches!(*given.term, Term::Binary(..) | Term::Call { .. }))
     };
     let hint = match line.of_class {
         false if line.slots.iter().all(is_computed) => {

@@ -118,7 +118,7 @@ fn fill_list<'d>(
 ) -> usize {
     // what comes to a list only when it is evaluated gives elements values, and makes none
     let whole = bindings.iter().rev().filter(|b| b.path.is_empty());
-    let mut written = whole.filter_map(|b| match &maker.givens[b.given.value].term {
+    let mut written = whole.filter_map(|b| match &*maker.givens[b.given.value].term {
         Term::List(items) => Some(items.len()),
         _ => None,
     });

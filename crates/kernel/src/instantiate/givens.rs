@@ -36,7 +36,7 @@ pub(super) fn own_bindings<'d>(
     let mut bindings = Vec::new();
     for class in document.primary_line(class).into_iter().rev() {
         for given in &document.classes[class].givens {
-            let (term, origin) = (given.value.clone(), given.origin);
+            let (term, origin) = (Rc::new(given.value.clone()), given.origin);
             let of_class = !maker.own_bodies[class];
             let term = GivenTerm { term, origin, of_class, of_copy: false };
             let value = maker.givens.push(term);
@@ -142,7 +142,7 @@ fn each_share<'d>(
 /// Returns true for a reference in a copy: it is read again where the copy is.
 fn is_copied_reference(maker: &Maker<'_>, class: ClassId, whole: GivenId) -> bool {
     matches!(maker.document.classes[class].kind, ClassKind::Reference(_))
-        && !matches!(maker.givens[whole].term, Term::List(_) | Term::Tuple(_) | Term::Make { .. })
+        && !matches!(*maker.givens[whole].term, Term::List(_) | Term::Tuple(_) | Term::Make { .. })
 }
 
 /// Returns true for what only the thing's own body declares, where the value is that of another thing, which
@@ -151,7 +151,7 @@ fn is_of_body(maker: &Maker<'_>, field: PartRef, whole: GivenId) -> bool {
     let declares = &maker.document.classes[field.class];
     declares.is_of_one
         && declares.general.is_none()
-        && !matches!(maker.givens[whole].term, Term::List(_) | Term::Tuple(_) | Term::Make { .. })
+        && !matches!(*maker.givens[whole].term, Term::List(_) | Term::Tuple(_) | Term::Make { .. })
 }
 
 /// Where a bare name leads from a thing.
@@ -233,7 +233,7 @@ fn share_of_whole(
         of_copy = true;
         term
     };
-    let term = match (term, name) {
+    let term = match (&**term, name) {
         (Term::List(items), None) | (Term::Tuple(items), Some(_)) => items.get(i)?.clone(),
         (Term::Make { arguments, .. }, Some(name)) => {
             let labelled = arguments.iter().find(|a| a.label.as_ref() == Some(name));
@@ -244,6 +244,7 @@ fn share_of_whole(
         (other, None) => copied(element(other, part)),
     };
     let (origin, of_class) = (*origin, *of_class);
+    let term = Rc::new(term);
     let value = maker.givens.push(GivenTerm { term, origin, of_class, of_copy });
     maker.shared.push(Shared { value, whole, part });
     Some(value)

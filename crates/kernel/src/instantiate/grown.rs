@@ -101,7 +101,8 @@ fn given_again(
     }
     let term = |i: usize| {
         let Given { value, origin, .. } = &*now[i];
-        GivenTerm { term: value.clone(), origin: *origin, of_class: false, of_copy: false }
+        let term = Rc::new(value.clone());
+        GivenTerm { term, origin: *origin, of_class: false, of_copy: false }
     };
     let new: Vec<GivenId> = new.into_iter().map(|i| GivenId::from_index(first + i)).collect();
     let (grown, mut again) = match new.is_empty() {
@@ -123,8 +124,8 @@ fn given_again(
         if is_changed[shared.whole] {
             let GivenTerm { term, origin, of_class, .. } = &again[shared.whole];
             let (origin, of_class) = (*origin, *of_class);
-            let (Term::Tuple(items) | Term::List(items)) = term else { return None };
-            let term = items.get(shared.part as usize)?.clone();
+            let (Term::Tuple(items) | Term::List(items)) = &**term else { return None };
+            let term = Rc::new(items.get(shared.part as usize)?.clone());
             again[shared.value] = GivenTerm { term, origin, of_class, of_copy: false };
             is_changed[shared.value] = true;
         }
@@ -203,13 +204,14 @@ fn shares(
     while let Some((value, thing)) = left.pop() {
         let t = &grown.body.things[thing];
         let (parts, GivenTerm { term, origin, of_class, .. }) = (t.parts, again[value].clone());
-        match (&document.classes[t.class].kind, term) {
+        match (&document.classes[t.class].kind, &*term) {
             (
                 ClassKind::Primitive(_),
                 Term::Number { .. } | Term::Text(_) | Term::Bool(_) | Term::Option(..),
             ) => leaves.push((value, thing)),
             (ClassKind::Composite, Term::Tuple(items)) if items.len() == parts as usize => {
                 for (part, term) in (0..).zip(items) {
+                    let term = Rc::new(term.clone());
                     let share = again.push(GivenTerm { term, origin, of_class, of_copy: false });
                     shared.push(Shared { value: share, whole: value, part });
                     left.push((share, grown.body.part(thing, part as usize)));

@@ -239,7 +239,7 @@ fn compare(document: &Document, s: &Structure) {
     let slots: Vec<(Path, Option<Term>)> = s
         .slots
         .iter()
-        .map(|(id, slot)| (path(slot.thing), s.given(id).map(|g| g.term.clone())))
+        .map(|(id, slot)| (path(slot.thing), s.given(id).map(|g| Term::clone(&g.term))))
         .collect();
     assert_eq!(slots, naive.slots());
     let constraints: Vec<_> =
@@ -348,7 +348,7 @@ fn coordinates_get_of_a_changed_place_what_is_theirs() {
     assert_eq!(faults, []);
     assert!(Rc::ptr_eq(&again.form, &structure.form), "constants alone changed");
     let given =
-        |s: &Structure| s.slots.ids().map(|id| s.given(id).map(|g| g.term.clone())).collect();
+        |s: &Structure| s.slots.ids().map(|id| s.given(id).map(|g| Term::clone(&g.term))).collect();
     let numbers = |all: [f64; 4]| all.map(|x| Some(Term::number(x))).to_vec();
     let (was, is): (Vec<_>, Vec<_>) = (given(&structure), given(&again));
     assert_eq!(was, numbers([3.0, 4.0, 5.0, 6.0]));

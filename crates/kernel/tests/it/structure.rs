@@ -20,7 +20,7 @@ fn at(structure: &Structure, path: &[&str]) -> ThingId {
 
 fn given_number(structure: &Structure, path: &[&str]) -> Option<f64> {
     let slot = structure.slot_of(at(structure, path)).expect("a number has a slot");
-    match &structure.given(slot)?.term {
+    match &*structure.given(slot)?.term {
         Term::Number { value, .. } => Some(*value),
         other => panic!("given {other:?}"),
     }
@@ -288,7 +288,7 @@ fn a_list_in_a_part_takes_as_many_elements_as_its_owner_gives() {
     let counts = ["two", "none", "one"].map(|row| s.parts(at(&s, &[row, "cells"])).len());
     assert_eq!(counts, [2, 0, 1]);
     let last = s.parts(at(&s, &["two", "cells"])).last().and_then(|cell| s.slot_of(cell));
-    let given = last.and_then(|slot| s.given(slot)).map(|g| g.term.clone());
+    let given = last.and_then(|slot| s.given(slot)).map(|g| Term::clone(&g.term));
     assert_eq!(given, Some(Term::number(1.0)));
 }
 
