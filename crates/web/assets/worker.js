@@ -1,5 +1,5 @@
-// The worker that answers long jobs: the same bundle, without the page. Its first message is the compiled code, which it shares
-// with the page: what one of them calls is compiled for both.
+// The worker that answers long jobs: the same bundle, without the page. Its first message is the compiled code, which
+// it shares with the page: what one of them calls is compiled for both.
 
 import { takeRest } from "./rest.js"
 import init from "./web.js"

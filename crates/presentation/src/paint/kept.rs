@@ -9,7 +9,8 @@ use super::{DisplayList, PAGE_COLORS};
 fn length(numbers: &[f64]) -> usize {
     match numbers[0] as u8 {
         2 | 5 => 5,
-        3 => numbers.get(2).map_or(1, |corners| 3 + 2 * *corners as usize),
+        // where the number of corners is cut off, so is the operation
+        3 => numbers.get(2).map_or(usize::MAX, |corners| 3 + 2 * *corners as usize),
         6 => 10,
         1 | 4 | 7 | 12 => 6,
         8 => 8,
@@ -133,6 +134,18 @@ mod tests {
     fn a_shape_that_is_another_ends_what_is_shared() {
         let before = list([1.0, 2.0, 3.0].map(|x| line(x, "red")).to_vec(), &[]);
         let now = list([1.0, 4.0, 3.0].map(|x| line(x, "red")).to_vec(), &[]);
+        assert_eq!(before.shared(&now).numbers.len(), 6 + 5);
+    }
+
+    #[test]
+    fn a_polyline_with_more_corners_is_shared_in_no_part() {
+        let polyline = |corners: u32| {
+            let points = (0..corners).map(|i| Point { x: f64::from(i), y: 2.0 }).collect();
+            let shape = Shape::Polyline { points, closed: false };
+            Element { shape, ..line(0.0, "red") }
+        };
+        let before = list(vec![line(1.0, "red"), polyline(3)], &[]);
+        let now = list(vec![line(1.0, "red"), polyline(4)], &[]);
         assert_eq!(before.shared(&now).numbers.len(), 6 + 5);
     }
 
