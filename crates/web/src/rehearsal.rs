@@ -1,10 +1,12 @@
 //! The rehearsal: a worker does beforehand what hands do first ([`session::jobs::Job::rehearsal`]).
 //!
 //! It runs the page's own code, and what is compiled for one of them is compiled for both; nobody waits for it.
+//! A browser that keeps anything under [`NEVER`] has none: where pages are opened by the hundred, each for a moment.
 
 use crate::files::Files;
 use crate::js::{self, Worker};
 use crate::lab::Lab;
+use crate::theme;
 use js_sys::Uint8Array;
 use session::jobs::{Job, LongAnswer};
 use session::plain::{read, written};
@@ -13,10 +15,13 @@ use std::rc::Rc;
 use wasm_bindgen::closure::Closure;
 use wasm_bindgen::{JsCast, JsValue};
 
+/// Where a browser keeps that nothing is rehearsed in it.
+pub const NEVER: &str = "thinglab/no-rehearsal";
+
 impl Lab {
     /// Fetches what is missing of the page's code, and rehearses where there is such a part.
     pub async fn fetch_rest(self) {
-        if js::fetch_rest().await.is_truthy() {
+        if js::fetch_rest().await.is_truthy() && theme::keep(NEVER).is_none() {
             self.rehearse();
         }
     }

@@ -107,12 +107,23 @@ impl Visit {
         let (client, browser) = chromium::take().await;
         let (origin, _) = address.split_once(['?', '#']).expect("an address with its token");
         client.goto(&format!("{origin}favicon.svg")).await.expect("the server answers");
-        // another visit may have had the address: what it kept there goes; whoever comes here has had the first minute
+        // another visit may have had the address: what it kept there goes; whoever comes here has had the first
+        // minute, and does too little to rehearse it
         let over = "localStorage.clear(); sessionStorage.clear(); \
+                    localStorage.setItem('thinglab/no-rehearsal', 'kept'); \
                     localStorage.setItem('thinglab/first-minute', 'over')";
         client.execute(over, Vec::new()).await.expect("the browser keeps it");
         let actions = Cell::new(0);
         Visit { client, address, actions, _browser: browser, server: Some(server), folder }
+    }
+
+    /// Comes to the page anew, where what hands do first is rehearsed now, as for everybody but a test.
+    ///
+    /// # Panics
+    /// Where the page does not answer.
+    pub async fn rehearse(&self) {
+        self.script("localStorage.removeItem('thinglab/no-rehearsal')").await;
+        self.client.refresh().await.expect("the page's address answers");
     }
 
     /// Kills the server in the midst of whatever it does, and starts another over the same folder; the page stays.

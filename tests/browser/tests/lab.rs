@@ -23,6 +23,15 @@ const END: char = '\u{e010}';
 const RIGHT: char = '\u{e014}';
 
 #[tokio::test]
+async fn what_hands_do_first_is_rehearsed_by_a_worker() {
+    let visit = Visit::open(Some("quadrilateral.thing")).await;
+    let worker =
+        "performance.getEntriesByType('resource').some(r => r.name.endsWith('/worker.js'))";
+    visit.rehearse().await;
+    visit.until(worker).await;
+}
+
+#[tokio::test]
 async fn a_corner_is_dragged_and_taken_back() {
     let visit = Visit::open_empty().await;
     visit.until("document.querySelector('main')").await;

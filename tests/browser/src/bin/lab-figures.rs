@@ -76,6 +76,7 @@ async fn told(visit: &Visit) -> Value {
 /// a hand, with what comes of it.
 async fn row(name: &str, text: Option<&str>) -> String {
     let visit = Visit::open(None).await;
+    visit.rehearse().await;
     let document = format!("{name}.thing");
     if let Some(text) = text {
         visit.put(&document, text);
