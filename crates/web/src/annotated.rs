@@ -303,10 +303,11 @@ impl Lab {
 
     /// What was clicked at a place of the window is given a size, alone or with what was clicked before and not answered;
     /// with Shift another thing may follow. Of a dimension that stands there another value is typed; a sign is no thing.
+    /// A click beside all things, by which other programs place a dimension, takes back no question.
     pub fn size_picked(self, (path, at): (Option<String>, Option<(f64, f64)>), goes_on: bool) {
         let asks = self.asks_size();
         let is_open = asks && self.annotated.typed.with_value(Option::is_none);
-        let again = path.as_ref().is_some_and(|path| self.selection_untracked().contains(path));
+        let again = path.as_ref().is_none_or(|path| self.selection_untracked().contains(path));
         if is_open && again {
             return;
         }
