@@ -50,9 +50,9 @@ impl Made {
     }
 }
 
-/// Compiles the tests of a selection of packages, and lints them; narrowed to some targets by `which`.
-pub(crate) fn make(which: &[&str], selection: &[&str]) -> Made {
-    let mut cargo = tools::cargo(&["test", "--quiet", "--no-run"]);
+/// Compiles the tests of a selection of packages by a cargo, and lints them; narrowed to some targets by `which`.
+pub(crate) fn make(cargo: fn(&[&str]) -> Command, which: &[&str], selection: &[&str]) -> Made {
+    let mut cargo = cargo(&["test", "--quiet", "--no-run"]);
     follow(tools::lint(cargo.args(which).args(selection)))
 }
 

@@ -178,6 +178,15 @@ pub(crate) fn cargo(arguments: &[&str]) -> Command {
     command
 }
 
+/// The same behind all that others do at once, where the system knows such an order.
+pub(crate) fn cargo_behind(arguments: &[&str]) -> Command {
+    let Some(nice) = on_path(&["nice"]) else { return cargo(arguments) };
+    let cargo = cargo(arguments);
+    let mut command = Command::new(nice);
+    command.args(["-n", "10"]).arg(cargo.get_program()).args(arguments).current_dir(crate::top());
+    command
+}
+
 fn rustc() -> std::ffi::OsString {
     std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into())
 }

@@ -153,7 +153,7 @@ fn native(wish: &Wish, page: Page, compiled: Option<Sender<Programs>>) -> Count 
     let thinglab = bundle::build_command(Effort::Tests, selection);
     count.add(Count::one(thinglab.is_ok()));
     if let (Some(compiled), Ok(thinglab)) = (compiled, &thinglab) {
-        let made = compiled::make(&["--test", "lab"], selection);
+        let made = compiled::make(tools::cargo, &["--test", "lab"], selection);
         match made.executable("test", "lab") {
             // who waits for it has ended only where it broke off, which is counted there
             Some(tests) => drop(compiled.send(Programs { thinglab: thinglab.clone(), tests })),
@@ -161,7 +161,8 @@ fn native(wish: &Wish, page: Page, compiled: Option<Sender<Programs>>) -> Count 
         }
     }
     heading("compiling the tests, and lints");
-    let made = compiled::make(&[], selection);
+    // the tests of the page are waited for longest: they and what they want go first
+    let made = compiled::make(tools::cargo_behind, &[], selection);
     count.add(Count::one(made.is_whole));
     count.add(Count::one(made.is_clean));
     heading("documentation");
@@ -174,7 +175,7 @@ fn native(wish: &Wish, page: Page, compiled: Option<Sender<Programs>>) -> Count 
         },
         Err(why) => say!("{why}; the audit of DXF files cannot run"),
     }
-    let mut tests = tools::cargo(&["test", "--quiet", "--no-fail-fast"]);
+    let mut tests = tools::cargo_behind(&["test", "--quiet", "--no-fail-fast"]);
     lengthen(tools::lint(tests.args(selection)), wish.length);
     count.add(tested(tests.args(["--", "--skip", "in_the_browser::"]), "tests", Show::AtOnce));
     count
