@@ -155,12 +155,16 @@ fn target() -> PathBuf {
 
 fn compile_command(package: &str, compiler: &WasmCompiler, effort: Effort) -> Command {
     let mut command = match compiler {
-        WasmCompiler::Toolchain => tools::cargo(&["build"]),
+        WasmCompiler::Toolchain => tools::cargo(&["rustc"]),
         WasmCompiler::Debian { linker } => debian_cargo(linker),
     };
     command.args(["--package", package, "--bin", package, "--profile", effort.page_profile()]);
     command.args(["--target", "wasm32-unknown-unknown", "--target-dir"]).arg(target());
     quiet(&mut command);
+    if matches!(effort, Effort::Full | Effort::Followed) {
+        // what leads to a message (`#[cold]`) becomes a function of its own, which comes after a first drag
+        command.args(["--", "-Cllvm-args=-hot-cold-split -hotcoldsplit-max-params=12"]);
+    }
     command
 }
 
@@ -168,7 +172,7 @@ fn compile_command(package: &str, compiler: &WasmCompiler, effort: Effort) -> Co
 /// the standard library is built from source, which a stable compiler does only when told so.
 fn debian_cargo(linker: &Path) -> Command {
     let mut command = Command::new("/usr/bin/cargo");
-    command.args(["build", "-Z", "build-std=std,panic_abort"]).current_dir(top());
+    command.args(["rustc", "-Z", "build-std=std,panic_abort"]).current_dir(top());
     let kept = ["CARGO_HOME", "CARGO_HTTP_", "CARGO_NET_", "CARGO_REGISTR", "CARGO_TERM_"];
     for (name, _) in env::vars_os() {
         let name = name.to_string_lossy();

@@ -55,17 +55,22 @@ pub struct Fix {
 
 impl Diagnostic {
     /// Makes an error.
+    #[cold]
     pub fn error(code: &'static str, place: Place, message: impl Into<String>) -> Self {
         Self::new(Severity::Error, code, place, message.into())
     }
     /// Makes a warning.
+    #[cold]
     pub fn warning(code: &'static str, place: Place, message: impl Into<String>) -> Self {
         Self::new(Severity::Warning, code, place, message.into())
     }
     /// Makes a note.
+    #[cold]
     pub fn note(code: &'static str, place: Place, message: impl Into<String>) -> Self {
         Self::new(Severity::Note, code, place, message.into())
     }
+    #[cold]
+    #[inline(never)]
     fn new(severity: Severity, code: &'static str, place: Place, message: String) -> Self {
         Self {
             severity,
@@ -79,12 +84,14 @@ impl Diagnostic {
     }
     /// Adds what to do about it.
     #[must_use]
+    #[cold]
     pub fn hint(mut self, hint: impl Into<String>) -> Self {
         self.hint = Some(hint.into());
         self
     }
     /// Adds an edit that would mend it.
     #[must_use]
+    #[cold]
     pub fn fix(
         mut self,
         title: impl Into<String>,
@@ -116,6 +123,7 @@ impl Diagnostic {
     }
     /// Adds a further place.
     #[must_use]
+    #[cold]
     pub fn label(mut self, place: Place, message: impl Into<String>) -> Self {
         self.labels.push(Label { place, message: message.into() });
         self

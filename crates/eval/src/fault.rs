@@ -54,12 +54,15 @@ impl FaultKind {
 
 impl Fault {
     /// A fault of a kind, with its message, that names no member yet.
+    #[cold]
     pub fn new(kind: FaultKind, message: impl Into<String>) -> Self {
         Self { origin: None, kind, message: message.into() }
     }
+    #[cold]
     pub(crate) fn unknown(message: impl Into<String>) -> Self {
         Self::new(FaultKind::UnknownName, message)
     }
+    #[cold]
     pub(crate) fn wrong(message: impl Into<String>) -> Self {
         Self::new(FaultKind::WrongKind, message)
     }

@@ -216,6 +216,8 @@ impl<'d> Maker<'d> {
         let layout = &mut self.layouts[class];
         layout.get_or_insert_with(|| Rc::new(Layout::new(document, class))).clone()
     }
+    #[cold]
+    #[inline(never)]
     fn fault(&mut self, origin: OriginId, kind: FaultKind, message: String) {
         self.faults.push(Fault { origin, kind, message, class: None });
     }

@@ -718,6 +718,8 @@ fn unchecked(args: Vec<Arg>) -> Vec<Argument> {
 }
 
 /// Says how a plain number is made of one that measures something.
+#[cold]
+#[inline(never)]
 fn with_plain_hint(d: Diagnostic, wanted: Builtin, found: &Kind, written: &str) -> Diagnostic {
     let Kind::Number(Some(dimension)) = found else { return d };
     match expr::units::preferred(*dimension).or((*dimension == Dimension::LENGTH).then_some("m")) {

@@ -210,6 +210,8 @@ pub(crate) fn with_article(noun: &str) -> String {
 }
 
 /// Returns what a function of the language wants, in words.
+#[cold]
+#[inline(never)]
 pub(crate) fn wanted_in_words(wanted: Builtin, first: &Kind, document: &Document) -> String {
     match wanted {
         Builtin::Plain => "a plain number".into(),

@@ -469,6 +469,8 @@ impl<'l> Lowerer<'l> {
         }
     }
 
+    #[cold]
+    #[inline(never)]
     pub(crate) fn report(&mut self, diagnostic: Diagnostic) {
         // what a name means is the same in every turn of a loop
         let is_told = self.silent == 0 && (self.untaken == 0 || diagnostic.code == "unknown-name");
@@ -477,6 +479,8 @@ impl<'l> Lowerer<'l> {
             self.diagnostics.push(diagnostic);
         }
     }
+    #[cold]
+    #[inline(never)]
     pub(crate) fn error(&mut self, code: &'static str, file: FileId, span: Span, message: String) {
         self.report(Diagnostic::error(code, Place { file, span }, message));
     }

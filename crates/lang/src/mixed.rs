@@ -38,9 +38,12 @@ impl Lowered {
     ///
     /// Cost: a look at every node of the text, where it writes lengths.
     pub fn mixed_lengths(&self) -> Option<Diagnostic> {
-        if !self.document.writes_lengths {
-            return None;
-        }
+        if self.document.writes_lengths { self.mixed_with_units() } else { None }
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn mixed_with_units(&self) -> Option<Diagnostic> {
         let stated = crate::scale::stated(&self.effective_parse);
         let (si, number) =
             stated.into_iter().find_map(|number| Some((length(&number)?, number)))?;

@@ -205,6 +205,8 @@ impl Lowerer<'_> {
         !self.broken.is_empty() && self.document.lineage(class).iter().any(broken)
     }
 
+    #[cold]
+    #[inline(never)]
     pub(crate) fn unknown_name(&mut self, scope: &Scope, word: &ast::Word) {
         if scope.classes.iter().any(|&class| self.is_broken(class, &word.name())) {
             return;

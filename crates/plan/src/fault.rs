@@ -49,12 +49,15 @@ pub(crate) struct Trouble {
 }
 
 impl Trouble {
+    #[cold]
     pub(crate) fn new(kind: FaultKind, message: impl Into<String>) -> Self {
         Self { kind, message: message.into() }
     }
+    #[cold]
     pub(crate) fn not_yet(what: impl Into<String>) -> Self {
         Self::new(FaultKind::NotYet, what)
     }
+    #[cold]
     pub(crate) fn wrong(what: impl Into<String>) -> Self {
         Self::new(FaultKind::WrongKind, what)
     }

@@ -9,6 +9,14 @@ use syntax::edit::{Spot, insert_member};
 
 /// Adds to every diagnostic of an unknown class the `use` that would bring it.
 pub(crate) fn add_uses(text: &str, diagnostics: &mut [Diagnostic], host: &dyn Host) {
+    if !diagnostics.is_empty() {
+        add_missing_uses(text, diagnostics, host);
+    }
+}
+
+#[cold]
+#[inline(never)]
+fn add_missing_uses(text: &str, diagnostics: &mut [Diagnostic], host: &dyn Host) {
     let own = FileId(0);
     let missing = |d: &&mut Diagnostic| d.code == "missing-file" && d.place.file == own;
     for diagnostic in diagnostics.iter_mut().filter(missing) {

@@ -83,9 +83,14 @@ pub(crate) fn warnings(state: &State) -> Vec<Diagnostic> {
         line.holds |= holds;
         line.values.push((slot, [was, is]));
     }
-    let mut values = state.values.clone();
-    let told = lines.into_values();
-    told.map(|(place, line)| warning(&mut bodies, &mut values, place, &line)).collect()
+    if lines.is_empty() { Vec::new() } else { told(bodies, lines.into_values()) }
+}
+
+#[cold]
+#[inline(never)]
+fn told(mut bodies: Bodies<'_>, lines: impl Iterator<Item = (Place, Line)>) -> Vec<Diagnostic> {
+    let mut values = bodies.state.values.clone();
+    lines.map(|(place, line)| warning(&mut bodies, &mut values, place, &line)).collect()
 }
 
 /// Returns what a slot is bound to: of the parts that are one, the first that is given by others.

@@ -20,6 +20,8 @@ use std::collections::BTreeSet;
 pub(crate) const ROUNDING: f64 = 1e-12;
 
 /// Makes a refusal of one sentence.
+#[cold]
+#[inline(never)]
 pub(crate) fn refuse(message: String) -> Refusal {
     Refusal { message, ..Refusal::default() }
 }

@@ -30,9 +30,12 @@ struct Line {
 ///
 /// Cost: nothing where nothing gave way, else that of going through the steps of what was opened.
 pub(crate) fn warnings(state: &State, planner: &Planner) -> Vec<Diagnostic> {
-    if state.gave_way.is_empty() {
-        return Vec::new();
-    }
+    if state.gave_way.is_empty() { Vec::new() } else { told(state, planner) }
+}
+
+#[cold]
+#[inline(never)]
+fn told(state: &State, planner: &Planner) -> Vec<Diagnostic> {
     let mut lines: BTreeMap<(u32, u32, u32), (Place, Line)> = BTreeMap::new();
     for &(slot, _) in &state.gave_way {
         let Some((place, of_class)) = line_of(state, slot) else { continue };

@@ -385,6 +385,7 @@ impl<'t> Parser<'t> {
         Some(result)
     }
     /// Reports nesting that is too deep, once, and skips what is left of the line.
+    #[cold]
     pub(crate) fn too_deep(&mut self) {
         if !self.too_deep_said {
             self.too_deep_said = true;
@@ -412,6 +413,8 @@ impl<'t> Parser<'t> {
         self.report(code, message, hint);
     }
     /// Reports a fault at the current token, unless something was reported there already.
+    #[cold]
+    #[inline(never)]
     pub(crate) fn report(&mut self, code: &'static str, message: String, hint: Option<String>) {
         // a text without an end was told
         let is_cut =
@@ -425,6 +428,8 @@ impl<'t> Parser<'t> {
     }
     /// Reports a fault of the tokens from one to another, unless something was reported here already; with a correction
     /// of the text, if there is one.
+    #[cold]
+    #[inline(never)]
     pub(crate) fn report_mistake(
         &mut self,
         (first, last): (usize, usize),

@@ -22,19 +22,26 @@ const CODE: &str = "row-outside";
 pub(crate) fn warnings(state: &State) -> Vec<Diagnostic> {
     let mut found = Vec::new();
     for family in &state.lowered.families {
-        let is_own = state.lowered.place(family.origin).file == OWN;
-        let mut read = TableView::default();
-        // what cannot be read is told as an error of the text
-        if !is_own || family.rows.is_empty() || written_rows(state, family, &mut read).is_err() {
-            continue;
-        }
-        let told = of(state, &family.name, &read.rows).unwrap_or_default();
-        for (at, message) in told {
-            let place = state.lowered.place(family.rows[at].origin);
-            found.push(Diagnostic::warning(CODE, place, message));
-        }
+        warn(state, family, &mut found);
     }
     found
+}
+
+/// Tells of the rows of one family.
+#[cold]
+#[inline(never)]
+fn warn(state: &State, family: &Family, found: &mut Vec<Diagnostic>) {
+    let is_own = state.lowered.place(family.origin).file == OWN;
+    let mut read = TableView::default();
+    // what cannot be read is told as an error of the text
+    if !is_own || family.rows.is_empty() || written_rows(state, family, &mut read).is_err() {
+        return;
+    }
+    let told = of(state, &family.name, &read.rows).unwrap_or_default();
+    for (at, message) in told {
+        let place = state.lowered.place(family.rows[at].origin);
+        found.push(Diagnostic::warning(CODE, place, message));
+    }
 }
 
 /// Returns which rows of a family, or of a program, are outside, and why, or have a cell that is no value.
