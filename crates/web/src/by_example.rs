@@ -2,6 +2,7 @@
 //! which points it is placed. While it is open, a click on a point of the picture says that one.
 
 use crate::actions;
+use crate::apart::apart;
 use crate::lab::{Lab, Notice};
 use crate::words;
 use leptos::ev::{KeyboardEvent, SubmitEvent};
@@ -18,7 +19,7 @@ pub fn ByExample(
     lab: Lab,
 ) -> impl IntoView {
     let is_open = Memo::new(move |_| lab.attachers.with(Option::is_some));
-    move || is_open.get().then(|| view! { <Panel lab=lab /> })
+    move || is_open.get().then(|| apart(|| view! { <Panel lab=lab /> }))
 }
 
 #[component]

@@ -1,5 +1,6 @@
 //! The dialog that asks for one line: a document's name, a thing's new name.
 
+use crate::apart::apart;
 use crate::lab::{Lab, Notice};
 use crate::{keyboard, words};
 use leptos::ev::{self, FocusEvent, KeyboardEvent, SubmitEvent};
@@ -35,7 +36,7 @@ pub fn Dialog(
     /// The lab.
     lab: Lab,
 ) -> impl IntoView {
-    move || lab.wish.get().map(|wish| view! { <Open lab=lab wish=wish /> })
+    move || lab.wish.get().map(|wish| apart(|| view! { <Open lab=lab wish=wish /> }))
 }
 
 #[component]

@@ -1,5 +1,6 @@
 //! The bottom dock: text, table, plot, calculator and family, shut at first; and what a narrow page pulls up instead.
 
+use crate::apart::apart;
 use crate::calculator::Calculator;
 use crate::family::Families;
 use crate::lab::{Drawer, Lab};
@@ -112,11 +113,11 @@ pub fn Dock(
             <div class="tabs" role="tablist" aria-label=words::DOCK on:keydown=|e| keyboard::go_in(TABS, &e)>{ALL.map(tab).into_iter().collect_view()}</div>
             <div class="shelf" id="dock" role="tabpanel" aria-label=words::DOCK>
                 {move || match lab.dock.get() {
-                    Some(Tab::Text) => view! { <Text lab=lab /> }.into_any(),
-                    Some(Tab::Table) => view! { <Values lab=lab /> }.into_any(),
-                    Some(Tab::Plot) => view! { <PlotPane lab=lab /> }.into_any(),
-                    Some(Tab::Calculator) => view! { <Calculator lab=lab /> }.into_any(),
-                    Some(Tab::Family) => view! { <Families lab=lab /> }.into_any(),
+                    Some(Tab::Text) => apart(|| view! { <Text lab=lab /> }.into_any()),
+                    Some(Tab::Table) => apart(|| view! { <Values lab=lab /> }.into_any()),
+                    Some(Tab::Plot) => apart(|| view! { <PlotPane lab=lab /> }.into_any()),
+                    Some(Tab::Calculator) => apart(|| view! { <Calculator lab=lab /> }.into_any()),
+                    Some(Tab::Family) => apart(|| view! { <Families lab=lab /> }.into_any()),
                     None => ().into_any(),
                 }}
             </div>

@@ -1,5 +1,6 @@
 //! A lesson beside the picture: what it says, its task, a tick when it is done, a hint, and how it is done.
 
+use crate::apart::apart;
 use crate::lab::{Lab, Zoom};
 use crate::{icons, keyboard, route, theme, words};
 use drawing::Point;
@@ -120,9 +121,9 @@ pub fn Coach(
     });
     view! {
         {move || match (lab.lesson.get(), lab.lesson_offered.get()) {
-            (Some(lesson), _) if lesson.at >= lesson.steps => view! { <Over lab=lab title=lesson.title /> }.into_any(),
-            (Some(lesson), _) => view! { <Step lab=lab lesson=lesson /> }.into_any(),
-            (None, Some(title)) => view! { <Offered lab=lab title=title /> }.into_any(),
+            (Some(lesson), _) if lesson.at >= lesson.steps => apart(|| view! { <Over lab=lab title=lesson.title /> }.into_any()),
+            (Some(lesson), _) => apart(|| view! { <Step lab=lab lesson=lesson /> }.into_any()),
+            (None, Some(title)) => apart(|| view! { <Offered lab=lab title=title /> }.into_any()),
             (None, None) => ().into_any(),
         }}
     }

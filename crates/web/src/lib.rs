@@ -13,6 +13,7 @@
 //! [`structure`], [`values`], [`text`], [`status`], [`gallery`]; then what they stand on.
 pub mod actions;
 pub mod annotated;
+pub mod apart;
 pub mod bench;
 pub mod bin_panel;
 pub mod by_example;

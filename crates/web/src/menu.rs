@@ -1,6 +1,7 @@
 //! Menus: some actions of the table at a place of the page, each with its key or with why not now.
 
 use crate::actions::{self, ACTIONS, Action, Context, Group};
+use crate::apart::apart;
 use crate::lab::Lab;
 use crate::words;
 use leptos::ev::{KeyboardEvent, MouseEvent};
@@ -44,7 +45,7 @@ pub fn MenuView(
     /// The lab.
     lab: Lab,
 ) -> impl IntoView {
-    move || lab.menu.get().map(|menu| view! { <Open lab=lab menu=menu /> })
+    move || lab.menu.get().map(|menu| apart(|| view! { <Open lab=lab menu=menu /> }))
 }
 
 #[component]

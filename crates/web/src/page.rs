@@ -1,6 +1,7 @@
 //! The page: the top bar, the panels and where they lie.
 
 use crate::actions::{self, Action};
+use crate::apart::apart;
 use crate::bin_panel::Bin;
 use crate::by_example::ByExample;
 use crate::class_pane::ClassPane;
@@ -98,10 +99,10 @@ pub fn Page() -> impl IntoView {
                 (true, None) if lab.arriving.get() => view! {
                     <main><p class="quiet" role="status">{words::LOADING}</p></main>
                 }.into_any(),
-                (true, None) => view! {
+                (true, None) => apart(|| view! {
                     <Refused lab=lab />
                     <Gallery lab=lab />
-                }.into_any(),
+                }.into_any()),
             }}
             <Opening lab=lab />
             <Palette lab=lab />
@@ -308,9 +309,9 @@ fn Drawer(lab: Lab) -> impl IntoView {
             </div>
             <div class="shelf" id="drawer" role="tabpanel" aria-label=words::VIEWS>
                 {move || match lab.drawer.get() {
-                    Drawer::Draw => view! { <Drawing lab=lab /> }.into_any(),
-                    Drawer::Bin => view! { <Bin lab=lab /> }.into_any(),
-                    Drawer::History => view! { <History lab=lab /> }.into_any(),
+                    Drawer::Draw => apart(|| view! { <Drawing lab=lab /> }.into_any()),
+                    Drawer::Bin => apart(|| view! { <Bin lab=lab /> }.into_any()),
+                    Drawer::History => apart(|| view! { <History lab=lab /> }.into_any()),
                     Drawer::Structure => view! { <Structure lab=lab /> }.into_any(),
                 }}
             </div>

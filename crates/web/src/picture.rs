@@ -4,6 +4,7 @@
 //! is lost.
 
 use crate::annotated;
+use crate::apart::apart;
 use crate::drafting::numbers::StepNumbers;
 use crate::field::Edit;
 use crate::js::{self, Painter};
@@ -104,7 +105,7 @@ pub fn Picture(
                     if e.key() == " " { hand.hold_space(hand::Space::Up); }
                 }
             ></canvas>
-            {move || lab.editing.get().map(|found| {
+            {move || lab.editing.get().map(|found| apart(|| {
                 let path = found.path.clone();
                 view! {
                     <div class="inplace" style:left=format!("{}px", found.at.0) style:top=format!("{}px", found.at.1)>
@@ -118,7 +119,7 @@ pub fn Picture(
                             } />
                     </div>
                 }
-            })}
+            }))}
             <StepNumbers lab=lab />
             {move || lab.band.get().map(|[from, to]| {
                 let (left, top) = (f64::min(from.0, to.0), f64::min(from.1, to.1));

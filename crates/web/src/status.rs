@@ -1,6 +1,7 @@
 //! The status line, and what the lab has to say.
 
 use crate::annotated::Sizing;
+use crate::apart::apart;
 use crate::lab::{Kind, Lab, Notice};
 use crate::marked::marked;
 use crate::player::NowPlaying;
@@ -183,7 +184,7 @@ pub fn Refused(
             </div>
         }
     };
-    move || refusal.get().map(shown)
+    move || refusal.get().map(|it| apart(|| shown(it)))
 }
 
 /// What has to be decided before a command is applied: of one thing, or of all of its class.
@@ -239,7 +240,7 @@ pub fn Asked(
             </div>
         }
     };
-    move || question.get().map(shown)
+    move || question.get().map(|it| apart(|| shown(it)))
 }
 
 /// The classes that the selection could be the parts of, each with what would make it one.
@@ -282,5 +283,5 @@ pub fn Recognition(
             </div>
         }
     };
-    move || found.get().map(shown)
+    move || found.get().map(|it| apart(|| shown(it)))
 }
