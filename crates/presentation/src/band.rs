@@ -5,7 +5,7 @@
 
 use drawing::{Bounds, Drawing, Element, Point, Shape, bounds};
 use session::view::PictureView;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Which things a band takes.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -30,7 +30,7 @@ pub fn banded(picture: &PictureView, (a, b): (Point, Point), take: Take) -> Vec<
         let inside = contains(&band, Point { x: grip.x, y: grip.y });
         (grip.path.as_str(), inside, inside)
     });
-    let seen: Vec<(&str, bool, bool)> = drawn.chain(held).collect();
+    let seen: Vec<Seen<'_>> = drawn.chain(held).collect();
     let mut found: Vec<String> = Vec::new();
     match take {
         Take::Within => wholes(&seen, 0, &mut found),
@@ -47,21 +47,27 @@ pub fn banded(picture: &PictureView, (a, b): (Point, Point), take: Take) -> Vec<
     found
 }
 
+/// What a band was compared with: its path, whether it lies in the band, and whether that touches it.
+type Seen<'a> = (&'a str, bool, bool);
+
 /// Adds the things of a depth that lie in the band; of the others, those of their parts that do.
-fn wholes(seen: &[(&str, bool, bool)], depth: usize, found: &mut Vec<String>) {
-    let mut known = BTreeSet::new();
-    for (path, _, _) in seen {
-        let whole = up_to(path, depth);
-        if !known.insert(whole) {
-            continue;
+fn wholes(seen: &[Seen<'_>], depth: usize, found: &mut Vec<String>) {
+    let mut places = BTreeMap::new();
+    let mut things: Vec<(&str, Vec<Seen<'_>>)> = Vec::new();
+    for &part in seen {
+        let whole = up_to(part.0, depth);
+        let place = *places.entry(whole).or_insert(things.len());
+        if place == things.len() {
+            things.push((whole, Vec::new()));
         }
-        let parts: Vec<(&str, bool, bool)> =
-            seen.iter().filter(|(other, ..)| up_to(other, depth) == whole).copied().collect();
+        things[place].1.push(part);
+    }
+    for (whole, parts) in things {
         if parts.iter().all(|(_, within, _)| *within) {
             found.push(String::from(whole));
         } else {
-            let deeper = |(path, ..): &&(&str, bool, bool)| up_to(path, depth + 1) != whole;
-            let deeper: Vec<(&str, bool, bool)> = parts.iter().filter(deeper).copied().collect();
+            let is_deeper = |(path, ..): &Seen<'_>| up_to(path, depth + 1) != whole;
+            let deeper: Vec<Seen<'_>> = parts.into_iter().filter(is_deeper).collect();
             if deeper.iter().any(|(_, within, _)| *within) {
                 wholes(&deeper, depth + 1, found);
             }
@@ -159,6 +165,19 @@ mod tests {
         assert_eq!(taken(AT(40.0, 20.0)), ["q.south", "k"]);
         assert_eq!(taken(AT(5.0, 20.0)), ["q.south.p1"]);
         assert!(taken(AT(-1.0, -1.0)).is_empty());
+    }
+
+    #[test]
+    fn a_band_around_thousands_takes_each_once() {
+        let mut picture = picture();
+        let line = picture.drawing.elements[0].clone();
+        let many = 20_000_u32;
+        picture.drawing.elements =
+            (0..many).map(|i| Element { tag: Tag(i), ..line.clone() }).collect();
+        picture.paths = (0..many).map(|i| format!("lines[{i}]")).collect();
+        picture.grips.clear();
+        let taken = banded(&picture, (AT(-2.0, -2.0), AT(40.0, 60.0)), Take::Within);
+        assert_eq!(taken, picture.paths);
     }
 
     #[test]

@@ -83,6 +83,17 @@ pub async fn drag(visit: &Visit, from: (f64, f64), to: (f64, f64)) {
     tokio::time::sleep(Duration::from_millis(100)).await;
 }
 
+/// As [`drag`], and joins nothing: Alt is held.
+///
+/// # Panics
+/// Where the browser refuses.
+pub async fn drag_alone(visit: &Visit, from: (f64, f64), to: (f64, f64)) {
+    let alt = KeyActions::new("keys".into()).then(KeyAction::Down { value: key::ALT });
+    visit.client.perform_actions(alt).await.expect("the key is held");
+    drag(visit, from, to).await;
+    visit.client.release_actions().await.expect("the key is let go");
+}
+
 /// As [`drag`], and keeps it in the hand.
 ///
 /// # Panics

@@ -4,7 +4,7 @@
 //! document, under the goals. `cargo bench-table lab` builds what this needs and runs it. Figures to read, not tests.
 
 use browser::Visit;
-use browser::hands::{drag, grip, state};
+use browser::hands::{drag, drag_alone, grip, state};
 use serde_json::Value;
 use std::fmt::Write as _;
 use std::io::{self, Write as _};
@@ -16,9 +16,9 @@ const GALLERY: [&str; 4] = ["quadrilateral", "bridge", "warren-truss", "resistor
 #[tokio::main(flavor = "current_thread")]
 async fn main() -> io::Result<()> {
     let out = &mut io::stdout().lock();
-    let head = ["opens", "task", "frames/s", "ms/frame", "task", "by hand"];
+    let head = ["opens", "task", "frames/s", "ms/frame", "task", "by hand", "joining"];
     writeln!(out, "{:16}{}", "", head.map(|name| format!("{name:>10}")).concat())?;
-    let goals = ["1000 ms", "50 ms", "60", "16", "50 ms", "50 ms"];
+    let goals = ["1000 ms", "50 ms", "60", "16", "50 ms", "50 ms", "50 ms"];
     writeln!(out, "{:16}{}", "goal", goals.map(|goal| format!("{goal:>10}")).concat())?;
     let larger = [
         ("points-5000", points(5000) + &chain(70)),
@@ -73,7 +73,7 @@ async fn told(visit: &Visit) -> Value {
 
 /// The figures of a document: until it can be dragged, in a browser that has the page, and the longest task until
 /// then; of a drag around a circle frames a second, work a frame, and the longest task; the longest task of a drag by
-/// a hand, with what comes of it.
+/// a hand, with what comes of it; of another that joins what it is dropped on, where something lies there.
 async fn row(name: &str, text: Option<&str>) -> String {
     let visit = Visit::open(None).await;
     visit.rehearse().await;
@@ -94,11 +94,17 @@ async fn row(name: &str, text: Option<&str>) -> String {
     say(told["frame_ms"].as_f64(), 1);
     say(longest(&visit, opened + 300.0, f64::MAX).await, 0);
     let Some(path) = told["path"].as_str() else { return row };
-    let (x, y) = grip(&state(&visit).await, path);
-    let begun = visit.script("return performance.now()").await.as_f64().unwrap_or_default();
-    drag(&visit, (x, y), (x + 12.0, y + 9.0)).await;
-    tokio::time::sleep(Duration::from_millis(1500)).await;
-    say(longest(&visit, begun, f64::MAX).await, 0);
+    for joins in [false, true] {
+        let (x, y) = grip(&state(&visit).await, path);
+        let to = (x + 12.0, y + 9.0);
+        let begun = visit.script("return performance.now()").await.as_f64().unwrap_or_default();
+        match joins {
+            false => drag_alone(&visit, (x, y), to).await,
+            true => drag(&visit, (x, y), to).await,
+        }
+        tokio::time::sleep(Duration::from_millis(1500)).await;
+        say(longest(&visit, begun, f64::MAX).await, 0);
+    }
     row
 }
 
