@@ -23,8 +23,18 @@ pub fn Inspector(
     /// The lab.
     lab: Lab,
 ) -> impl IntoView {
+    Effect::new(move |_| {
+        let path = lab.selected.get();
+        let follow = move || {
+            let is_so = lab.selected.with_untracked(|selected| *selected == path);
+            if is_so && lab.inspected.with_untracked(|inspected| *inspected != path) {
+                lab.inspected.set(path);
+            }
+        };
+        lab.behind_hand(2, Box::new(follow));
+    });
     let row = Memo::new(move |_| {
-        let path = lab.selected.get()?;
+        let path = lab.inspected.get()?;
         let found = lab.structure.with(|rows| rows.iter().find(|row| row.path == path).cloned());
         found.or_else(|| computed_rows(lab, &path).into_iter().next())
     });
@@ -80,7 +90,7 @@ pub fn Inspector(
                 <Said lab=lab />
                 <Made lab=lab />
                 <Numbers lab=lab />
-                <ViewsOf lab=lab path=Memo::new(move |_| lab.selected.get().unwrap_or_default()) />
+                <ViewsOf lab=lab path=Memo::new(move |_| lab.inspected.get().unwrap_or_default()) />
                 <Rules lab=lab />
             </div>
         </section>
@@ -102,8 +112,8 @@ fn computed_rows(lab: Lab, path: &str) -> Vec<StructureRow> {
 }
 
 /// The selection; of what a thing computes, that thing: its are the values and constraints.
-fn inspected(lab: Lab) -> Option<String> {
-    let path = lab.selected.get()?;
+fn subject(lab: Lab) -> Option<String> {
+    let path = lab.inspected.get()?;
     lab.structure.with(|rows| {
         let is_there = |path: &str| rows.iter().any(|row| row.path == path);
         let mut whole = path.as_str();
@@ -118,7 +128,7 @@ fn inspected(lab: Lab) -> Option<String> {
 /// The value that a selected constraint gives; it is typed anew.
 #[component]
 fn Said(lab: Lab) -> impl IntoView {
-    let offer = Memo::new(move |_| lab.selected.get().and_then(|path| lab.typed_by(&path)));
+    let offer = Memo::new(move |_| lab.inspected.get().and_then(|path| lab.typed_by(&path)));
     let button = move |offer: Offer| {
         let says =
             format!("{} {}", offer.label, to_read(offer.value.as_deref().unwrap_or_default()));
@@ -134,7 +144,7 @@ fn Said(lab: Lab) -> impl IntoView {
 #[component]
 fn Made(lab: Lab) -> impl IntoView {
     let found = Memo::new(move |_| {
-        let path = lab.selected.get()?;
+        let path = lab.inspected.get()?;
         let value = |row: &StructureRow| {
             let name = row.path.get(path.len()..)?.trim_start_matches('.');
             let name = if name.is_empty() { words::VALUE } else { name };
@@ -164,12 +174,12 @@ fn Made(lab: Lab) -> impl IntoView {
 #[component]
 fn Numbers(lab: Lab) -> impl IntoView {
     let within = Memo::new(move |_| {
-        let path = inspected(lab).and_then(|path| session::parse_path(&path));
+        let path = subject(lab).and_then(|path| session::parse_path(&path));
         let found = lab.id().zip(path);
         found.map(|(id, path)| lab.ask(|s| s.values_within(id, &path))).unwrap_or_default()
     });
     let found = Memo::new(move |_| {
-        let selected = inspected(lab);
+        let selected = subject(lab);
         lab.value_rows.track();
         let of = |rows: &Vec<ValueRow>| {
             within.with(|within| shown_values(rows, selected.as_deref(), within))
@@ -186,8 +196,8 @@ fn Numbers(lab: Lab) -> impl IntoView {
         let _ = lab.inspected_values.try_set_value(Vec::new());
     });
     // of the thing that computes what is selected
-    let heading = move || match inspected(lab) {
-        Some(whole) if lab.selected.get().is_some_and(|path| path != whole) => {
+    let heading = move || match subject(lab) {
+        Some(whole) if lab.inspected.get().is_some_and(|path| path != whole) => {
             words::values_of(&whole)
         }
         _ => String::from(words::VALUES),
@@ -198,7 +208,7 @@ fn Numbers(lab: Lab) -> impl IntoView {
         <Show when=move || !found.with(Vec::is_empty)>
             <h3>{heading}</h3>
         </Show>
-        <Show when=move || found.with(Vec::is_empty) && lab.selected.with(Option::is_none)>
+        <Show when=move || found.with(Vec::is_empty) && lab.inspected.with(Option::is_none)>
             <p class="law quiet">{move || match rows.get() { 0 => "", 1 => words::EMPTY_SHEET, _ => words::NOTHING_GIVEN }}</p>
         </Show>
         <div class="values">
@@ -230,7 +240,7 @@ fn asked(lab: Lab, at: usize) -> impl Fn() -> Option<AnyView> {
 #[component]
 fn Rules(lab: Lab) -> impl IntoView {
     let found = Memo::new(move |_| {
-        let selected = inspected(lab);
+        let selected = subject(lab);
         lab.structure.with(|rows| shown_rules(rows, selected.as_deref()))
     });
     view! {

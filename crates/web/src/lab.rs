@@ -148,6 +148,10 @@ pub struct Lab {
     pub picture: RwSignal<PictureView>,
     /// The path of the selected thing.
     pub selected: RwSignal<Option<String>>,
+    /// The same for the inspector, which follows a hand once the picture has been painted.
+    pub inspected: RwSignal<Option<String>>,
+    /// Whether a hand presses the picture.
+    pub pressed: StoredValue<bool>,
     /// The paths of what is selected besides, in the order of choosing.
     pub also: RwSignal<Vec<String>>,
     /// Whether a finger or a pen is at work, which have no keys.
@@ -346,6 +350,8 @@ impl Lab {
             picture: RwSignal::new(PictureView::default()),
             moved: RwSignal::new(MovedView::Everything),
             selected,
+            inspected: RwSignal::new(None),
+            pressed: StoredValue::new(false),
             also,
             touch: RwSignal::new(js::coarse()),
             adding: RwSignal::new(false),
@@ -465,6 +471,15 @@ impl Lab {
         }
         if self.selected.with_untracked(|old| *old != path) {
             self.selected.set(path);
+        }
+    }
+
+    /// Does something at once, but while a hand presses the picture once so many frames have been painted: panels follow
+    /// a hand one after the other.
+    pub fn behind_hand(self, frames: u32, run: Box<dyn FnOnce()>) {
+        match frames.checked_sub(1).filter(|_| self.pressed.get_value()) {
+            Some(left) => js::after_painting(move || self.behind_hand(left, run)),
+            None => run(),
         }
     }
 

@@ -281,7 +281,18 @@ pub fn Structure(
                 tree.visible.with_untracked(|all| all.iter().any(|row| row.at == current));
             let spoken_of = tree.row(current).filter(|_| is_seen).and_then(thing_of);
             if spoken_of.as_ref() != Some(&path) {
-                reveal(tree, &path);
+                // the tree may have gone with its tab
+                let is_so = move |path: &String| {
+                    chosen.try_get_untracked().flatten().as_ref() == Some(path)
+                };
+                lab.behind_hand(
+                    1,
+                    Box::new(move || {
+                        if is_so(&path) {
+                            reveal(tree, &path);
+                        }
+                    }),
+                );
             }
         }
     });

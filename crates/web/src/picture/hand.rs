@@ -181,6 +181,7 @@ impl Hand {
 
     pub(super) fn down(self, e: &PointerEvent) {
         let at = self.at(e);
+        self.lab.pressed.set_value(true);
         if let Some(canvas) = self.canvas.get_untracked() {
             js::capture(&canvas, e.pointer_id());
         }
@@ -548,6 +549,7 @@ impl Hand {
 
     pub(super) fn up(self, e: &PointerEvent) {
         let at = self.at(e);
+        self.lab.pressed.set_value(false);
         if self.lab.carried.get_value() && self.mode() == Mode::Idle {
             self.lab.carried.set_value(false);
             self.lab.tool_set(&self.pointer(at));
@@ -609,6 +611,7 @@ impl Hand {
 
     pub(super) fn lost(self, e: &PointerEvent) {
         let dragged = matches!(self.mode(), Mode::Drag { .. });
+        self.lab.pressed.set_value(false);
         self.lab.put_note_back();
         self.lab.band.set(None);
         self.let_go(e);

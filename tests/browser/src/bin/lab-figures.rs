@@ -73,7 +73,8 @@ async fn told(visit: &Visit) -> Value {
 
 /// The figures of a document: until it can be dragged, in a browser that has the page, and the longest task until
 /// then; of a drag around a circle frames a second, work a frame, and the longest task; the longest task of a drag by
-/// a hand, with what comes of it; of another that joins what it is dropped on, where something lies there.
+/// a hand, with what comes of it; of another that is dropped on the
+/// nearest point.
 async fn row(name: &str, text: Option<&str>) -> String {
     let visit = Visit::open(None).await;
     visit.rehearse().await;
@@ -95,17 +96,26 @@ async fn row(name: &str, text: Option<&str>) -> String {
     say(longest(&visit, opened + 300.0, f64::MAX).await, 0);
     let Some(path) = told["path"].as_str() else { return row };
     for joins in [false, true] {
-        let (x, y) = grip(&state(&visit).await, path);
-        let to = (x + 12.0, y + 9.0);
+        let now = state(&visit).await;
+        let from = grip(&now, path);
         let begun = visit.script("return performance.now()").await.as_f64().unwrap_or_default();
         match joins {
-            false => drag_alone(&visit, (x, y), to).await,
-            true => drag(&visit, (x, y), to).await,
+            false => drag_alone(&visit, from, (from.0 + 12.0, from.1 + 9.0)).await,
+            true => drag(&visit, from, beside(&now, from)).await,
         }
         tokio::time::sleep(Duration::from_millis(1500)).await;
         say(longest(&visit, begun, f64::MAX).await, 0);
     }
     row
+}
+
+/// Where the nearest of the other points lies that can be dragged.
+fn beside(state: &Value, (x, y): (f64, f64)) -> (f64, f64) {
+    let grips = state["grips"].as_array().into_iter().flatten();
+    let places = grips.filter_map(|grip| Some((grip["px"].as_f64()?, grip["py"].as_f64()?)));
+    let far = |(a, b): &(f64, f64)| (a - x).hypot(b - y);
+    let others = places.filter(|place| far(place) > 2.0);
+    others.min_by(|a, b| far(a).total_cmp(&far(b))).unwrap_or((x, y))
 }
 
 /// The longest task that began between two times of the page, in milliseconds; browsers name those over 50 ms.
