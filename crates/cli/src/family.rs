@@ -273,7 +273,7 @@ fn report(
     let count = |outcome: &str| lines.values().filter(|l| l["outcome"] == outcome).count();
     let drawn = count("drawn");
     let mut words = String::new();
-    for line in lines.values().filter(|l| l["outcome"] != "drawn") {
+    for line in lines.values().filter(|l| l["outcome"] != "drawn" || l["message"] != "") {
         let text = |key: &str| line[key].as_str().unwrap_or_default().to_string();
         let _ = writeln!(words, "{}: {}: {}", text("name"), text("outcome"), text("message"));
     }

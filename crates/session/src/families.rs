@@ -15,6 +15,7 @@ pub(crate) mod outside;
 
 pub(crate) use grid::csv;
 
+use crate::doubts;
 use crate::state::State;
 use crate::view::{FamilyRow, FamilyView, Refusal, RowFormats, RowOutcome, TableView};
 use crate::views::drawn::walk;
@@ -393,6 +394,7 @@ pub(crate) fn draw(
         return Ok(outcome);
     }
     outcome.outcome = "drawn".into();
+    outcome.message = doubts::of_run(document, &evaluator, &run);
     let run = Answer::Context(run);
     outcome.measures = measures(document, &run);
     let vertical = match document.vertical {

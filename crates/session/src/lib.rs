@@ -26,6 +26,7 @@ mod complaints;
 mod completing;
 mod difference;
 mod document;
+mod doubts;
 pub mod drafting;
 mod drag;
 mod families;

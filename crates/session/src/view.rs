@@ -655,7 +655,7 @@ pub struct RowOutcome {
     pub outcome: String,
     /// The demand that is not met, or the step without an outcome; `table` for a cell that is no value.
     pub step: String,
-    /// What was found and what was wanted.
+    /// What was found and what was wanted; of what was drawn as a picture or a file what it is doubtful for.
     pub message: String,
     /// The numbers of what was drawn, by their paths.
     #[serde(serialize_with = "pairs")]

@@ -6,6 +6,7 @@ use super::text::StepNode;
 use super::view::{ParameterRow, StepRow, StepsView};
 use super::{Home, blocks, compound, parameters, text, visit};
 use crate::document::Open;
+use crate::doubts;
 use crate::state::State;
 use crate::view::Refusal;
 use crate::views::values;
@@ -257,6 +258,9 @@ impl<'a> Rows<'_, 'a> {
                 }
                 .unwrap_or_else(|| in_words(step, &formula)),
                 formula,
+                doubt: answer.as_ref().and_then(|answer| {
+                    doubts::of(&self.state.lowered.document, self.evaluator, answer)
+                }),
                 value: answer.map(|answer| match (&answer, visited) {
                     (Answer::List(turns), Some(turn)) => turn_in_words(turn, turns.len()),
                     // an empty list does not tell what it is of
@@ -716,7 +720,7 @@ pub(crate) fn with_formula(
     let (_, span) = text::step(source, program, address).ok_or_else(none)?;
     let formula = formula.trim();
     if formula.is_empty() {
-        return Err(words::refuse(format!("what {address} does is wanted")));
+        return Err(words::refuse(format!("type what {address} shall do")));
     }
     let (start, end) = (span.start as usize, span.end as usize);
     Ok(format!("{}{formula}{}", &source[..start], &source[end..]))

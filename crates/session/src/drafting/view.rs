@@ -243,6 +243,8 @@ pub struct StepRow {
     pub is_block: bool,
     /// Whether the example does not come to it.
     pub is_unmade: bool,
+    /// What it made is doubtful for, as a width that is negative.
+    pub doubt: Option<String>,
     /// Why it has no outcome, of the step at which the drawing of the example ended.
     pub why: Option<String>,
 }

@@ -355,3 +355,27 @@ tag: Tag
     let wrong = cell(&mut desk, "d", "8,5").expect_err("it has a comma").message;
     assert_eq!(wrong, "d: `8,5` is no value; the tenths of a number stand after a point: `8.5`");
 }
+
+#[test]
+fn a_rectangle_turned_inside_out_by_its_parameters_is_told_at_its_step_and_in_its_row() {
+    let text = "use geometry\nprogram Web(h: Length = 40, t: Length = 5) {\n    \
+        rectangle = Rectangle(corner: Point(0, 0), width: t, height: h - 2 * t)\n}\n\
+        family Webs of Web {\n    rows: (\"good\", 40)  (\"flat\", 8)\n}\nweb: Web\n";
+    let mut desk = Desk::of(text);
+    assert_eq!(desk.wrong(), [], "{}", desk.text());
+    let doubt =
+        |desk: &Desk| desk.session.steps(desk.id, Some("web")).unwrap().rows[0].doubt.clone();
+    assert_eq!(doubt(&desk), None);
+    desk.set("web.h", 6.0).expect("nothing is refused for it");
+    assert!(doubt(&desk).is_some_and(|told| told.starts_with("its height is negative")));
+    let grid = desk.session.family_grid(desk.id, "Webs", None).expect("a family");
+    let formats = RowFormats { svg: true, dxf: false };
+    let told = grid.rows.iter().map(|row| {
+        let outcome = desk.session.draw_row(desk.id, "Webs", row, formats).expect("it is one");
+        assert_eq!(outcome.outcome, "drawn");
+        outcome.message
+    });
+    let told: Vec<String> = told.collect();
+    assert_eq!(told[0], "");
+    assert!(told[1].starts_with("rectangle: its height is negative"), "{}", told[1]);
+}

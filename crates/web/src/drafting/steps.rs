@@ -284,6 +284,7 @@ fn Row(lab: Lab, steps: StepsView, row: StepRow) -> impl IntoView {
             <button class="bare step" title=row.formula on:click=light>
                 <b>{row.name}</b>" "{row.words}
                 {row.value.map(|value| view! { <span class="quiet">{value}</span> })}
+                {row.doubt.map(|doubt| view! { <span class="doubt">{doubt}</span> })}
                 {row.why.map(|why| view! { <span class="why">{why}</span> })}
             </button>
             {is_recorded.then(|| view! {

@@ -238,7 +238,7 @@ fn Row(family: Family, at: usize, row: FamilyRow) -> impl IntoView {
     let said = move || {
         outcome.with(|o| match o.outcome.as_str() {
             "" => String::from("…"),
-            "drawn" => String::from(words::ROW_DRAWN),
+            "drawn" if o.message.is_empty() => String::from(words::ROW_DRAWN),
             kind => format!("{kind}: {}", o.message),
         })
     };

@@ -27,7 +27,8 @@ pub fn Pictures(
             })
         };
         let why = move || {
-            is_bad().then(|| {
+            // what is drawn may be doubtful
+            (is_bad() || outcome.with(|o| !o.message.is_empty())).then(|| {
                 let outcome = outcome.get();
                 view! { <span class="error">{outcome.outcome}": "{outcome.message}</span> }
             })
