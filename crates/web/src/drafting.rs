@@ -33,6 +33,8 @@ pub struct Drafting {
     pub finds: RwSignal<Option<String>>,
     /// Where the pointer of the construction was last.
     pub pointer: StoredValue<Option<Pointer>>,
+    /// Whether the latest operand was typed, so that no hand is over the picture.
+    pub by_keys: StoredValue<bool>,
     /// The measure that the latest pick added to what is typed.
     pub picked: StoredValue<Option<String>>,
     /// Whether the calculator is open.
@@ -59,6 +61,7 @@ impl Default for Drafting {
             typed: RwSignal::new(String::new()),
             finds: RwSignal::new(None),
             pointer: StoredValue::new(None),
+            by_keys: StoredValue::new(false),
             picked: StoredValue::new(None),
             calculator: RwSignal::new(false),
             memory: RwSignal::new(None),
@@ -191,6 +194,7 @@ impl Lab {
         let typed = self.drafting.typed.get_untracked();
         let hover = self.tell(|session, id| session.hover(id, pointer, &typed));
         let Some(hover) = hover else { return };
+        self.drafting.by_keys.set_value(false);
         self.drafting.pointer.set_value((pointer.reach >= 0.0).then(|| pointer.clone()));
         self.show_made(hover.ghost);
         let finds = match (hover.finds, hover.why) {
@@ -203,6 +207,7 @@ impl Lab {
     /// Gives what is under the pointer.
     pub fn draft_point(self, pointer: &Pointer) {
         let is_bare = self.drafting.typed.with_untracked(String::is_empty);
+        self.drafting.by_keys.set_value(false);
         let turn = self.tell(|session, id| session.point(id, pointer));
         let is_number = |prompt: &Prompt| {
             prompt.insert.as_ref().is_some_and(|measure| measure.parse::<f64>().is_ok())
@@ -211,7 +216,7 @@ impl Lab {
         self.take_turn(turn);
         // a free place says all of how high, or how far to the right
         if is_bare && is_place && !self.drafting.calculator.get_untracked() {
-            self.draft_enter();
+            self.draft_enter_by(false);
         }
     }
 
@@ -226,6 +231,11 @@ impl Lab {
 
     /// Gives what is typed.
     pub fn draft_enter(self) {
+        self.draft_enter_by(true);
+    }
+
+    fn draft_enter_by(self, is_by_keys: bool) {
+        self.drafting.by_keys.set_value(is_by_keys);
         let typed = self.drafting.typed.get_untracked();
         let turn = self.tell(|session, id| session.enter(id, &typed));
         if matches!(turn, Some(Ok(_))) {

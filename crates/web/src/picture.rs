@@ -531,8 +531,9 @@ fn keep(lab: Lab, before: Bounds, size: (f64, f64), left: StoredValue<Option<Lef
         look(lab, old.view);
         return true;
     }
-    // what is drawn must not move under a hand that holds a tool
-    let is_at_rest = lab.tool.with_untracked(Option::is_none) && !lab.drafts();
+    // what is drawn must not move under a hand that holds a tool; one that types is not there
+    let drafts = lab.drafts() && !lab.drafting.by_keys.get_value();
+    let is_at_rest = lab.tool.with_untracked(Option::is_none) && !drafts;
     if !is_at_rest || !view.holds(before, size) || view.holds(drawn, size) {
         return false;
     }

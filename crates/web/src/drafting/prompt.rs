@@ -35,6 +35,16 @@ pub fn PromptLine(
             let _ = field.focus();
         }
     });
+    // where nothing is typed, the keyboard answers by the buttons
+    let is_chosen = Memo::new(move |_| {
+        let is = |p: &Prompt| matches!(p.wants, Wants::Otherwise | Wants::Older { .. });
+        drafting.prompt.with(|p| p.as_ref().is_some_and(is))
+    });
+    Effect::new(move |_| {
+        if is_chosen.get() && !js::coarse() {
+            request_animation_frame(|| keyboard::focus(".prompt button.primary"));
+        }
+    });
     let of =
         move |ask: &dyn Fn(&Prompt) -> bool| drafting.prompt.with(|p| p.as_ref().is_some_and(ask));
     let is_drawn = move || of(&|p| !p.tool.is_empty());
