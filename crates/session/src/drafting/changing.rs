@@ -147,7 +147,9 @@ fn curve_of(state: &State, example: &Name, (address, turns): (&str, &[u32])) -> 
 pub(crate) fn begin(open: &mut Open, (address, slot): (&str, &str)) -> Result<(), Refusal> {
     let recording = blocks::recorded(open)?;
     if recording.blocks.iter().any(|block| block.kind != blocks::Kind::Visited) {
-        return Err(words::refuse("a block is demonstrated: end it, or undo it, first".into()));
+        return Err(words::refuse(
+            "a repeat or an `if` is still being drawn: end it first, or undo it".into(),
+        ));
     }
     let (program, example) = (recording.program.clone(), recording.example.clone());
     let turns = visit::turns_in(&Home::of(Some(recording)), address);
@@ -239,7 +241,7 @@ pub(crate) fn set(
 ) -> Result<Change, Refusal> {
     let typed = typed.trim();
     if typed.is_empty() {
-        return Err(words::refuse(format!("what {slot} of {address} shall be is wanted")));
+        return Err(words::refuse(format!("type what {slot} of {address} shall be")));
     }
     let none = || words::refuse(format!("{address} says nothing called {slot}"));
     let source = text::Source::now(&open.state);

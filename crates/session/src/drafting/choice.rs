@@ -53,7 +53,7 @@ impl Choice {
         self.asks.then(|| Prompt {
             label: "Otherwise".into(),
             words: format!(
-                "draw the other branch with the same values; or set parameters first, so that {condition} {holds}"
+                "how is the other case drawn: with the same values, or with others? Set those first, so that {condition} {holds}"
             ),
             wants: Wants::Otherwise,
             ..Prompt::default()
@@ -129,7 +129,7 @@ fn opened(open: &mut Open) -> Result<(&mut Block, Choice), Refusal> {
 pub(crate) fn otherwise(open: &mut Open) -> Result<(), Refusal> {
     let (block, choice) = opened(open)?;
     if choice.is_second {
-        return Err(words::refuse("both branches are drawn: end the `if`".into()));
+        return Err(words::refuse("both cases are drawn: press `End if`".into()));
     }
     block.kind = Kind::Choice(Choice { asks: true, ..choice });
     open.dialogue = None;
@@ -159,9 +159,10 @@ pub(crate) fn second(open: &mut Open, host: &dyn Host, is_same: bool) -> Result<
     let now = outcome::worth(&open.state, &outside, &choice.condition)?;
     let is_other = now == Worth::Truth(!choice.is_then);
     if !is_same && !is_other {
-        let wanted = if choice.is_then { "false" } else { "true" };
+        let (is, wanted) =
+            if choice.is_then { ("holds", "does not") } else { ("does not hold", "does") };
         let message = format!(
-            "{} has to be {wanted} for the other branch: set parameters so, or choose a row",
+            "{} still {is}: set parameters so that it {wanted}, or draw with the same values",
             choice.condition
         );
         return Err(words::refuse(message));

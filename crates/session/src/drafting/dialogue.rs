@@ -180,7 +180,7 @@ impl Dialogue {
         (pointer, level): (&Pointer, usize),
     ) -> Result<Operand, Refusal> {
         let Some(slot) = self.slot() else {
-            return Err(words::refuse("no operand is wanted".into()));
+            return Err(words::refuse("nothing more is asked: choose what to draw next".into()));
         };
         let mut all = scene::scene(state, home);
         if *slot.class == *"Planar" {

@@ -145,8 +145,10 @@ pub(crate) fn by_origin(
         _ => None,
     };
     let none = || {
-        let message =
-            format!("this edge of {} comes from nothing that has a name here", found.text);
+        let message = format!(
+            "this edge of {} has no name here: pick the figure that it comes from",
+            found.text
+        );
         words::refuse(message)
     };
     let edge = named(all, found).ok_or_else(none);

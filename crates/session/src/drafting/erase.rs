@@ -65,8 +65,8 @@ fn question(state: &State, host: &dyn Host, path: &Path) -> Result<Option<Questi
     };
     let still = match along.len() {
         0 => String::new(),
-        1 => String::from("; one step still speaks of it"),
-        n => format!("; {n} steps still speak of it"),
+        1 => String::from("; one step still needs it"),
+        n => format!("; {n} steps still need it"),
     };
     let erased = text::block(source, &program, around).map(|body| {
         let blocks = around.split('.').filter(|s| !s.is_empty() && *s != "then" && *s != "else");

@@ -150,7 +150,7 @@ fn give(open: &mut Open, host: &dyn Host, operand: Operand) -> Result<Turn, Refu
     let said = typed::expression(&chosen.text).and_then(|e| steps::pattern_in_words(&e));
     let (name, mut text) = (names.join(", "), said.unwrap_or(chosen.text));
     if let Some(of) = line.stays {
-        text += &format!("; {of} stays, for it is no step of this block");
+        text += &format!("; {of} stays: it was drawn before this repeat or `if`");
     }
     Ok(Turn::Made { change: Box::new(change), name, text, next })
 }
@@ -232,6 +232,8 @@ pub(super) fn turn_of(open: &Open, closed: Option<Change>, text: String) -> Turn
     match closed {
         Some(change) => {
             let name = change.label.clone();
+            // `if d > 5` says all of it
+            let text = if name.ends_with(&text) { String::new() } else { text };
             Turn::Made { change: Box::new(change), name, text, next: prompt(open) }
         }
         None => match prompt(open) {
@@ -354,7 +356,9 @@ impl Session {
             return Ok(self.reached(id, turn));
         }
         let Some((dialogue, slot)) = waiting.filter(|(_, slot)| slot.kind == SlotKind::Set) else {
-            return Err(words::refuse("no set is wanted: pick one thing".into()));
+            return Err(words::refuse(
+                "one thing is wanted here: pick it, instead of a rectangle around several".into(),
+            ));
         };
         let makes_one = dialogue.goal.is_some() || dialogue.replaces.is_some();
         let found = scene::within(&open.state, &home, corners);
@@ -461,6 +465,10 @@ impl Session {
     pub fn give_up(&mut self, id: DocumentId) -> Option<Prompt> {
         let open = self.document_mut(id);
         open.picking = super::Picking::default();
+        if open.dialogue.is_none() {
+            // how the other branch is drawn is asked no more
+            choice::back(open);
+        }
         match open.dialogue.take().and_then(|dialogue| dialogue.goal) {
             Some(Goal::Operand(waiting)) => open.dialogue = Some(*waiting),
             Some(Goal::Answer) | None => {
@@ -675,7 +683,7 @@ fn pointed(open: &mut Open, host: &dyn Host, pointer: &Pointer) -> Result<Turn, 
         return give(open, host, operand);
     }
     let Some(wanted) = blocks::prompt(open) else {
-        return Err(words::refuse("nothing is waited for".into()));
+        return Err(words::refuse("nothing is asked now: choose what to draw first".into()));
     };
     let was = of_turn_before(Some(&wanted));
     let found = object_at(&state, &home, &was, (pointer, level))?;
@@ -770,7 +778,7 @@ fn entered(open: &mut Open, host: &dyn Host, typed: &str) -> Result<Turn, Refusa
             | Wants::Substitute { .. }
             | Wants::Change(_),
         )
-        | None => Err(words::refuse("nothing that is typed is waited for".into())),
+        | None => Err(words::refuse("nothing can be typed now: choose what to draw first".into())),
     }
 }
 

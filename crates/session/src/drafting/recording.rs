@@ -242,8 +242,9 @@ pub(crate) fn begin(open: &mut Open, host: &dyn Host, name: &str) -> Result<Chan
     let name = name.trim();
     let starts_well = name.chars().next().is_some_and(char::is_uppercase);
     if !starts_well || !name.chars().all(|c| c.is_alphanumeric() || c == '_') {
-        let message =
-            format!("`{name}` is no name for a program: a word that begins with a capital is");
+        let message = format!(
+            "`{name}` is no name for a program: it begins with a capital and is one word, as Washer"
+        );
         return Err(words::refuse(message));
     }
     let program = Name::new(name);

@@ -81,7 +81,9 @@ pub(crate) fn begin(
 ) -> Result<Option<Change>, Refusal> {
     let recording = blocks::recorded(open)?;
     if recording.blocks.iter().any(|block| block.kind != blocks::Kind::Visited) {
-        return Err(words::refuse("a block is demonstrated: end it, or undo it, first".into()));
+        return Err(words::refuse(
+            "a repeat or an `if` is still being drawn: end it first, or undo it".into(),
+        ));
     }
     let program = recording.program.clone();
     let source = text::Source::now(&open.state);
@@ -167,10 +169,12 @@ pub(super) fn why_nothing(open: &Open, step: &str, pointer: &Pointer) -> String 
     };
     match scene::nearest(all.iter(), pointer) {
         Some(found) if own(&found.text) => {
-            format!("a step cannot speak of itself, as {step} would")
+            format!("{step} would be drawn from itself: pick something that was drawn before it")
         }
         Some(later) => format!("{} is drawn after {step}, which cannot speak of it", later.text),
-        None => format!("nothing that {step} can speak of lies here"),
+        None => format!(
+            "nothing that {step} can be drawn from lies here: it must have been drawn before"
+        ),
     }
 }
 
@@ -234,7 +238,7 @@ pub(crate) fn instead(
         None => typed.trim().to_string(),
     };
     if found.is_empty() {
-        return Err(words::refuse(format!("pick or type what {step} shall speak of instead")));
+        return Err(words::refuse(format!("pick or type what {step} is drawn from instead")));
     }
     outcome::worth(&open.state, &home, &found)?;
     // the step must have an outcome with it

@@ -747,7 +747,7 @@ fn closed(
             o.step == asked.step && o.slot == asked.slot && o.first == asked.first
         };
         // the turn may have been changed since it was asked about
-        let changed = || words::refuse("the first turn is another now: end it again".into());
+        let changed = || words::refuse("the first turn has changed: end it again".into());
         let found = rest.find(is_it).ok_or_else(changed)?;
         let Some(answer) = asked.answer.as_ref().filter(|answer| **answer != asked.first) else {
             continue;

@@ -76,7 +76,9 @@ pub(crate) fn turn_of(home: &Home, address: &str) -> Option<u32> {
 pub(crate) fn go(open: &mut Open, go: &Go) -> Result<(), Refusal> {
     let recording = blocks::recorded(open)?;
     if recording.blocks.iter().any(|block| block.kind != Kind::Visited) {
-        return Err(words::refuse("a block is demonstrated: end it, or undo it, first".into()));
+        return Err(words::refuse(
+            "a repeat or an `if` is still being drawn: end it first, or undo it".into(),
+        ));
     }
     let (program, example) = (recording.program.clone(), recording.example.clone());
     let home = Home::of(Some(recording));
@@ -130,8 +132,11 @@ pub(crate) fn go(open: &mut Open, go: &Go) -> Result<(), Refusal> {
         }
         Go::Out => out(way).unwrap_or_else(|| at_home(Vec::new(), None)),
         Go::In => {
-            let none =
-                || words::refuse("no block comes next: there is nothing to step into".into());
+            let none = || {
+                words::refuse(
+                    "no repeat and no `if` comes next: there is nothing to go into".into(),
+                )
+            };
             let segment = before.clone().ok_or_else(none)?;
             let address = text::joined(&text::address_of(&home), &segment);
             let inner = inner_of(&open.state, (&home, &program), &address).ok_or_else(none)?;

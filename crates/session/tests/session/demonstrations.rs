@@ -435,7 +435,10 @@ fn a_step_cannot_speak_of_itself() {
     desk.session.begin_change(desk.id, ("circle", "center")).expect("it has a centre");
     let pointer = Pointer { at: (3.0, 0.0), reach: 0.4, ..Pointer::default() };
     let refused = desk.session.point(desk.id, &pointer).expect_err("it is the circle's own");
-    assert_eq!(refused.message, "a step cannot speak of itself, as circle would");
+    assert_eq!(
+        refused.message,
+        "circle would be drawn from itself: pick something that was drawn before it"
+    );
 }
 
 #[test]
@@ -643,4 +646,27 @@ fn value_of(desk: &Desk, path: &str) -> f64 {
     let rows = desk.session.values(desk.id);
     let row = rows.iter().find(|row| row.path == path);
     row.and_then(|row| row.number).unwrap_or_else(|| panic!("{path}: {}", desk.text()))
+}
+
+#[test]
+fn how_the_other_case_is_drawn_is_asked_no_more_after_escape() {
+    let mut desk = Desk::recording("Pulley", &[("d", "100")]);
+    desk.session.begin_choice(desk.id).expect("it is recorded");
+    match desk.session.enter(desk.id, "d > 80").expect("it is a condition") {
+        // a name that says all of it is not said twice
+        Turn::Made { name, text, .. } => {
+            assert_eq!((name.as_str(), text.as_str()), ("if d > 80", ""))
+        }
+        other => panic!("{other:?}"),
+    }
+    draw(&mut desk, "Circle", &[Typed("0, 0"), Typed("d / 2")]);
+    desk.session.give_up(desk.id);
+    desk.session.otherwise(desk.id).expect("the first case is drawn");
+    assert_eq!(desk.session.prompt(desk.id).expect("it is asked").wants, Wants::Otherwise);
+    assert_eq!(desk.session.give_up(desk.id), None);
+    // a construction that is given up meanwhile takes the question along no more than before
+    desk.session.otherwise(desk.id).expect("the first case is drawn");
+    desk.session.begin(desk.id, "Circle").expect("it is one");
+    let waits = desk.session.give_up(desk.id).expect("it is asked still");
+    assert_eq!(waits.wants, Wants::Otherwise);
 }

@@ -176,7 +176,7 @@ fn a_line_before_the_loop_that_is_trimmed_in_it_stays_and_is_told() {
     enter(&mut desk, "line");
     assert_eq!(
         made(enter(&mut desk, "line2")),
-        "line.trimmed(at: line2); line stays, for it is no step of this block"
+        "line.trimmed(at: line2); line stays: it was drawn before this repeat or `if`"
     );
     assert!(desk.text().contains("        guide trimmed = "), "{}", desk.text());
     assert!(!desk.text().contains("erase"), "{}", desk.text());
@@ -1009,7 +1009,7 @@ fn an_if_is_drawn_by_two_demonstrations() {
     measured(&mut desk, "2 * d + 6");
     desk.session.otherwise(desk.id).expect("the first branch is drawn");
     let early = desk.session.other_branch(desk.id, false).expect_err("the values are the same");
-    assert!(early.message.contains("has to be false"), "{}", early.message);
+    assert!(early.message.contains("still holds"), "{}", early.message);
     desk.set("bolt.length", 150.0).expect("a parameter can be set");
     desk.session.other_branch(desk.id, false).expect("the values take it");
     // the third way stands in the second
@@ -1095,7 +1095,7 @@ fn what_is_asked_of_the_first_of_a_set_is_forgotten_where_undo_brings_another() 
     assert_eq!(asked(&desk).expect("it is asked").first, "circle2.center");
     desk.undo();
     let stale = desk.session.enter(desk.id, "element").expect_err("circle is the first now");
-    assert_eq!(stale.message, "nothing that is typed is waited for");
+    assert_eq!(stale.message, "nothing can be typed now: choose what to draw first");
     assert!(asked(&desk).is_none());
     let open = desk.session.steps(desk.id, None).expect("it is recorded").open;
     assert_eq!(open[0].words, "turns: draw what is done for circle, the first of the set");
@@ -1439,7 +1439,7 @@ other: Plate { width = 60 mm }
     let labels: Vec<&str> = question.choices.iter().map(|c| c.label.as_str()).collect();
     assert_eq!(
         labels,
-        ["erase hole; one step still speaks of it", "delete the step hole, and with it rim"]
+        ["erase hole; one step still needs it", "delete the step hole, and with it rim"]
     );
     desk.apply(&question.choices[0].command).expect("it can be erased");
     let rows = "    }\n}\nplate";
