@@ -2,6 +2,7 @@
 
 use crate::first::Invitation;
 use crate::lab::Lab;
+use crate::marked::marked;
 use crate::picture::thumbnail::Thumbnail;
 use crate::{actions, lesson, route, words};
 use leptos::prelude::*;
@@ -103,7 +104,7 @@ pub fn Gallery(
             <Invitation lab=lab />
             {move || match listed.get() {
                 None => view! { <p class="quiet" role="status">{words::LOADING}</p> }.into_any(),
-                Some(Err(message)) => view! { <p class="notice" role="alert">{message}</p> }.into_any(),
+                Some(Err(message)) => view! { <p class="notice" role="alert">{marked(&message)}</p> }.into_any(),
                 Some(Ok(all)) if all.is_empty() => view! { <p class="quiet">{words::NO_DOCUMENTS}</p> }.into_any(),
                 Some(Ok(all)) => view! { <Shelves lab=lab listed=all wanted=wanted /> }.into_any(),
             }}

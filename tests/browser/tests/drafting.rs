@@ -182,7 +182,7 @@ async fn a_wrong_step_is_found_by_what_it_drew_and_replaced() {
     visit.until("window.__thinglab.state().text.includes('repeat 4 times')").await;
     // a step that another one speaks of: that one is asked about
     press(&visit, "[data-step='turns.circle'] [data-step-delete]").await;
-    asked(&visit, "speaks of circle").await;
+    asked(&visit, "is drawn from circle").await;
     press(&visit, "[data-draft='back']").await;
     press(&visit, "[data-visit='end']").await;
     press(&visit, "[data-draft='stop']").await;

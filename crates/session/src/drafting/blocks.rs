@@ -235,7 +235,7 @@ pub(crate) fn view(source: &text::Source, recording: &Recording) -> Vec<OpenBloc
             }
             Kind::Loop(_) => (OpenKind::Turn, format!("{name}: draw its first turn")),
             Kind::Choice(choice) => choice.view(),
-            Kind::Visited => (OpenKind::Visited, format!("visiting {address}")),
+            Kind::Visited => (OpenKind::Visited, format!("visiting {}", text::told(&address))),
         };
         let caught = match &block.kind {
             Kind::Loop(it) => it.caught(),

@@ -45,7 +45,7 @@ impl Changing {
             _ => "pick another object",
         };
         Prompt {
-            label: format!("{slot} of {step}"),
+            label: format!("{slot} of {}", text::told(step)),
             words: format!("is {says}: {how}"),
             is_value: *is_value,
             takes_sets: !is_value,
@@ -154,7 +154,7 @@ pub(crate) fn begin(open: &mut Open, (address, slot): (&str, &str)) -> Result<()
     let (program, example) = (recording.program.clone(), recording.example.clone());
     let turns = visit::turns_in(&Home::of(Some(recording)), address);
     let state = open.state.clone();
-    let none = || words::refuse(format!("{address} says nothing called {slot}"));
+    let none = || words::refuse(format!("{} has no {slot}", text::told(address)));
     let source = text::Source::now(&state);
     let (found, is_within) = find(&source, &program, (address, slot)).ok_or_else(none)?;
     let at = (address, &turns[..]);
@@ -241,9 +241,9 @@ pub(crate) fn set(
 ) -> Result<Change, Refusal> {
     let typed = typed.trim();
     if typed.is_empty() {
-        return Err(words::refuse(format!("type what {slot} of {address} shall be")));
+        return Err(words::refuse(format!("type what {slot} of {} shall be", text::told(address))));
     }
-    let none = || words::refuse(format!("{address} says nothing called {slot}"));
+    let none = || words::refuse(format!("{} has no {slot}", text::told(address)));
     let source = text::Source::now(&open.state);
     let (found, _) = find(&source, program, (address, slot)).ok_or_else(none)?;
     // the text goes on from what stands twice, from what a message is sent to, and from a count
@@ -266,7 +266,8 @@ pub(crate) fn set(
         _ => edited,
     };
     open.tried(|open| {
-        let change = recording::retext(open, host, edited, format!("{slot} of {address}"))?;
+        let label = format!("{slot} of {}", text::told(address));
+        let change = recording::retext(open, host, edited, label)?;
         let after = ended(&open.state);
         match after.into_iter().find(|_| before.is_empty()) {
             Some(why) => Err(words::refuse(why)),

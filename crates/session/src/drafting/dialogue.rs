@@ -3,7 +3,7 @@
 use super::catalogue::{Call, Slot, SlotKind, Tool};
 use super::scene::{self, Found};
 use super::view::{Hover, Prompt, Wants};
-use super::{Home, becoming, edges, measure, older, outcome, typed};
+use super::{Home, becoming, edges, measure, older, outcome, text, typed};
 use crate::state::State;
 use crate::view::{Pointer, Refusal};
 use crate::words;
@@ -148,7 +148,7 @@ impl Dialogue {
                 format!("{}, as {of} of {}", self.tool.label, goal.tool.label)
             }
             (Some(Goal::Answer), _) => format!("{}, as the answer", self.tool.label),
-            (None, Some(step)) => format!("{step} anew: {}", self.tool.label),
+            (None, Some(step)) => format!("{} anew: {}", text::told(step), self.tool.label),
             (None, None) => self.tool.label.clone(),
         };
         Prompt {

@@ -186,7 +186,7 @@ pub(super) fn replaced(
     formula: &str,
 ) -> Result<Change, Refusal> {
     let text = steps::with_formula(&text::Source::now(&open.state), (program, step), formula)?;
-    recording::retext(open, host, text, format!("replace {step}"))
+    recording::retext(open, host, text, format!("replace {}", text::told(step)))
 }
 
 /// Gives the outcome of a construction to what waits for it: as a figure of its own where it is kept as a guide.

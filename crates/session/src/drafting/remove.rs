@@ -58,9 +58,15 @@ impl Removing {
         let at = self.open_question()?;
         let Asked { step, of, .. } = &self.asked[at];
         Some(Prompt {
-            label: format!("Delete {}, {} of {}", self.gone[0], at + 1, self.asked.len()),
+            label: format!(
+                "Delete {}, {} of {}",
+                text::told(&self.gone[0]),
+                at + 1,
+                self.asked.len()
+            ),
             words: format!(
-                "{step} speaks of {of}: pick or type another object for it, or delete it too"
+                "{} is drawn from {of}: pick or type another object for it, or delete it too",
+                text::told(step)
             ),
             takes_sets: true,
             goes_wider: true,
@@ -167,13 +173,14 @@ pub(super) fn why_nothing(open: &Open, step: &str, pointer: &Pointer) -> String 
         let named = step.split('.').filter(|s| text::is_name(s));
         parts.take(named.clone().count()).eq(named)
     };
+    let told = text::told(step);
     match scene::nearest(all.iter(), pointer) {
         Some(found) if own(&found.text) => {
-            format!("{step} would be drawn from itself: pick something that was drawn before it")
+            format!("{told} would be drawn from itself: pick something that was drawn before it")
         }
-        Some(later) => format!("{} is drawn after {step}, which cannot speak of it", later.text),
+        Some(later) => format!("{} is drawn after {told}: pick something before it", later.text),
         None => format!(
-            "nothing that {step} can be drawn from lies here: it must have been drawn before"
+            "nothing that {told} can be drawn from lies here: it must have been drawn before"
         ),
     }
 }
@@ -238,7 +245,8 @@ pub(crate) fn instead(
         None => typed.trim().to_string(),
     };
     if found.is_empty() {
-        return Err(words::refuse(format!("pick or type what {step} is drawn from instead")));
+        let told = text::told(&step);
+        return Err(words::refuse(format!("pick or type what {told} is drawn from instead")));
     }
     outcome::worth(&open.state, &home, &found)?;
     // the step must have an outcome with it

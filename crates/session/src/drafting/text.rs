@@ -431,6 +431,14 @@ pub(crate) fn is_name(segment: &str) -> bool {
     !segment.starts_with('#') && !matches!(segment, "then" | "else")
 }
 
+/// Returns what a step is called, by its address: by its name alone, whatever is around it.
+pub(crate) fn told(address: &str) -> &str {
+    match address.rsplit('.').find(|s| !matches!(*s, "then" | "else")) {
+        Some(name) if is_name(name) => name.split('[').next().unwrap_or_default(),
+        Some(_) | None => "the `if`",
+    }
+}
+
 /// Where a text speaks of a name: not of a part of something else, and not by a label.
 pub(crate) fn places_of(text: &str, name: &str) -> Vec<usize> {
     let is_word = |c: char| c.is_alphanumeric() || c == '_';

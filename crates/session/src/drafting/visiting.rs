@@ -182,7 +182,10 @@ impl Session {
         let Some(recording) = &mut open.recording else { return Ok(()) };
         let found = text::step_at(&text::Source::now(&open.state), &recording.program, step);
         if !matches!(found.and_then(|s| s.value), Some(syntax::ast::Value::Expr(_))) {
-            return Err(words::refuse(format!("{step} is a block: step into it, or delete it")));
+            let told = text::told(step);
+            return Err(words::refuse(format!(
+                "{told} has steps in it: step into it, or delete it"
+            )));
         }
         recording.replaces = Some(step.into());
         recording.returns = was;
@@ -268,7 +271,8 @@ impl Session {
         let mut gone = steps::dependents(&text::Source::now(&open.state), program, step);
         gone.push(step.into());
         let text = steps::without(&text::Source::now(&open.state), program, &gone)?;
-        let change = recording::retext(open, &beside, text, format!("delete {step}"))?;
+        let change =
+            recording::retext(open, &beside, text, format!("delete {}", text::told(step)))?;
         Ok(*self.with_reach(id, change))
     }
 
@@ -289,7 +293,8 @@ impl Session {
         let mut patterns = patterns::among(&source, program, (&users, step));
         patterns.extend(patterns::within(&source, program, &users));
         let text = patterns::settled(open, &beside, &program.into(), (text, &patterns))?;
-        let label = format!("{step} {}", if is_guide { "as a guide" } else { "drawn" });
+        let label =
+            format!("{} {}", text::told(step), if is_guide { "as a guide" } else { "drawn" });
         let change = recording::retext(open, &beside, text, label)?;
         Ok(*self.with_reach(id, change))
     }
@@ -306,7 +311,10 @@ impl Session {
         let source = &text::Source::now(&self.document(id).state);
         let found = text::step_at(source, program, step).and_then(|found| found.value);
         let Some(syntax::ast::Value::Expr(_)) = found else {
-            return Err(words::refuse(format!("{step} is no step that makes a curve")));
+            return Err(words::refuse(format!(
+                "{} is no step that makes a curve",
+                text::told(step)
+            )));
         };
         let (_, span) = text::step(source, program, step).unwrap_or_default();
         let formula = source[span.start as usize..span.end as usize].trim().to_string();

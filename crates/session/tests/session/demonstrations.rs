@@ -670,3 +670,19 @@ fn how_the_other_case_is_drawn_is_asked_no_more_after_escape() {
     let waits = desk.session.give_up(desk.id).expect("it is asked still");
     assert_eq!(waits.wants, Wants::Otherwise);
 }
+
+#[test]
+fn a_step_of_a_branch_is_told_by_its_name_and_not_by_where_it_stands() {
+    let mut desk = Desk::recording("Pulley", &[("d", "100")]);
+    draw(&mut desk, "Circle", &[Typed("0, 0"), Typed("d / 2")]);
+    desk.session.give_up(desk.id);
+    desk.session.begin_choice(desk.id).expect("it is recorded");
+    desk.session.enter(desk.id, "d > 80").expect("it is a condition");
+    draw(&mut desk, "Circle.concentric(with,radius)", &[Typed("circle"), Typed("4")]);
+    desk.session.give_up(desk.id);
+    desk.session.end_choice(desk.id).expect("it is open");
+    desk.session.begin_delete(desk.id, "circle").expect("something is drawn from it");
+    let asked = desk.session.prompt(desk.id).expect("it is asked");
+    assert!(asked.words.starts_with("circle2 is drawn from circle: pick"), "{}", asked.words);
+    assert_eq!(asked.label, "Delete circle, 1 of 1");
+}

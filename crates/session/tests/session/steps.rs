@@ -56,7 +56,7 @@ fn an_undo_leaves_the_question_that_a_deletion_asked() {
     let mut desk = holes();
     desk.session.begin_delete(desk.id, "circle").expect("it is a step");
     let asked = desk.session.prompt(desk.id).expect("the pattern speaks of it").words;
-    assert!(asked.starts_with("pattern speaks of circle"), "{asked}");
+    assert!(asked.starts_with("pattern is drawn from circle"), "{asked}");
     let text = desk.text();
     desk.undo();
     assert_eq!(desk.session.prompt(desk.id), None);
