@@ -166,6 +166,12 @@ impl Lab {
         theme::put(DOCK_KEY, Some(tab.label()));
     }
 
+    /// Opens the dock with a tab, and gives the keyboard to what a selector finds in it.
+    pub fn go_to_dock(self, tab: Tab, selector: &'static str) {
+        self.open_dock(tab);
+        request_animation_frame(move || keyboard::focus(selector));
+    }
+
     /// Opens the dock with a tab, or shuts it where that is open.
     pub fn toggle_dock(self, tab: Tab) {
         if self.dock.get_untracked() == Some(tab) {

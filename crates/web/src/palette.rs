@@ -74,6 +74,8 @@ fn Open(lab: Lab) -> impl IntoView {
             "Enter" => choose(at.get_untracked()),
             "Escape" => close(),
             "k" if e.ctrl_key() || e.meta_key() => close(),
+            // the keyboard stays in what lies over the page
+            "Tab" => {}
             _ => return,
         }
         e.prevent_default();

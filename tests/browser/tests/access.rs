@@ -2,7 +2,7 @@
 //! narrow window.
 
 use browser::Visit;
-use browser::hands::{begin, chord, drag, grip, key, place, point, show, state};
+use browser::hands::{begin, chord, drag, grip, key, keys, place, point, show, state};
 use fantoccini::actions::MOUSE_BUTTON_LEFT;
 use serde_json::json;
 
@@ -102,4 +102,15 @@ async fn a_corner_of_a_rectangle_dragged_by_hand_resizes_it_and_is_told_of() {
     assert_ne!(before["text"], after["text"]);
     visit.until("document.querySelector('.inspector .made dd')").await;
     visit.until("document.querySelector('.inspector .values').textContent.includes('width')").await;
+}
+
+#[tokio::test]
+async fn the_keyboard_stays_in_the_search_and_finds_the_family_by_it() {
+    let visit = begin().await;
+    chord(&visit, &[key::CONTROL], 'k').await;
+    visit.until("document.activeElement.closest('[role=dialog]')").await;
+    keys(&visit, &format!("{}{}family", key::TAB, key::TAB)).await;
+    visit.until("document.activeElement.value === 'family'").await;
+    keys(&visit, &key::ENTER.to_string()).await;
+    visit.until("document.activeElement.id === 'tab-family'").await;
 }

@@ -596,10 +596,7 @@ pub const ACTIONS: &[Action] = &[
         label: words::GO_VALUES,
         keys: &["Alt+3"],
         enabled: |lab| document(lab).map(drop),
-        run: |lab| {
-            lab.open_dock(Tab::Table);
-            request_animation_frame(|| focus(".dock .field"));
-        },
+        run: |lab| lab.go_to_dock(Tab::Table, ".dock .field"),
     },
     Action {
         id: "go-text",
@@ -616,6 +613,24 @@ pub const ACTIONS: &[Action] = &[
                 focus(".cm-content");
             });
         },
+    },
+    Action {
+        id: "go-plot",
+        group: Group::Go,
+        contexts: &[],
+        label: words::GO_PLOT,
+        keys: &[],
+        enabled: |lab| document(lab).map(drop),
+        run: |lab| lab.go_to_dock(Tab::Plot, "#tab-plot"),
+    },
+    Action {
+        id: "go-family",
+        group: Group::Go,
+        contexts: &[],
+        label: words::GO_FAMILY,
+        keys: &[],
+        enabled: |lab| document(lab).map(drop),
+        run: |lab| lab.go_to_dock(Tab::Family, "#tab-family"),
     },
     Action {
         id: "go-inspector",
