@@ -176,7 +176,7 @@ impl Lowerer<'_> {
 }
 
 /// Returns the size of a number that is written without a unit, with a minus or without.
-fn bare_number(written: &Expr) -> Option<f64> {
+pub(crate) fn bare_number(written: &Expr) -> Option<f64> {
     match written {
         Expr::Unary(unary) if unary.op() == Some(UnaryOp::Negate) => bare_number(&unary.operand()?),
         Expr::Number(number) => number.value().filter(|_| number.unit().is_none()),

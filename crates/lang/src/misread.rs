@@ -2,15 +2,20 @@
 //!
 //! In: expressions. Out: warnings of `1/4 turn`, which is 1 over 4 turns; of `x^1/2`, half of x; of `pi() * d * n`, where
 //! n turns in radians; of degrees that are taken as radians, of hertz as radians in a second, of dates that are
-//! differences, of roots that measure nothing, and of chains of `!=`.
+//! differences, of roots that measure nothing, of powers that may measure anything, of percents of nothing, and of
+//! chains of `!=`.
 
-use crate::angles::{ANGLE, UNITS};
+use crate::angles::{ANGLE, UNITS, bare_number};
 use crate::kinds::Kind;
 use crate::lower::{Lowerer, OWN};
 use crate::scope::Scope;
 use base::{Diagnostic, Place};
 use expr::dimension::Dimension;
-use syntax::ast::{AstNode, BinaryExpr, BinaryOp, ChainExpr, Expr, NumberExpr};
+use kernel::Term;
+
+use std::iter::successors;
+use syntax::SyntaxNode;
+use syntax::ast::{AstNode, BinaryExpr, BinaryOp, ChainExpr, Expr, NumberExpr, Part, Value};
 
 /// The class of what turns.
 const TURNING: &str = "AngularVelocity";
@@ -26,6 +31,9 @@ impl Lowerer<'_> {
             Some(BinaryOp::Divide) => fraction(binary).or_else(|| root(binary)),
             _ => None,
         };
+        if let Some((message, hint)) = percent_of_itself(binary) {
+            return self.report(Diagnostic::warning("percent-of-what", place, message).hint(hint));
+        }
         let written = binary.syntax().text().to_string();
         let told = told
             .map(|(meaning, hint)| ("fraction", format!("{written} is {meaning}"), hint))
@@ -116,6 +124,35 @@ impl Lowerer<'_> {
         self.report(Diagnostic::warning("uneven-root", place, message).hint(hint));
     }
 
+    /// Warns of `a^n` where a measures something and n may become another number: so may what the power measures, and
+    /// nothing tells that it does not go with what it is given to.
+    pub(crate) fn warn_of_open_power(
+        &mut self,
+        scope: &Scope,
+        power: &BinaryExpr,
+        (kind, exponent): (&Kind, &Term),
+    ) {
+        let Kind::Number(Some(dimension)) = kind else { return };
+        let is_known = matches!(exponent, Term::Number { .. }) || dimension.is_none();
+        let (Some(base), Some(by)) = (power.left(), power.right()) else { return };
+        // lengths of a sheet are plain numbers to many a program
+        let is_of_length =
+            *dimension == Dimension::LENGTH.power(dimension.0[0]) && !self.document.writes_lengths;
+        if is_known || is_of_length || scope.file != OWN || self.silent > 0 {
+            return;
+        }
+        let place = Place { file: scope.file, span: power.span() };
+        let (written, base, by) = (power.syntax().text(), base.syntax().text(), by.syntax().text());
+        let measured = kind.words(&self.document);
+        let message = format!(
+            "what {written} measures changes with {by}: {base} is {measured}, and the power is not checked"
+        );
+        let hint = format!(
+            "divide by a unit first, as in `({base} / 1 m)^{by}`, or write the exponent as a number"
+        );
+        self.report(Diagnostic::warning("open-power", place, message).hint(hint));
+    }
+
     /// `pi() * d * n`, where n is an angular velocity: told of the whole product.
     fn turns_by_pi(
         &mut self,
@@ -155,6 +192,46 @@ fn fraction(quotient: &BinaryExpr) -> Option<(String, String)> {
     let hint =
         format!("a unit belongs to the number before it alone: write `{above} {unit} / {below}`");
     is_tight.then(|| (format!("{above} divided by {below} {unit}"), hint))
+}
+
+/// `price + 19%` of a price that is more than one: what it comes to, and what is written for so much of the price.
+fn percent_of_itself(sum: &BinaryExpr) -> Option<(String, String)> {
+    let sign = match sum.op() {
+        Some(BinaryOp::Add) => '+',
+        Some(BinaryOp::Subtract) => '-',
+        _ => return None,
+    };
+    let (left, Expr::Number(part)) = (sum.left()?, sum.right()?) else { return None };
+    part.unit().filter(|unit| unit.text() == "%")?;
+    // a quotient may be a share, as what has percents itself is
+    let is_share = matches!(&left, Expr::Binary(b) if b.op() != Some(BinaryOp::Multiply));
+    if is_share || !factors(&left).iter().any(is_more_than_one) {
+        return None;
+    }
+    let (whole, part) = (left.syntax().text(), part.syntax().text());
+    let message = format!("{part} is {part} of 1, not of {whole}", part = part.to_string().trim());
+    let hint = match left {
+        Expr::Binary(_) => format!("so much of it is `({whole}) * (1 {sign} {part})`"),
+        _ => format!("so much of it is `{whole} * (1 {sign} {part})`"),
+    };
+    Some((message, hint))
+}
+
+/// Returns true for a number without a unit that is more than one, and for the name of what is declared with one not far
+/// above or below.
+fn is_more_than_one(e: &Expr) -> bool {
+    /// So many members are looked at, either way: a long document has more.
+    const NEAR: usize = 64;
+    let Expr::Name(name) = e else { return bare_number(e).is_some_and(|x| x > 1.0) };
+    let Some(word) = name.name() else { return false };
+    let is_it = |part: &Part| part.names().any(|name| name.text() == word.text());
+    let near = |node: SyntaxNode| {
+        let before = successors(node.prev_sibling(), SyntaxNode::prev_sibling).take(NEAR);
+        before.chain(successors(node.next_sibling(), SyntaxNode::next_sibling).take(NEAR))
+    };
+    let mut parts = name.syntax().ancestors().flat_map(near).filter_map(Part::cast);
+    let value = parts.find(is_it).and_then(|part| part.value()).and_then(Value::expr);
+    value.is_some_and(|value| bare_number(&value).is_some_and(|x| x > 1.0))
 }
 
 /// `2026-01-15`: a date that is a difference.

@@ -75,6 +75,9 @@ impl Lowerer<'_> {
                 if let (BinaryOp::Power, Term::Number { value, .. }) = (op, &b.0) {
                     self.warn_of_uneven_root(scope, &left, (&a.1, *value));
                 }
+                if op == BinaryOp::Power {
+                    self.warn_of_open_power(scope, binary, (&a.1, &b.0));
+                }
                 if operator_of(op).is_some_and(BinaryOperator::is_comparison) {
                     self.warn_of_bare_angles(scope, &[left, right]);
                 }

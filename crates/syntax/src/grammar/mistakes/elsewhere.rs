@@ -102,6 +102,15 @@ fn word(p: &Parser<'_>) -> Option<String> {
         "subject" if next == "to" => {
             format!("what is to hold is a rule: `constraint {}`", p.quoted_line(p.pos() + 2))
         }
+        "where" if is_named && !matches!(p.nth(2), Colon | Ident) => {
+            format!("what is to hold is a rule: `constraint {}`", p.quoted_line(p.pos() + 1))
+        }
+        "print" | "show" | "display" | "echo" | "println" if is_named && p.nth(2) != Colon => {
+            format!(
+                "every value is shown by itself; what is computed has a name: `answer => {}`",
+                p.quoted_line(p.pos() + 1)
+            )
+        }
         "soft" | "hard" | "optional" if next == "constraint" => {
             "a strength is weak, medium or strong: `weak constraint x = 0`".into()
         }
