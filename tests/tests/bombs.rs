@@ -406,6 +406,11 @@ fn what_is_long_costs_as_much_as_it_is_long() {
             Holds,
         ),
         (
+            "a text with many values in it",
+            format!("x: Real = 1\nt: Text = \"{}\"\n", "a{x}".repeat(20_000)),
+            Holds,
+        ),
+        (
             "many different numbers",
             "xs: List of 150 Integer in 1..150\nconstraint allDifferent(xs)\n".into(),
             Holds,

@@ -144,7 +144,7 @@ impl Lowerer<'_> {
 
     /// Lowers a text: its words, and what is said of the values in it, joined.
     fn text(&mut self, scope: &Scope, text: &ast::TextExpr) -> Lowered {
-        let mut joined: Option<Term> = None;
+        let mut joined = Vec::new();
         for piece in text.pieces() {
             let term = match piece {
                 ast::TextPiece::Words(words) if words.is_empty() => continue,
@@ -154,12 +154,9 @@ impl Lowerer<'_> {
                     self.said(scope, &value, (term, &kind))?
                 }
             };
-            joined = Some(match joined {
-                None => term,
-                Some(before) => Term::Binary(BinaryOperator::Add, Box::new(before), Box::new(term)),
-            });
+            joined.push(term);
         }
-        Some((joined.unwrap_or_else(|| Term::Text(String::new())), Kind::Text))
+        Some((join_texts(joined), Kind::Text))
     }
 
     /// Makes the text that a value in a text is read as; reports one that is none.
@@ -696,6 +693,17 @@ impl Lowerer<'_> {
         };
         Some(kind)
     }
+}
+
+/// Joins texts, one after the other where they are few, else half by half: a long text is no deep term.
+fn join_texts(mut texts: Vec<Term>) -> Term {
+    const FEW: usize = 64;
+    let join = |a, b| Term::Binary(BinaryOperator::Add, Box::new(a), Box::new(b));
+    if texts.len() > FEW {
+        let end = texts.split_off(texts.len() / 2);
+        return join(join_texts(texts), join_texts(end));
+    }
+    texts.into_iter().reduce(join).unwrap_or_else(|| Term::Text(String::new()))
 }
 
 /// Returns what a written operator does in a term; nothing for those of sets, which are sent.
