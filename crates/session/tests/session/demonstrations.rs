@@ -655,7 +655,7 @@ fn how_the_other_case_is_drawn_is_asked_no_more_after_escape() {
     match desk.session.enter(desk.id, "d > 80").expect("it is a condition") {
         // a name that says all of it is not said twice
         Turn::Made { name, text, .. } => {
-            assert_eq!((name.as_str(), text.as_str()), ("if d > 80", ""))
+            assert_eq!((name.as_str(), text.as_str()), ("if d > 80", ""));
         }
         other => panic!("{other:?}"),
     }

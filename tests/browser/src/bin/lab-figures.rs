@@ -113,8 +113,8 @@ async fn row(name: &str, text: Option<&str>) -> String {
 fn beside(state: &Value, (x, y): (f64, f64)) -> (f64, f64) {
     let grips = state["grips"].as_array().into_iter().flatten();
     let places = grips.filter_map(|grip| Some((grip["px"].as_f64()?, grip["py"].as_f64()?)));
-    let far = |(a, b): &(f64, f64)| (a - x).hypot(b - y);
-    let others = places.filter(|place| far(place) > 2.0);
+    let far = |(a, b): &(f64, f64)| (a - x) * (a - x) + (b - y) * (b - y);
+    let others = places.filter(|place| far(place) > 4.0);
     others.min_by(|a, b| far(a).total_cmp(&far(b))).unwrap_or((x, y))
 }
 
