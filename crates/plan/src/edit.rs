@@ -14,7 +14,7 @@ use crate::run::{Ran, run, scatter};
 use crate::task::{Holding, Task, Wish};
 use base::IdVec;
 use base::number::Toward;
-use kernel::{Primitive, SlotId, Term, ThingId, Value, Values};
+use kernel::{SlotId, Term, ThingId, Value, Values};
 use solve::Level;
 use std::collections::BTreeSet;
 
@@ -118,34 +118,6 @@ pub struct Conflict {
     pub circuit: Vec<Source>,
 }
 
-/// Begins what a side is written of and nothing is given to on that side, as far out as the largest number that is
-/// given of its kind: from there it comes to the answer on its side. Cost: linear where sides are written, else none.
-fn begin_aside(model: Model<'_>, has_value: &IdVec<SlotId, bool>, values: &mut Values) {
-    let slots = &model.structure.slots;
-    let is_open =
-        |slot: SlotId| !has_value[slot] && matches!(slots[slot].primitive, Primitive::Real(_));
-    let sides: Vec<(SlotId, Toward)> =
-        model.structure.sides.iter().map(|(&slot, &toward)| (slot, toward)).collect();
-    if !sides.iter().any(|&(slot, _)| is_open(slot)) {
-        return;
-    }
-    // there are few kinds of quantities
-    let mut farthest: Vec<(Primitive, f64)> = Vec::new();
-    for (id, s) in slots.iter().filter(|(id, s)| has_value[*id] && s.primitive.is_number()) {
-        let size = values.numbers[id].abs();
-        match farthest.iter_mut().find(|(primitive, _)| *primitive == s.primitive) {
-            Some((_, far)) => *far = far.max(size),
-            None => farthest.push((s.primitive, size)),
-        }
-    }
-    for (slot, toward) in sides.into_iter().filter(|&(slot, _)| is_open(slot)) {
-        let alike = farthest.iter().find(|(primitive, _)| *primitive == slots[slot].primitive);
-        let far = alike.map_or(0.0, |&(_, far)| far);
-        let far = if far > 0.0 { far } else { 1.0 };
-        values.numbers[slot] = if toward == Toward::More { far } else { -far };
-    }
-}
-
 impl Planner {
     /// Opens a document: given values are taken from the host, the others are what rules make them.
     ///
@@ -204,7 +176,6 @@ impl Planner {
                 has_value[slot] = true;
             }
         }
-        begin_aside(model, &has_value, values);
         let holding = |slot: SlotId| {
             match Self::resting_hold(model.structure, slot) {
                 resting if has_value[slot] => resting,

@@ -300,13 +300,7 @@ pub(crate) fn write_sides(
     sides: &BTreeMap<SlotId, Toward>,
     host: &dyn Host,
 ) -> (State, Planner) {
-    // by its side begins what nothing is given to, when the text is opened again
-    let is_open = |(slot, _): &(&SlotId, &Toward)| state.structure.given(**slot).is_none();
-    let mut sides = sides.clone();
-    for (&slot, &toward) in state.structure.sides.iter().filter(is_open) {
-        sides.entry(slot).or_insert(toward);
-    }
-    if sides == state.structure.sides {
+    if *sides == state.structure.sides {
         return (state, planner);
     }
     let document = &state.lowered.document;
