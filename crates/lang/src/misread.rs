@@ -12,7 +12,6 @@ use crate::scope::Scope;
 use base::{Diagnostic, Place};
 use expr::dimension::Dimension;
 use kernel::Term;
-
 use std::iter::successors;
 use syntax::SyntaxNode;
 use syntax::ast::{AstNode, BinaryExpr, BinaryOp, ChainExpr, Expr, NumberExpr, Part, Value};

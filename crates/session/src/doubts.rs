@@ -4,6 +4,7 @@
 //! whose width is negative is one, turned inside out. Nothing is refused for a doubt.
 
 use crate::views::drawn;
+use base::Name;
 use eval::{Answer, Context, Evaluator, Standing};
 use kernel::Document;
 use std::rc::Rc;
@@ -12,6 +13,11 @@ use std::rc::Rc;
 const DOUBT: &str = "doubt";
 /// So many are told of a drawing.
 const MOST: usize = 3;
+
+/// Whether a message tells of doubts, and of none.
+pub(crate) fn is_none(message: &Name, answer: &Answer<'_>) -> bool {
+    message.as_str() == DOUBT && matches!(answer, Answer::Text(words) if words.is_empty())
+}
 
 /// Returns what a figure is doubtful for; nothing where its class tells of none.
 pub(crate) fn of<'a>(

@@ -1,5 +1,6 @@
 //! The values view: a row for every value, virtual parts included.
 
+use crate::doubts;
 use crate::state::State;
 use crate::view::ValueRow;
 use crate::views::drawn::walk;
@@ -464,6 +465,7 @@ impl<'a> Maker<'a> {
             append(&mut path, name);
             let said = [written.map_or("", |c| &document.classes[c].name), doc.as_str()];
             match answer {
+                Ok(answer) if doubts::is_none(name, &answer) => {}
                 Ok(answer) => match answered(document, &path, &answer, said, is_layout) {
                     None if draws => self.add_drawn(&answer, &mut path, most),
                     None if is_table(document, &answer, thing) => {

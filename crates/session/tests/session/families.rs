@@ -379,3 +379,13 @@ fn a_rectangle_turned_inside_out_by_its_parameters_is_told_at_its_step_and_in_it
     assert_eq!(told[0], "");
     assert!(told[1].starts_with("rectangle: its height is negative"), "{}", told[1]);
 }
+
+#[test]
+fn a_doubt_is_a_value_where_there_is_one() {
+    let mut desk = Desk::of("use geometry\nr: Rectangle { width = 4  height = 3 }\n");
+    let is_row =
+        |desk: &Desk, path: &str| desk.session.values(desk.id).iter().any(|row| row.path == path);
+    assert!(is_row(&desk, "r.area") && !is_row(&desk, "r.doubt"));
+    desk.set("r.height", -3.0).expect("nothing is refused for it");
+    assert!(is_row(&desk, "r.doubt"));
+}
