@@ -176,6 +176,7 @@ impl Planner {
                 has_value[slot] = true;
             }
         }
+        crate::sides::begin(model, &has_value, values);
         let holding = |slot: SlotId| {
             match Self::resting_hold(model.structure, slot) {
                 resting if has_value[slot] => resting,

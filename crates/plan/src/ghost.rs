@@ -103,6 +103,21 @@ impl Planner {
         found
     }
 
+    /// Finds other roots of the equations that determine some slots, nearest first, while everything that is given stays.
+    pub(crate) fn roots(
+        &mut self,
+        model: Model<'_>,
+        values: &Values,
+        own: &BTreeSet<SlotId>,
+        host: &mut dyn Host,
+    ) -> Vec<Ghost> {
+        let alike = std::mem::take(&mut self.alike);
+        let mut found = Vec::new();
+        self.lifted(model, values, own, Rest::Stays, LARGEST, host, &mut found);
+        self.alike = alike;
+        found
+    }
+
     /// Adds the states that some slots can come to with their own stays lifted, in components of at `most` so
     /// many slots.
     #[expect(clippy::too_many_arguments, reason = "a ghost is all of these")]

@@ -75,6 +75,7 @@ mod whole;
 pub mod diagnose;
 pub mod explain;
 mod ghost;
+mod sides;
 pub mod status;
 
 pub use course::{CourseChange, Decided};

@@ -235,6 +235,7 @@ impl Planned {
             }
             double_roots = self.planner.open(model, &mut values, &mut texts).double_roots;
         }
+        self.planner.take_sides(model, &mut values, &mut texts);
         given_faults.extend(texts.unlike_copy(&values).map(|origin| eval::Fault {
             origin: Some(origin),
             kind: eval::FaultKind::Endless,

@@ -292,16 +292,35 @@ pub(crate) fn sides_after(
     sides
 }
 
-/// Makes the state whose text says these sides and, besides what bodies say of their parts, no others, and its
-/// planner.
+/// Makes the state whose text says these sides, and its planner. Besides, bodies say sides of their parts, and what is
+/// given no value keeps the side that is written of it, where the text opens elsewhere without.
 pub(crate) fn write_sides(
     state: State,
     planner: Planner,
     sides: &BTreeMap<SlotId, Toward>,
     host: &dyn Host,
 ) -> (State, Planner) {
+    let is_open = |slot: &SlotId| state.structure.given(*slot).is_none();
+    let leaves = |slot: &SlotId| is_open(slot) && !sides.contains_key(slot);
+    let leaving: BTreeMap<SlotId, Toward> =
+        state.structure.sides.iter().map(|(&s, &t)| (s, t)).filter(|(s, _)| leaves(s)).collect();
+    let Some(text) = saying_sides(&state, sides) else { return (state, planner) };
+    let (next, planner) = State::written(text, &state, host, planner.into_plans());
+    if leaving.is_empty() || is_same(&next, &state) {
+        return (next, planner);
+    }
+    let sides = sides.iter().chain(&leaving).map(|(&slot, &toward)| (slot, toward)).collect();
+    match saying_sides(&state, &sides) {
+        Some(text) => State::written(text, &state, host, planner.into_plans()),
+        None => State::written(state.text.clone(), &state, host, planner.into_plans()),
+    }
+}
+
+/// Returns the text of a state with these sides and, besides what bodies say of their parts, no others; nothing where
+/// it says so.
+fn saying_sides(state: &State, sides: &BTreeMap<SlotId, Toward>) -> Option<String> {
     if *sides == state.structure.sides {
-        return (state, planner);
+        return None;
     }
     let document = &state.lowered.document;
     let is_said =
@@ -312,11 +331,7 @@ pub(crate) fn write_sides(
         written.map(|(slot, toward)| state.structure.side_of(document, slot, toward)).collect()
     });
     let edits = lang::write_sides(&state.lowered, &kept, &new);
-    if edits.is_empty() {
-        return (state, planner);
-    }
-    let text = syntax::edit::apply(&state.text, &edits);
-    State::written(text, &state, host, planner.into_plans())
+    (!edits.is_empty()).then(|| syntax::edit::apply(&state.text, &edits))
 }
 
 /// Returns the slots whose values differ by more than rounding.
