@@ -1,5 +1,5 @@
 //! Writes the table of files that the command carries: the library, the gallery and, where the
-//! environment names the built page (`THINGLAB_DIST`, set by `cargo lab`), the page.
+//! environment names the folder of a built page (`THINGLAB_DIST`, a whole path), the page.
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};

@@ -122,8 +122,11 @@ fn compile(package: &str, compiler: &WasmCompiler, effort: Effort) -> Result<Opt
     if made.is_whole { Ok(Some(made)) } else { Err(String::from(failure)) }
 }
 
-/// Builds the command out of a selection of packages; gives its path. At full effort it carries what `dist/` holds of
-/// the page; else it is told where the page is: `serve --page`.
+/// The packages that are compiled for this machine. Cargo chooses the features of libraries for all of a command's
+/// packages, and another choice would compile the rooms once more.
+pub(crate) const NATIVE: [&str; 5] = ["--workspace", "--exclude", "bindgen", "--exclude", "web"];
+
+/// Builds the command out of a selection of packages; gives its path. It is told where the page is: `serve --page`.
 ///
 /// # Errors
 /// As [`build`].
@@ -131,21 +134,13 @@ pub(crate) fn build_command(effort: Effort, selection: &[&str]) -> Result<PathBu
     say!("thinglab: compiling");
     let mut command = tools::cargo(&["build", "--bin", "thinglab"]);
     command.args(selection);
-    let folder = match effort {
-        Effort::Full => {
-            command.arg("--release").env("THINGLAB_DIST", top().join("dist"));
-            "release"
-        }
-        Effort::Tests => {
-            tools::lint(&mut command);
-            "debug"
-        }
-        Effort::Quick | Effort::Followed => "debug",
-    };
+    if effort == Effort::Tests {
+        tools::lint(&mut command);
+    }
     run("thinglab did not compile", quiet(&mut command))?;
     let target =
         env::var_os("CARGO_TARGET_DIR").map_or_else(|| top().join("target"), PathBuf::from);
-    Ok(top().join(target).join(folder).join(format!("thinglab{}", env::consts::EXE_SUFFIX)))
+    Ok(top().join(target).join("debug").join(format!("thinglab{}", env::consts::EXE_SUFFIX)))
 }
 
 /// The page has a target folder of its own: two compilers in one would undo each other's work.

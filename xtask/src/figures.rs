@@ -74,7 +74,7 @@ fn visited(
     visitor: &str,
 ) -> Result<String, String> {
     bundle::build(compiler, effort)?;
-    let thinglab = bundle::build_command(Effort::Quick, &[])?;
+    let thinglab = bundle::build_command(Effort::Quick, &bundle::NATIVE)?;
     let mut visit = tools::cargo(&["run", "--quiet", "--package", "browser", "--bin", visitor]);
     visit.env("THINGLAB", thinglab).env("CHROMIUM", browser).stderr(Stdio::inherit());
     let output = visit.output().map_err(|error| format!("{visitor}: {error}"))?;

@@ -52,8 +52,13 @@ pub(crate) fn parse(arguments: &[String]) -> Result<Wish, String> {
 pub(crate) fn run(wish: &Wish) -> ExitCode {
     tools::require(&[Tool::WasmCompiler], wish.missing);
     let Some(compiler) = tools::wasm_compiler() else { return ExitCode::from(2) };
-    let built = bundle::build(&compiler, wish.effort);
-    let thinglab = match built.and_then(|_| bundle::build_command(wish.effort, &[])) {
+    // neither keeps two cores busy by itself
+    let (page, thinglab) = std::thread::scope(|scope| {
+        let page = scope.spawn(|| bundle::build(&compiler, wish.effort));
+        let thinglab = bundle::build_command(wish.effort, &bundle::NATIVE);
+        (page.join().unwrap_or_else(|_| Err(String::from("the page broke off"))), thinglab)
+    });
+    let thinglab = match page.and(thinglab) {
         Ok(path) => path,
         Err(why) => {
             say!("{why}");
@@ -68,10 +73,7 @@ pub(crate) fn run(wish: &Wish) -> ExitCode {
 
 fn serve(thinglab: &Path, wish: &Wish) -> ExitCode {
     let mut server = Command::new(thinglab);
-    server.arg("serve").args(&wish.serve);
-    if wish.effort != Effort::Full {
-        server.arg("--page").arg(crate::top().join("dist"));
-    }
+    server.arg("serve").args(&wish.serve).arg("--page").arg(crate::top().join("dist"));
     match server.status() {
         Ok(status) if status.success() => ExitCode::SUCCESS,
         Ok(_) => ExitCode::FAILURE,

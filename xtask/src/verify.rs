@@ -118,13 +118,10 @@ fn page(wish: &Wish) -> Page {
     }
 }
 
-/// The packages that every command here compiles: cargo chooses the features of libraries for all of a command's
-/// packages, and another choice would compile the rooms once more.
+/// The packages that every command here compiles.
 fn selection(browser: Browser, page: Page) -> &'static [&'static str] {
     match (browser, page) {
-        (Browser::Test, Page::AsItIsBuilt) => {
-            &["--workspace", "--exclude", "bindgen", "--exclude", "web"]
-        }
+        (Browser::Test, Page::AsItIsBuilt) => &bundle::NATIVE,
         (Browser::Test, Page::WithTheRooms) => &["--workspace", "--exclude", "bindgen"],
         (Browser::LeaveOut, _) => &["--workspace", "--exclude", "bindgen", "--exclude", "browser"],
     }

@@ -66,7 +66,8 @@ const SECURITY: [(&str, &str); 8] = [
 ];
 
 const NO_PAGE: &str = "<!doctype html><meta charset=utf-8><title>ThingLab</title>\
-    <p>This thinglab was built without its page. <code>cargo lab</code> builds both.";
+    <p>This thinglab was built without its page. <code>cargo lab</code> builds it in <code>dist</code>: \
+    <code>thinglab serve --page dist</code>.";
 
 type Answer = Response<Full<Bytes>>;
 
