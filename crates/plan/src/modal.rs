@@ -191,7 +191,8 @@ impl Task {
     }
 }
 
-fn stands(planner: &Planner, modes: &Rc<Modes>, mode: Mode) -> Stands {
+/// Returns a mode with its plain system and plan.
+pub(crate) fn stands(planner: &Planner, modes: &Rc<Modes>, mode: Mode) -> Stands {
     let (system, plan) = planner.in_mode(modes, &mode);
     Stands { modes: modes.clone(), system, plan, mode }
 }
@@ -213,7 +214,7 @@ pub(crate) fn run_on(
     let numbers: Vec<f64> = task.numbers(&values.numbers).collect();
     let hands = &mut Hands { planner, model, values, host };
     if let Some(decision) = dragged(task, modes, ground, hands) {
-        return tell(planner, modes, task, decision);
+        return tell(planner, stands(planner, modes, decision.mode.clone()), task, decision);
     }
     values.texts = texts;
     scatter(task, &numbers, values);
@@ -261,7 +262,7 @@ pub(crate) fn run(
         attempt(&decision.mode);
     }
     scatter(task, &decision.tried.values, values);
-    tell(planner, modes, task, decision)
+    tell(planner, stands(planner, modes, decision.mode.clone()), task, decision)
 }
 
 pub(crate) fn has_texts(task: &Task) -> bool {
@@ -269,8 +270,7 @@ pub(crate) fn has_texts(task: &Task) -> bool {
 }
 
 /// Says in the document's terms what a decision came to.
-pub(crate) fn tell(planner: &Planner, modes: &Rc<Modes>, task: &Task, decision: Decision) -> Ran {
-    let stands = stands(planner, modes, decision.mode);
+pub(crate) fn tell(planner: &Planner, stands: Stands, task: &Task, decision: Decision) -> Ran {
     let mut task = task.clone();
     task.stand(stands.clone());
     let mut told = ran(planner, &task, &decision.tried.outcome);
@@ -301,13 +301,38 @@ pub(crate) fn tell(planner: &Planner, modes: &Rc<Modes>, task: &Task, decision: 
 /// is halved, so that the new mode is met near where it begins: it has other branches elsewhere.
 #[derive(Debug)]
 pub(crate) struct ModalDrag {
-    modes: Rc<Modes>,
     x0: Vec<f64>,
     inputs: Vec<SlotIndex>,
     followed: BTreeMap<Mode, Followed>,
+    met: Met,
     mode: Mode,
     now: Vec<f64>,
     wishes: u64,
+}
+
+/// The modes that a drag has met, with their systems and plans: each wish asks for them several times.
+#[derive(Debug)]
+struct Met {
+    modes: Rc<Modes>,
+    planned: BTreeMap<Mode, (Rc<System>, Rc<Plan>)>,
+}
+
+impl Met {
+    fn plan(&mut self, planner: &Planner, mode: &Mode) -> &Rc<Plan> {
+        &self.planned(planner, mode).1
+    }
+
+    fn stands(&mut self, planner: &Planner, mode: &Mode) -> Stands {
+        let (system, plan) = self.planned(planner, mode).clone();
+        Stands { modes: self.modes.clone(), system, plan, mode: mode.clone() }
+    }
+
+    fn planned(&mut self, planner: &Planner, mode: &Mode) -> &(Rc<System>, Rc<Plan>) {
+        if !self.planned.contains_key(mode) {
+            self.planned.insert(mode.clone(), planner.in_mode(&self.modes, mode));
+        }
+        &self.planned[mode]
+    }
 }
 
 #[derive(Debug)]
@@ -350,7 +375,7 @@ struct Hands<'a> {
 impl ModalDrag {
     pub(crate) fn begin(modes: &Rc<Modes>, x0: Vec<f64>, inputs: Vec<SlotIndex>) -> Self {
         Self {
-            modes: modes.clone(),
+            met: Met { modes: modes.clone(), planned: BTreeMap::new() },
             inputs,
             followed: BTreeMap::new(),
             mode: modes.first(&x0, &x0),
@@ -362,19 +387,20 @@ impl ModalDrag {
 
     /// Returns true if a way leads on from the press: its rules hold there, and what is moved are real numbers.
     fn leads_on(&mut self, task: &Task, hands: &mut Hands<'_>) -> bool {
-        let (_, plan) = hands.planner.in_mode(&self.modes, &self.mode);
+        let plan = self.met.plan(hands.planner, &self.mode).clone();
         let relations = &task.system.relations;
         let is_required = |&r: &u32| relations[r as usize].level == Level::Required;
-        let Self { modes, x0, inputs, mode, .. } = self;
+        let Self { met, x0, inputs, mode, .. } = self;
         solve::are_continuous(&plan, inputs)
-            && !modes.broken(mode, x0).iter().any(is_required)
+            && !met.modes.broken(mode, x0).iter().any(is_required)
             && self.at_press(task, &plan, hands).drag.holds()
     }
 
     /// Returns the drag in the present mode, begun at the press where it was not.
     fn at_press(&mut self, task: &Task, plan: &Plan, hands: &Hands<'_>) -> &mut Followed {
-        let Self { modes, x0, inputs, followed, mode, .. } = self;
-        let begin = || Followed::begin(modes, mode, plan, x0, inputs, &leans(hands.model, task));
+        let Self { met, x0, inputs, followed, mode, .. } = self;
+        let begin =
+            || Followed::begin(&met.modes, mode, plan, x0, inputs, &leans(hands.model, task));
         followed.entry(mode.clone()).or_insert_with(begin)
     }
 
@@ -395,9 +421,9 @@ impl ModalDrag {
         if decision.ended != Ended::Settled {
             self.come_near(task, targets, until, hands);
         }
-        let mut told = tell(planner, &self.modes, task, decision);
+        let mut told = tell(planner, self.met.stands(planner, &decision.mode), task, decision);
         if told.stands.take().is_some() {
-            task.stand(stands(planner, &self.modes, self.mode.clone()));
+            task.stand(self.met.stands(planner, &self.mode));
         }
         told
     }
@@ -411,7 +437,7 @@ impl ModalDrag {
         hands: &mut Hands<'_>,
     ) -> Decision {
         let from: Vec<f64> = self.inputs.iter().map(|&input| self.now[input as usize]).collect();
-        let (_, plan) = hands.planner.in_mode(&self.modes, &self.mode);
+        let plan = self.met.plan(hands.planner, &self.mode).clone();
         let parts = self.at_press(task, &plan, hands).drag.parts(&plan, targets);
         for part in 1..parts {
             if hands.planner.spent() > until || hands.planner.is_spent() {
@@ -461,9 +487,8 @@ impl ModalDrag {
     }
 
     /// Returns how many given numbers yield where the drag stands.
-    fn yielded(&self, hands: &Hands<'_>) -> [usize; 2] {
-        let (_, plan) = hands.planner.in_mode(&self.modes, &self.mode);
-        plan.yields()
+    fn yielded(&mut self, hands: &Hands<'_>) -> [usize; 2] {
+        self.met.plan(hands.planner, &self.mode).yields()
     }
 
     /// Goes on from what a wish came to.
@@ -476,16 +501,17 @@ impl ModalDrag {
     /// Finds the mode that stands at a wish; the host's texts are then of that mode, where there is none as they were.
     fn decide(&mut self, task: &Task, targets: &[f64], hands: &mut Hands<'_>) -> Decision {
         self.wishes += 1;
-        let Self { modes, x0, inputs, followed, mode, now, wishes } = self;
+        let Self { met, x0, inputs, followed, mode, now, wishes } = self;
+        let modes = met.modes.clone();
         let Hands { planner, model, values, host } = hands;
         let texts = values.texts.clone();
         let leans = leans(*model, task);
         let standing = &*mode;
         let mut attempt = |attempted: &Mode| {
-            let (_, plan) = planner.in_mode(modes, attempted);
+            let plan = met.plan(planner, attempted).clone();
             values.texts.clone_from(&texts);
             let mut adapter = Adapter { planner, model: *model, task, values, host: *host };
-            let begin = || Followed::begin(modes, attempted, &plan, x0, inputs, &leans);
+            let begin = || Followed::begin(&modes, attempted, &plan, x0, inputs, &leans);
             let is_kept = followed.get(attempted).is_some_and(|follow| follow.wish + 1 >= *wishes);
             let anchors =
                 followed.get(standing).filter(|_| !is_kept).map(|f| f.drag.anchors().to_vec());
@@ -506,7 +532,7 @@ impl ModalDrag {
             planner.spend(follow.drag.spent() - before);
             Tried { plan, outcome, values: follow.drag.values().to_vec() }
         };
-        let decision = decide_along(modes, standing, x0, &mut attempt);
+        let decision = decide_along(&modes, standing, x0, &mut attempt);
         if decision.ended != Ended::Settled {
             values.texts = texts;
         } else if has_texts(task) {

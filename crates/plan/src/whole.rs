@@ -6,7 +6,7 @@
 use crate::aim::Aim;
 use crate::edit::NotDecided;
 use crate::host::Host;
-use crate::modal::{Decide, attempt_in_mode, has_texts, tell};
+use crate::modal::{Decide, attempt_in_mode, has_texts, stands, tell};
 use crate::planner::{Model, Planner};
 use crate::run::{Ground, Ran, ground, leans, scatter};
 use crate::task::Task;
@@ -149,7 +149,7 @@ pub(crate) fn run(
                 trying.attempt(&decision.mode, &begun);
             }
             scatter(task, &decision.tried.values, trying.values);
-            Some(tell(planner, modes, task, decision))
+            Some(tell(planner, stands(planner, modes, decision.mode.clone()), task, decision))
         }
         looked @ (Looked::Impossible | Looked::NotDecided(_)) => {
             trying.values.texts = trying.texts;

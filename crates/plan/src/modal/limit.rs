@@ -34,7 +34,7 @@ impl ModalDrag {
             let on: Vec<f64> = self.inputs.iter().zip(&beyond).map(on).collect();
             let decision = self.decide(task, &on, hands);
             let stands = decision.ended == Ended::Settled
-                && !self.modes.passes(&decision.mode, &self.now, &decision.tried.values);
+                && !self.met.modes.passes(&decision.mode, &self.now, &decision.tried.values);
             if stands {
                 self.stand_in(task, &decision, hands);
             } else if part == ONWARD {
