@@ -19,25 +19,26 @@ use syntax::ast::{AstNode, BinaryExpr, BinaryOp, ChainExpr, Expr, NumberExpr, Pa
 /// The class of what turns.
 const TURNING: &str = "AngularVelocity";
 
+/// What is told of an expression: the warning's code, its message and its hint.
+type Told = (&'static str, String, String);
+
 impl Lowerer<'_> {
     /// Warns of a product or quotient that may be meant otherwise.
     pub(crate) fn warn_of_misreading(&mut self, scope: &Scope, binary: &BinaryExpr) {
         if scope.file != OWN || self.silent > 0 {
             return;
         }
-        let place = Place { file: scope.file, span: binary.span() };
+        // a loop asks at each turn: what is no candidate is not written out
         let told = match binary.op() {
             Some(BinaryOp::Divide) => fraction(binary).or_else(|| root(binary)),
-            _ => None,
+            Some(BinaryOp::Add | BinaryOp::Subtract) => {
+                percent_of_itself(binary).or_else(|| date(binary))
+            }
+            Some(BinaryOp::Multiply) => None,
+            _ => return,
         };
-        if let Some((message, hint)) = percent_of_itself(binary) {
-            return self.report(Diagnostic::warning("percent-of-what", place, message).hint(hint));
-        }
-        let written = binary.syntax().text().to_string();
-        let told = told
-            .map(|(meaning, hint)| ("fraction", format!("{written} is {meaning}"), hint))
-            .or_else(|| date(binary, &written));
         if let Some((code, message, hint)) = told.or_else(|| self.turns_by_pi(scope, binary)) {
+            let place = Place { file: scope.file, span: binary.span() };
             self.report(Diagnostic::warning(code, place, message).hint(hint));
         }
     }
@@ -153,11 +154,7 @@ impl Lowerer<'_> {
     }
 
     /// `pi() * d * n`, where n is an angular velocity: told of the whole product.
-    fn turns_by_pi(
-        &mut self,
-        scope: &Scope,
-        product: &BinaryExpr,
-    ) -> Option<(&'static str, String, String)> {
+    fn turns_by_pi(&mut self, scope: &Scope, product: &BinaryExpr) -> Option<Told> {
         let around = product.syntax().parent().and_then(BinaryExpr::cast);
         if !is_product(product) || around.is_some_and(|around| is_product(&around)) {
             return None;
@@ -179,7 +176,7 @@ impl Lowerer<'_> {
 }
 
 /// `1/4 turn`, `1/2 %`: what it is, and what is written for a fraction of the unit.
-fn fraction(quotient: &BinaryExpr) -> Option<(String, String)> {
+fn fraction(quotient: &BinaryExpr) -> Option<Told> {
     let (Expr::Number(above), Expr::Number(below)) = (quotient.left()?, quotient.right()?) else {
         return None;
     };
@@ -187,14 +184,16 @@ fn fraction(quotient: &BinaryExpr) -> Option<(String, String)> {
     let (above, below) = (above.digits().filter(|_| above.unit().is_none())?, below.digits()?);
     let (above, below, unit) = (above.text(), below.text(), unit.text());
     // what stands apart is a quotient
-    let is_tight = quotient.syntax().text().to_string().starts_with(&format!("{above}/{below}"));
+    let written = quotient.syntax().text().to_string();
+    let is_tight = written.starts_with(&format!("{above}/{below}"));
     let hint =
         format!("a unit belongs to the number before it alone: write `{above} {unit} / {below}`");
-    is_tight.then(|| (format!("{above} divided by {below} {unit}"), hint))
+    let message = format!("{written} is {above} divided by {below} {unit}");
+    is_tight.then_some(("fraction", message, hint))
 }
 
 /// `price + 19%` of a price that is more than one: what it comes to, and what is written for so much of the price.
-fn percent_of_itself(sum: &BinaryExpr) -> Option<(String, String)> {
+fn percent_of_itself(sum: &BinaryExpr) -> Option<Told> {
     let sign = match sum.op() {
         Some(BinaryOp::Add) => '+',
         Some(BinaryOp::Subtract) => '-',
@@ -213,7 +212,7 @@ fn percent_of_itself(sum: &BinaryExpr) -> Option<(String, String)> {
         Expr::Binary(_) => format!("so much of it is `({whole}) * (1 {sign} {part})`"),
         _ => format!("so much of it is `{whole} * (1 {sign} {part})`"),
     };
-    Some((message, hint))
+    Some(("percent-of-what", message, hint))
 }
 
 /// Returns true for a number without a unit that is more than one, and for the name of what is declared with one not far
@@ -234,11 +233,13 @@ fn is_more_than_one(e: &Expr) -> bool {
 }
 
 /// `2026-01-15`: a date that is a difference.
-fn date(binary: &BinaryExpr, written: &str) -> Option<(&'static str, String, String)> {
+fn date(binary: &BinaryExpr) -> Option<Told> {
+    let (Expr::Binary(_), Expr::Number(_)) = (binary.left()?, binary.right()?) else { return None };
+    let written = binary.syntax().text().to_string();
     let is_one = binary.op() == Some(BinaryOp::Subtract)
         && written.matches('-').count() == 2
         && written.split('-').next().is_some_and(|year| year.len() == 4)
-        && crate::hints::is_date(written);
+        && crate::hints::is_date(&written);
     let message = format!("{written} is a difference of three numbers here");
     let hint = format!(
         "a date is a text, `\"{written}\"`, or three numbers, of which days are counted; a difference has spaces"
@@ -247,7 +248,7 @@ fn date(binary: &BinaryExpr, written: &str) -> Option<(&'static str, String, Str
 }
 
 /// `x^1/2`: what it is, and what is written for the root.
-fn root(quotient: &BinaryExpr) -> Option<(String, String)> {
+fn root(quotient: &BinaryExpr) -> Option<Told> {
     let (Expr::Binary(power), Expr::Number(below)) = (quotient.left()?, quotient.right()?) else {
         return None;
     };
@@ -255,10 +256,12 @@ fn root(quotient: &BinaryExpr) -> Option<(String, String)> {
     if power.op() != Some(BinaryOp::Power) || one.value() != Some(1.0) {
         return None;
     }
-    let is_tight = !quotient.syntax().text().to_string().contains(char::is_whitespace);
+    let written = quotient.syntax().text().to_string();
+    let is_tight = !written.contains(char::is_whitespace);
     let (of, below) = (power.left()?.syntax().text().to_string(), below.digits()?);
     let hint = format!("a root is a power in brackets: `{of}^(1/{})`", below.text());
-    is_tight.then(|| (format!("{of} divided by {}", below.text()), hint))
+    let message = format!("{written} is {of} divided by {}", below.text());
+    is_tight.then_some(("fraction", message, hint))
 }
 
 fn is_product(binary: &BinaryExpr) -> bool {
