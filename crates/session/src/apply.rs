@@ -507,7 +507,11 @@ fn restructured(open: &mut Open, host: &dyn Host, command: &Command) -> Result<C
     }
     let text = syntax::edit::apply(&before.text, &edits);
     let plans = open.planner.take_plans();
-    let (state, mut planner) = State::of(text, Some(&before), host, plans);
+    let joins = done.class.is_some() || matches!(command, Command::Edit { .. } | Command::Merge(_));
+    let (state, mut planner) = match joins {
+        true => State::of_joined(text, &before, host, plans),
+        false => State::of(text, Some(&before), host, plans),
+    };
     // what a reference names may be deleted: that it names nothing is said at its place
     let may_be_wrong = |d: &base::Diagnostic| {
         matches!(command, Command::Delete(_)) && d.code == "unknown-reference"

@@ -1,32 +1,38 @@
 //! Places that a hand has made one and that the text gives twice: it gives them once, where they count.
 //!
-//! In: the states before and after an edit by hand. Out: the edits of the text that take away what does not count
+//! In: the state before an edit by hand, and what the text means after it. Out: the edits of the text that take away what does not count
 //! any more. What was given twice before is left alone.
 
 use crate::session::thing_at;
 use crate::state::State;
 use kernel::{Structure, ThingId};
+use lang::Lowered;
 use std::collections::BTreeSet;
 use syntax::ast::AstNode;
 use syntax::edit::TextEdit;
 use syntax::{SyntaxKind, SyntaxNode};
 
 /// Returns the edits that leave out what of merged places the text gives besides what counts.
-pub(crate) fn forgotten(before: &State, state: &State) -> Vec<TextEdit> {
-    let structure = &state.structure;
+pub(crate) fn forgotten(
+    before: &State,
+    (lowered, structure): (&Lowered, &Structure),
+) -> Vec<TextEdit> {
     let merged = structure.merged.iter().filter(|(t, _)| structure.merged_with(*t).len() > 1);
     let is_new = |thing: ThingId| {
-        let path = structure.path(&state.lowered.document, thing);
-        thing_at(before, &path).is_none_or(|was| !is_double(before, was))
+        let path = structure.path(&lowered.document, thing);
+        let was_double = |was| is_double((&before.lowered, &before.structure), was);
+        thing_at(before, &path).is_none_or(|was| !was_double(was))
     };
-    let doubles: BTreeSet<ThingId> =
-        merged.map(|(t, _)| t).filter(|&t| is_double(state, t) && is_new(t)).collect();
+    let doubles: BTreeSet<ThingId> = merged
+        .map(|(t, _)| t)
+        .filter(|&t| is_double((lowered, structure), t) && is_new(t))
+        .collect();
     if doubles.is_empty() {
         return Vec::new();
     }
-    let root = state.file().syntax().clone();
+    let root = lowered.files[base::FileId(0)].parse.file().syntax().clone();
     let span = |thing: ThingId| {
-        let place = state.lowered.place(structure.given_apart(thing)?.origin);
+        let place = lowered.place(structure.given_apart(thing)?.origin);
         (place.file == base::FileId(0)).then_some(place.span)
     };
     let says = |node: &SyntaxNode, span: base::Span| {
@@ -77,13 +83,12 @@ fn is_given(structure: &Structure, thing: ThingId) -> bool {
 }
 
 /// Whether the document gives a coordinate that counts as another part of the document gives it.
-fn is_double(state: &State, thing: ThingId) -> bool {
-    let structure = &state.structure;
+fn is_double((lowered, structure): (&Lowered, &Structure), thing: ThingId) -> bool {
     let Some(slot) = structure.slot_of(thing) else { return false };
     let (Some(given), Some(own)) = (structure.given(slot), structure.given_apart(thing)) else {
         return false;
     };
-    let is_own = |origin| state.lowered.is_own_given(origin);
+    let is_own = |origin| lowered.is_own_given(origin);
     structure.slots[slot].place.is_some()
         && given.origin != own.origin
         && is_own(given.origin)

@@ -3,6 +3,7 @@
 //! A state is made from a text and never changed. What a member with an error meant before is taken
 //! from the state before it; apart from that the text alone decides, bit for bit.
 
+use crate::given_twice;
 use crate::host::Host;
 use crate::texts::Texts;
 use base::{Diagnostic, FileId};
@@ -57,6 +58,21 @@ impl State {
         let load = |name: &str| host.read(name);
         let lowered = lang::lower(&text, &load, before.map(|b| &b.lowered));
         Self::meant(text, lowered, before, host, plans)
+    }
+
+    /// Makes the state of a text by which a hand may have made places one, and its planner: what of them no longer
+    /// counts is taken out of the text, where all begins with the same values without it.
+    pub(crate) fn of_joined(
+        text: String,
+        before: &Self,
+        host: &dyn Host,
+        plans: Plans,
+    ) -> (Self, Planner) {
+        let load = |name: &str| host.read(name);
+        let lowered = lang::lower(&text, &load, Some(&before.lowered));
+        let twice = Structured::of(text, lowered, Some(before));
+        let once = twice.given_once(before, &load);
+        once.unwrap_or(twice).planned(plans).solved().told(host)
     }
 
     /// Makes the state of a text that an edit of values wrote: it counts in the units of the state before.
@@ -208,6 +224,23 @@ impl Structured {
         }
         debug_assert_eq!(kernel::check::structure(&lowered.document, &structure), Ok(()));
         Self { text, lowered, structure, faults }
+    }
+    /// Returns the same without what its text gives besides what counts, since places are one that were not before;
+    /// nothing where there is none of it, or all would begin otherwise.
+    fn given_once(&self, before: &State, load: &dyn Fn(&str) -> Option<String>) -> Option<Self> {
+        if self.lowered.diagnostics.iter().any(|d| d.severity == base::Severity::Error) {
+            return None;
+        }
+        let edits = given_twice::forgotten(before, (&self.lowered, &self.structure));
+        if edits.is_empty() {
+            return None;
+        }
+        let text = syntax::edit::apply(&self.text, &edits);
+        let lowered = lang::lower(&text, load, Some(&self.lowered));
+        let once = Self::of(text, lowered, Some(before));
+        let given = |of: &Self| eval::given_values(&of.lowered.document, &of.structure).0;
+        let is_same = once.structure.slots.len() == self.structure.slots.len();
+        (is_same && given(&once) == given(self)).then_some(once)
     }
     /// Makes their planner.
     pub(crate) fn planned(self, plans: Plans) -> Planned {

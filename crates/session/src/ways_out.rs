@@ -196,7 +196,7 @@ pub(crate) fn said_anew(open: &Open, host: &dyn Host, command: &Command) -> Opti
         // the number alone, so that all that is said beside it stays
         let insert = value.trim().to_string();
         let edited = syntax::edit::apply(text, &[TextEdit { span: said.span, insert }]);
-        let (state, planner) = State::of(edited, Some(&open.state), host, Plans::default());
+        let (state, planner) = State::of_joined(edited, &open.state, host, Plans::default());
         // what is drawn is given where it lies then
         let (state, mut planner) = settle_places(&open.state, state, planner, host);
         let is_right = !state.has_errors() && state.status(&mut planner).satisfied;

@@ -9,7 +9,6 @@
 //! nothing decides and that nothing is placed by, as the voltages of a circuit without a ground, is not written: it is
 //! what opening the text gives, unless what the edit was about is bound to it.
 
-use crate::given_twice;
 use crate::host::Host;
 use crate::state::State;
 use crate::texts::Texts;
@@ -227,17 +226,6 @@ pub(crate) fn settle_places(
     if state.has_errors() {
         return (state, planner);
     }
-    let text = syntax::edit::apply(&state.text, &given_twice::forgotten(before, &state));
-    let (state, planner) = match text == state.text {
-        true => (state, planner),
-        false => {
-            let (next, planner) = State::of(text, Some(&state), host, planner.into_plans());
-            match is_same(&next, &state) {
-                true => (next, planner),
-                false => State::of(state.text, Some(before), host, planner.into_plans()),
-            }
-        }
-    };
     let is_told = |slot: &SlotId| {
         let s = &state.structure.slots[*slot];
         let is_own = state.structure.given(*slot).is_some_and(|given| !given.of_class);
