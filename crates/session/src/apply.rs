@@ -541,13 +541,18 @@ fn restructured(open: &mut Open, host: &dyn Host, command: &Command) -> Result<C
             let mut texts = Texts::new(&state.lowered.document, &state.structure);
             planner.satisfy_since(state.model(), &state.values, &mut values, &mut texts);
             let edited = Edited { by_hand: Some(Vec::new()), ..Edited::default() };
-            write_back(&state, &values, &edited, host, planner.into_plans())
+            let (state, planner) =
+                write_back(&state, &values, &edited, host, planner.into_plans());
+            match command {
+                Command::Enable { .. } => settle_places(&before, state, planner, host),
+                _ => (state, planner),
+            }
         }
         (None, Some(class)) => {
             let (state, planner) = place_new_parts(&before, state, planner, class, host);
             settle_places(&before, state, planner, host)
         }
-        (None, None) if matches!(command, Command::Edit { .. } | Command::Merge(_)) => {
+        (None, None) if joins || matches!(command, Command::Enable { .. }) => {
             settle_places(&before, state, planner, host)
         }
         (None, None) => (state, planner),

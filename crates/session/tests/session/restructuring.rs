@@ -141,6 +141,19 @@ fn a_constraint_is_switched_off_and_on_and_values_stay() {
 }
 
 #[test]
+fn places_that_a_switch_moved_are_given_where_they_are_seen() {
+    let mut desk = Desk::of(
+        "use geometry\na: Line { p1 = (0, 0)  p2 = (100, 0) }\nconstraint short: a.length = 100\n\
+         constraint long: a.p1.distance(to: a.p2) = 120\n",
+    );
+    desk.apply(&Command::Enable { path: at("short"), on: false }).expect("it is switched off");
+    assert!(desk.text().contains("p2 = (120, 0)"), "{}", desk.text());
+    desk.apply(&Command::Enable { path: at("long"), on: false }).expect("it is switched off");
+    desk.apply(&Command::Enable { path: at("short"), on: true }).expect("it is switched on");
+    assert!(desk.text().contains("p2 = (100, 0)"), "{}", desk.text());
+}
+
+#[test]
 fn a_merge_within_one_of_several_things_asks_first() {
     let text = "use geometry\nclass Pair { a, b: Line }\np: Pair\nq: Pair\n";
     let mut desk = Desk::of(text);
