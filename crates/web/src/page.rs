@@ -324,7 +324,7 @@ fn Drawer(lab: Lab) -> impl IntoView {
 fn Draft(lab: Lab) -> impl IntoView {
     view! {
         <Show when=move || lab.draft.with(Option::is_some)>
-            <div class="notice" role="alert">
+            <div class="notice draft" role="alert">
                 <p class="words">{words::DRAFT_FOUND}</p>
                 <button class="primary" on:click=move |_| lab.decide_draft(true)>{words::RESTORE}</button>
                 <button on:click=move |_| lab.decide_draft(false)>{words::DISCARD}</button>

@@ -481,12 +481,21 @@ async fn figure_7_6_is_recorded_by_the_keyboard_alone() {
 
 #[tokio::test]
 async fn a_washer_is_recorded_on_a_narrow_page() {
-    let visit = hands::begin().await;
+    let visit = Visit::open_empty().await;
+    visit.until("document.getElementById('picture')?.width > 10").await;
+    hands::use_library(&visit, "contours").await;
+    visit.leave_and_return().await;
+    // what an earlier visit left is offered where it covers nothing
+    let is_offered = |height: &str| {
+        format!("document.querySelector('.notice.draft')?.offsetHeight {height}")
+    };
+    visit.until(&is_offered("> 10")).await;
     visit.client.set_window_size(500, 844).await.expect("a narrow window");
     press(&visit, ".handles button").await;
     record(&visit, "Washer", &[("inner", "84"), ("outer", "160")]).await;
     construct(&visit, "Circle").await;
     asked(&visit, "pick a point").await;
+    visit.until(&is_offered("=== 0")).await;
     // what is asked hides nothing of the picture
     visit
         .until(
@@ -501,6 +510,8 @@ async fn a_washer_is_recorded_on_a_narrow_page() {
     press(&visit, ".prompt [data-value='outer']").await;
     has(&visit, "circle2 = Circle(center: circle.center, radius: outer)").await;
     visit.picture("washer-narrow").await;
+    press(&visit, "[data-draft='stop']").await;
+    visit.until(&is_offered("> 10")).await;
 }
 
 #[tokio::test]
