@@ -166,6 +166,15 @@ impl Lowerer<'_> {
                 else {
                     return (Says::Unclear, Kind::Unknown);
                 };
+                if let Some(condition) = choice.turned_round() {
+                    let span = self.first_line(scope.file, value.span());
+                    let place = Place { file: scope.file, span };
+                    let message = "this `if` is open: its condition is turned round";
+                    let d = Diagnostic::warning("open-block", place, message);
+                    let hint =
+                        format!("record more of the program and end it, or write `if {condition}`");
+                    self.report(d.hint(hint));
+                }
                 let mut inner = scope.clone();
                 (self.branches(&mut inner, class, choice), Kind::Thing(class))
             }

@@ -82,6 +82,25 @@ impl Recording {
         }
     }
 
+    /// Leaves second branches of an `if` whose values are no longer those that take them for the first.
+    fn keep_branches(&mut self, state: &State) {
+        let source = text::Source::now(state);
+        for at in 0..self.blocks.len() {
+            let Block { around, kind: Kind::Choice(_), .. } = &self.blocks[at] else { continue };
+            let segment = around.segment().to_string();
+            let way = self.blocks[..at].iter().map(|block| block.around.clone()).collect();
+            let (program, example) = (self.program.clone(), self.example.clone());
+            let outside = Home::Program { program, example, way, before: None };
+            let address = text::joined(&text::address_of(&outside), &segment);
+            let found = text::step_at(&source, &self.program, &address).and_then(|s| s.value);
+            if let (Some(Value::If(it)), Kind::Choice(choice)) = (found, &mut self.blocks[at].kind)
+            {
+                choice.agree(state, &outside, &it);
+                self.blocks[at].around.address = format!("{segment}.{}", choice.branch());
+            }
+        }
+    }
+
     /// The block that is demonstrated now.
     pub(crate) fn innermost(&self) -> Option<&Block> {
         self.blocks.last()
@@ -96,6 +115,7 @@ pub(crate) fn settle(open: &mut Open) {
             Some(_) => {
                 recording.prune(&text::Source::now(&state));
                 recording.keep_turns(&state);
+                recording.keep_branches(&state);
             }
             None => open.recording = None,
         }
@@ -137,28 +157,41 @@ pub(crate) fn begin(
     Ok(change)
 }
 
-/// Enters the loops that are open in the text of what is recorded: a recording that was broken off goes on in them.
+/// Enters the loops and branches that are open in the text of what is recorded: a recording that was broken off goes on
+/// in them.
 pub(crate) fn resume(open: &mut Open) {
     let (state, since) = (open.state.clone(), open.done.len());
     let Some(recording) = &mut open.recording else { return };
     let source = text::Source::now(&state);
-    let is_open = |step: &text::StepNode| match &step.value {
-        Some(Value::Repeat(it)) => {
-            step.name.is_some() && it.times().is_none() && it.until().is_none()
-        }
-        _ => false,
-    };
     let mut address = String::new();
     while let Some(body) = text::block(&source, &recording.program, &address) {
         let steps = text::steps_of(&body);
-        let Some(at) = steps.iter().position(is_open) else { return };
-        let segment = steps[at].segment.clone();
-        address = text::joined(&address, &segment);
-        let name = Some(Name::new(&segment));
-        let around = Around { address: segment, name, turn: Some(0) };
+        let home = Home::of(Some(recording));
+        let opened = |step: &text::StepNode| broken_off(&state, &home, step);
+        let found = steps.iter().enumerate().find_map(|(at, step)| Some((at, opened(step)?)));
+        let Some((at, (around, kind))) = found else { return };
+        address = text::joined(&address, &around.address);
         let before = steps.get(at + 1).map(|step| step.segment.clone());
-        let kind = Kind::Loop(Loop::default());
         recording.blocks.push(Block { around, kind, since, before });
+    }
+}
+
+/// What is demonstrated by a step that is open in the text; nothing where it is whole.
+fn broken_off(state: &State, home: &Home, step: &text::StepNode) -> Option<(Around, Kind)> {
+    let segment = &step.segment;
+    match &step.value {
+        Some(Value::Repeat(it)) => {
+            let name = Name::new(step.name.as_ref()?);
+            let is_open = it.times().is_none() && it.until().is_none();
+            let around = Around { address: segment.clone(), name: Some(name), turn: Some(0) };
+            is_open.then(|| (around, Kind::Loop(Loop::default())))
+        }
+        Some(Value::If(it)) => {
+            let choice = Choice::broken_off(state, home, it)?;
+            let address = format!("{segment}.{}", choice.branch());
+            Some((Around { address, name: None, turn: None }, Kind::Choice(choice)))
+        }
+        Some(Value::While(_) | Value::For(_) | Value::Expr(_)) | None => None,
     }
 }
 

@@ -2,7 +2,8 @@
 //! with the same values or under others.
 //!
 //! While the other branch is drawn with the same values, its condition is turned round in the text, so that it
-//! is the one that runs. What the example's values were comes back when the `if` is ended.
+//! is the one that runs. What the example's values were comes back when the `if` is ended. Until then both branches stand
+//! in the text: by one that is empty, or a condition that is turned round, an `if` that was broken off is known.
 
 use super::blocks::{self, Block, Kind};
 use super::outcome::{self, Worth};
@@ -10,9 +11,10 @@ use super::view::{OpenKind, Prompt, Wants};
 use super::{Around, Home, recording, text};
 use crate::document::Open;
 use crate::host::Host;
+use crate::state::State;
 use crate::view::{Change, Refusal};
 use crate::words;
-use syntax::ast::{AstNode, Value};
+use syntax::ast::{AstNode, Body, Else, If, Value};
 
 /// An `if` that is demonstrated.
 #[derive(Clone, PartialEq, Debug)]
@@ -46,6 +48,42 @@ impl Choice {
         self.is_second
     }
 
+    /// The branch that is drawn.
+    pub(crate) fn branch(&self) -> &'static str {
+        if self.is_then { "then" } else { "else" }
+    }
+
+    /// The first branch is drawn again, where values that took the other one were taken back.
+    pub(crate) fn agree(&mut self, state: &State, outside: &Home, it: &If) {
+        let is_left = || worth(state, outside, &self.condition) == Some(!self.is_then);
+        if self.is_second && it.turned_round().is_none() && is_left() {
+            (self.is_then, self.is_second) = (!self.is_then, false);
+        }
+    }
+
+    /// What an `if` that was broken off is demonstrated by; nothing for one that is whole.
+    pub(crate) fn broken_off(state: &State, outside: &Home, it: &If) -> Option<Self> {
+        let written = it.condition()?.syntax().text().to_string();
+        let takes_then = worth(state, outside, written.trim()).unwrap_or(true);
+        let choice = |condition: String, is_second| Self {
+            condition,
+            is_then: takes_then,
+            is_second,
+            asks: false,
+            example: None,
+        };
+        if let Some(condition) = it.turned_round() {
+            return Some(choice(condition, true));
+        }
+        let bodies = Bodies::of(it)?;
+        let is_second = match (bodies.then.is_empty(), bodies.other?.is_empty()) {
+            (false, false) => return None,
+            (true, true) => false,
+            (is_then_empty, _) => is_then_empty == takes_then,
+        };
+        Some(choice(written.trim().into(), is_second))
+    }
+
     /// What is waited for.
     pub(crate) fn prompt(&self) -> Option<Prompt> {
         let Self { condition, is_then, .. } = self;
@@ -58,6 +96,38 @@ impl Choice {
             wants: Wants::Otherwise,
             ..Prompt::default()
         })
+    }
+}
+
+/// What stands in the branches of an `if`.
+struct Bodies {
+    then: String,
+    /// Nothing where there is no `else`.
+    other: Option<String>,
+}
+
+impl Bodies {
+    /// Reads them; nothing for a chain of `else if`.
+    fn of(it: &If) -> Option<Self> {
+        let inside = |body: Body| {
+            let text = body.syntax().text().to_string();
+            let inner = text.trim().strip_prefix('{').and_then(|rest| rest.strip_suffix('}'));
+            inner.unwrap_or(&text).trim().to_string()
+        };
+        let other = match it.else_branch() {
+            Some(Else::Body(body)) => Some(inside(body)),
+            Some(Else::If(_)) => return None,
+            None => None,
+        };
+        Some(Self { then: inside(it.then_body()?), other })
+    }
+}
+
+/// Whether a condition holds, where that can be told.
+fn worth(state: &State, outside: &Home, condition: &str) -> Option<bool> {
+    match outcome::worth(state, outside, condition) {
+        Ok(Worth::Truth(truth)) => Some(truth),
+        Ok(Worth::Number(_) | Worth::Other(_)) | Err(_) => None,
     }
 }
 
@@ -76,8 +146,8 @@ pub(crate) fn ask(open: &mut Open) -> Result<(), Refusal> {
 /// # Errors
 /// It is no condition; the text is none.
 pub(crate) fn begin(open: &mut Open, host: &dyn Host, condition: &str) -> Result<Change, Refusal> {
-    let condition = condition.trim();
     let home = Home::of(Some(blocks::recorded(open)?));
+    let condition = &plain(condition);
     let is_then = match outcome::worth(&open.state, &home, condition)? {
         Worth::Truth(truth) => truth,
         Worth::Number(n) => {
@@ -90,11 +160,7 @@ pub(crate) fn begin(open: &mut Open, host: &dyn Host, condition: &str) -> Result
         }
     };
     let segment = blocks::next_segment(&text::Source::now(&open.state), &home);
-    let (lines, branch) = match is_then {
-        true => (format!("if {condition} {{\n}}"), "then"),
-        false => (format!("if {condition} {{\n}} else {{\n}}"), "else"),
-    };
-    let around = Around { address: format!("{segment}.{branch}"), name: None, turn: None };
+    let lines = format!("if {condition} {{\n}} else {{\n}}");
     let choice = Choice {
         condition: condition.into(),
         is_then,
@@ -102,6 +168,8 @@ pub(crate) fn begin(open: &mut Open, host: &dyn Host, condition: &str) -> Result
         asks: false,
         example: example_text(open),
     };
+    let address = format!("{segment}.{}", choice.branch());
+    let around = Around { address, name: None, turn: None };
     let label = format!("if {condition}");
     let change = blocks::begin(open, host, (&lines, label), (around, Kind::Choice(choice)))?;
     if let Some(recording) = &mut open.recording {
@@ -184,21 +252,31 @@ pub(crate) fn second(open: &mut Open, host: &dyn Host, is_same: bool) -> Result<
         let condition = it.condition().ok_or_else(gone)?.span();
         edited.replace_range(
             condition.start as usize..condition.end as usize,
-            &format!("not ({})", choice.condition),
+            &format!("not (({}))", choice.condition),
         );
     }
-    let change = recording::retext(open, host, edited, format!("otherwise {}", choice.condition))?;
+    let change = match edited == open.state.text {
+        true => Change::default(),
+        false => {
+            let label = format!("otherwise {}", choice.condition);
+            recording::retext(open, host, edited, label)?
+        }
+    };
+    let choice = Choice { is_then: !choice.is_then, is_second: true, asks: false, ..choice };
     if let Some(block) = open.recording.as_mut().and_then(|r| r.blocks.last_mut()) {
-        let branch = if choice.is_then { "else" } else { "then" };
-        block.around.address = format!("{segment}.{branch}");
-        block.kind = Kind::Choice(Choice {
-            is_then: !choice.is_then,
-            is_second: true,
-            asks: false,
-            ..choice
-        });
+        block.around.address = format!("{segment}.{}", choice.branch());
+        block.kind = Kind::Choice(choice);
     }
     Ok(change)
+}
+
+/// Returns a condition that is none of those that are turned round.
+fn plain(condition: &str) -> String {
+    let mut condition = condition.trim().to_string();
+    while let Some(inner) = condition.strip_prefix("not ((").and_then(|c| c.strip_suffix("))")) {
+        condition = format!("not ({})", inner.trim());
+    }
+    condition
 }
 
 /// Ends the `if`: the condition and the example's values are again what they were. It is one step.
@@ -221,6 +299,7 @@ pub(crate) fn end(open: &mut Open, host: &dyn Host) -> Result<Change, Refusal> {
         let span = condition.span();
         edited.replace_range(span.start as usize..span.end as usize, &choice.condition);
     }
+    edited = without_empty(&text::Source::of(edited), &program, (&address, &choice.condition))?;
     if let Some(before) = &choice.example
         && let Some(now) = example_span(open, &edited)
     {
@@ -233,6 +312,42 @@ pub(crate) fn end(open: &mut Open, host: &dyn Host) -> Result<Change, Refusal> {
     blocks::leave(open);
     open.label_last(format!("if {}", choice.condition));
     Ok(change)
+}
+
+/// Returns a text in which an `if` has no empty branch.
+///
+/// # Errors
+/// Both are empty.
+fn without_empty(
+    source: &text::Source,
+    program: &str,
+    (address, condition): (&str, &str),
+) -> Result<String, Refusal> {
+    let Some(Value::If(it)) = text::step_at(source, program, address).and_then(|s| s.value) else {
+        return Ok(source.to_string());
+    };
+    let Some((then, Bodies { then: inside, other: Some(other) })) =
+        it.then_body().zip(Bodies::of(&it))
+    else {
+        return Ok(source.to_string());
+    };
+    let (start, end) = (it.span().start as usize, it.span().end as usize);
+    let (before, after) = (&source[..start], &source[end..]);
+    let body = source[then.span().start as usize..then.span().end as usize].to_string();
+    Ok(match (inside.is_empty(), other.is_empty()) {
+        (false, false) => source.to_string(),
+        (true, true) => {
+            let message = "nothing is drawn in either case: draw something, or undo the `if`";
+            return Err(words::refuse(message.into()));
+        }
+        (false, true) => format!("{before}if {condition} {body}{after}"),
+        (true, false) => {
+            let Some(Else::Body(other)) = it.else_branch() else { return Ok(source.to_string()) };
+            let body = &source[other.span().start as usize..other.span().end as usize];
+            let negated = plain(&format!("not ({condition})"));
+            format!("{before}if {negated} {body}{after}")
+        }
+    })
 }
 
 /// Where the declaration of the example stands in a text.

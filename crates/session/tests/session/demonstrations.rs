@@ -1,6 +1,7 @@
 //! Standard parts, drawn once by hand: what comes of them is that of the programs that the gallery has of them.
 
 use crate::desk::Desk;
+use session::Command;
 use session::drafting::view::{Ends, Go, NewParameter, Turn, Wants};
 use session::view::Pointer;
 
@@ -685,4 +686,102 @@ fn a_step_of_a_branch_is_told_by_its_name_and_not_by_where_it_stands() {
     let asked = desk.session.prompt(desk.id).expect("it is asked");
     assert!(asked.words.starts_with("circle2 is drawn from circle: pick"), "{}", asked.words);
     assert_eq!(asked.label, "Delete circle, 1 of 1");
+}
+
+/// A pulley whose `if` is open: the first branch is drawn.
+fn in_its_if() -> Desk {
+    let mut desk = Desk::recording("Pulley", &[("d", "100")]);
+    desk.session.begin_choice(desk.id).expect("it is recorded");
+    desk.session.enter(desk.id, "d > 80").expect("it is a condition");
+    draw(&mut desk, "Circle", &[Typed("0, 0"), Typed("d / 2")]);
+    desk.session.give_up(desk.id);
+    desk
+}
+
+/// The text of a document, opened anew and recorded further.
+fn gone_on(desk: &Desk) -> Desk {
+    let mut again = Desk::of(&desk.text());
+    again.session.record(again.id, "Pulley").expect("it is there");
+    again
+}
+
+fn open_in(desk: &Desk) -> Vec<String> {
+    let open = desk.session.steps(desk.id, None).expect("it is recorded").open;
+    open.into_iter().map(|block| block.words).collect()
+}
+
+const WHOLE: &str = "    if d > 80 {
+        circle = Circle(center: Point(0, 0), radius: d / 2)
+    } else {
+        circle = Circle(center: Point(0, 0), radius: d / 4)
+    }
+";
+
+#[test]
+fn a_recording_that_was_broken_off_goes_on_in_its_if() {
+    let mut desk = gone_on(&in_its_if());
+    assert_eq!(open_in(&desk), ["draw what is done if d > 80"]);
+    desk.session.otherwise(desk.id).expect("the first case is drawn");
+    desk.session.other_branch(desk.id, true).expect("with the same values");
+    for _ in 0..2 {
+        // before its first step, and after it
+        desk = gone_on(&desk);
+        assert_eq!(open_in(&desk), ["draw what is done unless d > 80"], "{}", desk.text());
+        let said = desk.session.text(desk.id).diagnostics;
+        assert!(said.iter().all(|d| d.severity == "recording"), "{said:?}");
+        if !desk.text().contains("d / 4") {
+            draw(&mut desk, "Circle", &[Typed("0, 0"), Typed("d / 4")]);
+            desk.session.give_up(desk.id);
+        }
+    }
+    desk.session.end_choice(desk.id).expect("it is open");
+    assert!(desk.text().contains(WHOLE), "{}", desk.text());
+    assert_eq!(open_in(&gone_on(&desk)), [""; 0]);
+    assert_eq!(value(&desk, "pulley.circle"), "centre (0, 0), radius 50");
+}
+
+#[test]
+fn a_recording_that_was_broken_off_under_other_values_goes_on_in_the_branch_that_they_take() {
+    let mut desk = in_its_if();
+    desk.session.otherwise(desk.id).expect("the first case is drawn");
+    desk.set("pulley.d", 40.0).expect("a parameter can be set");
+    desk.session.other_branch(desk.id, false).expect("the values take it");
+    let mut desk = gone_on(&desk);
+    assert_eq!(open_in(&desk), ["draw what is done unless d > 80"]);
+    draw(&mut desk, "Circle", &[Typed("0, 0"), Typed("d / 4")]);
+    desk.session.give_up(desk.id);
+    desk.session.end_choice(desk.id).expect("it is open");
+    assert!(desk.text().contains(WHOLE), "{}", desk.text());
+}
+
+#[test]
+fn an_if_keeps_no_empty_branch() {
+    let mut desk = in_its_if();
+    desk.session.end_choice(desk.id).expect("it is open");
+    assert!(!desk.text().contains("else"), "{}", desk.text());
+    // what is done where the condition does not hold
+    desk.session.begin_choice(desk.id).expect("it is recorded");
+    desk.session.enter(desk.id, "d < 20").expect("it is a condition");
+    let nothing = desk.session.end_choice(desk.id).expect_err("nothing is drawn");
+    assert!(nothing.message.contains("nothing is drawn in either case"), "{}", nothing.message);
+    draw(&mut desk, "Circle", &[Typed("0, 0"), Typed("5")]);
+    desk.session.give_up(desk.id);
+    desk.session.end_choice(desk.id).expect("it is open");
+    assert!(desk.text().contains("    if not (d < 20) {\n        circle2 ="), "{}", desk.text());
+    assert_eq!(desk.wrong(), [], "{}", desk.text());
+}
+
+#[test]
+fn undo_of_the_other_branch_leads_back_into_the_first() {
+    for is_same in [true, false] {
+        let mut desk = in_its_if();
+        desk.session.otherwise(desk.id).expect("the first case is drawn");
+        if !is_same {
+            desk.set("pulley.d", 40.0).expect("a parameter can be set");
+        }
+        desk.session.other_branch(desk.id, is_same).expect("it is taken");
+        assert_eq!(open_in(&desk), ["draw what is done unless d > 80"]);
+        desk.session.apply(desk.id, &Command::Undo).expect("there is a step");
+        assert_eq!(open_in(&desk), ["draw what is done if d > 80"], "{}", desk.text());
+    }
 }

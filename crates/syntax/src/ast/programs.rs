@@ -128,6 +128,23 @@ impl If {
             .map(Else::Body)
             .or_else(|| child_after(&self.syntax, SyntaxKind::ElseKw).map(Else::If))
     }
+    /// Returns the condition that is turned round by `not ((…))`, two pairs of parentheses: how an `if` is written while
+    /// its other branch is demonstrated with the same values.
+    pub fn turned_round(&self) -> Option<String> {
+        let condition = self.condition()?.syntax().text().to_string();
+        let inner = condition.trim().strip_prefix("not ((")?.strip_suffix("))")?;
+        is_closed(inner).then(|| inner.to_string())
+    }
+}
+
+/// Whether each parenthesis of a text is closed in it.
+fn is_closed(text: &str) -> bool {
+    let mut depth = 0;
+    let is_inside = text.chars().all(|c| {
+        depth += i32::from(c == '(') - i32::from(c == ')');
+        depth >= 0
+    });
+    is_inside && depth == 0
 }
 impl Repeat {
     /// Returns the number of turns before `times`.
