@@ -3,6 +3,7 @@
 use crate::difference::{difference, label_of_text};
 use crate::document::{Direction, Open};
 use crate::drag::{self, coordinates};
+use crate::expected::Unasked;
 use crate::following;
 use crate::general;
 use crate::host::Host;
@@ -14,7 +15,7 @@ use crate::prototype;
 use crate::sheet;
 use crate::state::State;
 use crate::texts::Texts;
-use crate::view::{Change, Choice, DragState, Limit, Question, Refusal};
+use crate::view::{Change, Choice, DragState, Limit, ModeView, Question, Refusal};
 use crate::views::analysis::only_reading;
 use crate::words;
 use crate::write_back::{Edited, differing, settle_places, sides_after, write_back, write_sides};
@@ -174,7 +175,23 @@ fn edit(
     }
     let back = (kind == EditKind::Set).then(|| limits::sprung_back(&open.state, &aims));
     change.modes.extend(back.into_iter().flatten());
+    if kind == EditKind::Set {
+        change.modes.extend(chosen(open, &state, &aims));
+    }
     Ok(change)
+}
+
+/// Says which given values moved for others that were set, where there was a choice.
+#[cold]
+#[inline(never)]
+fn chosen(open: &Open, before: &State, aims: &[(Aim, Vec<Value>)]) -> Option<ModeView> {
+    let slots = |(aim, _): &(Aim, Vec<Value>)| match aim {
+        Aim::Thing(_) => slots_of(before, aim),
+        Aim::Term(_) => Vec::new(),
+    };
+    let unasked = Unasked::of(before, &open.state, &aims.iter().flat_map(slots).collect());
+    let message = format!("{}: lock what shall stay", unasked.in_words());
+    unasked.are_several().then(|| ModeView { constraint: String::new(), message, span: None })
 }
 
 /// Says of what was too hard how many values hang together with what was to change.

@@ -7,13 +7,14 @@
 use crate::apply;
 use crate::complaints;
 use crate::document::Open;
+use crate::expected::{Unasked, expect_rule};
 use crate::host::Host;
 use crate::state::State;
 use crate::view::{Change, CheckReport, Refusal, Shortfall};
 use crate::words;
 use base::{LineIndex, Name};
 use eval::Answer;
-use kernel::{Command, DOCUMENT, Literal, Path, Term};
+use kernel::{Command, DOCUMENT, Literal, Path, SlotId, Term};
 use lang::{Check, Expectation, PlanKind, Statement, StatementKind};
 use plan::{NotDecided, Plans};
 use solve::{COUNTING, Count};
@@ -70,6 +71,12 @@ struct Run<'h> {
     refusal: Option<Refusal>,
     /// The state before the latest edit.
     before: Option<Rc<State>>,
+    /// The state that the values of the check began with: that of its latest edit of the structure.
+    start: Rc<State>,
+    /// What it has set or moved since then.
+    spoken: BTreeSet<SlotId>,
+    /// Whether what they moved besides is told.
+    is_moved_told: bool,
     /// What the latest edit said of constraints that act otherwise since.
     told: Vec<String>,
     shortfalls: Vec<Shortfall>,
@@ -85,6 +92,9 @@ fn run(of: Checked<'_>, check: &Check, host: &dyn Host, begun: &mut Begun) -> Ch
         begun.plain = Some(open.state.clone());
     }
     let mut run = Run {
+        start: open.state.clone(),
+        spoken: BTreeSet::new(),
+        is_moved_told: false,
         open,
         host,
         of,
@@ -232,9 +242,14 @@ impl Run<'_> {
                 self.noted.push((name.clone(), value));
             }
             StatementKind::Expect(expectation) => {
-                if let Err(mut message) = self.expect(&state, expectation) {
-                    if matches!(expectation, Expectation::Rule { .. }) {
+                let of = self.of;
+                let source = of.state.text.get(statement.span.range()).unwrap_or_default().trim();
+                let source = source.strip_prefix("expect ").unwrap_or(source);
+                if let Err(mut message) = self.expect(&state, expectation, source) {
+                    if let Expectation::Rule { rule, within } = expectation {
                         self.told.drain(..).for_each(|told| message += &format!("; {told}"));
+                        let unasked = self.unasked(&state, rule, within.as_ref());
+                        unasked.into_iter().for_each(|told| message += &format!("\n{told}"));
                     }
                     self.fall_short(statement, message);
                 }
@@ -288,18 +303,51 @@ impl Run<'_> {
         self.before = Some(self.open.state.clone());
         self.told.clear();
         let change = apply::by_hand(&mut self.open, self.host, &command)?;
-        self.told.extend(change.modes.iter().map(|mode| mode.message.clone()));
+        let of_constraints = change.modes.iter().filter(|mode| !mode.constraint.is_empty());
+        self.told.extend(of_constraints.map(|mode| mode.message.clone()));
         if change.structure || matches!(kind, StatementKind::Command(_)) {
             self.known = 0..0;
         }
+        self.note_spoken(kind, change.structure);
         Ok(change)
     }
 
-    fn expect(&mut self, state: &State, expectation: &Expectation) -> Result<(), String> {
+    /// Says which given values the edits moved that they did not speak of, once until the next one.
+    fn unasked(&mut self, state: &State, rule: &Term, within: Option<&Term>) -> Option<String> {
+        if self.is_moved_told {
+            return None;
+        }
+        let (rule, within) = (self.with_noted(rule), within.map(|w| self.with_noted(w)));
+        let unasked = Unasked::of(&self.start, state, &self.spoken);
+        let told = unasked.for_rule(&rule, within.as_ref());
+        self.is_moved_told = told.is_some();
+        told
+    }
+
+    /// Notes what an edit spoke of.
+    fn note_spoken(&mut self, kind: &StatementKind, is_structural: bool) {
+        let state = &self.open.state;
+        self.is_moved_told = false;
+        if is_structural {
+            self.start = state.clone();
+            self.spoken.clear();
+        }
+        if let StatementKind::Set(targets) | StatementKind::Move(targets) = kind {
+            let things = targets.iter().filter_map(|(path, _)| words::find(state, path).ok());
+            self.spoken.extend(things.flat_map(|thing| state.structure.slots_under(thing)));
+        }
+    }
+
+    fn expect(
+        &mut self,
+        state: &State,
+        expectation: &Expectation,
+        source: &str,
+    ) -> Result<(), String> {
         match expectation {
             Expectation::Rule { rule, within } => {
                 let within = within.as_ref().map(|within| self.with_noted(within));
-                expect_rule(state, &self.with_noted(rule), within.as_ref())
+                expect_rule(state, &self.with_noted(rule), within.as_ref(), source)
             }
             Expectation::Satisfied => {
                 let status = crate::views::status::view(&self.open);
@@ -357,7 +405,7 @@ impl Run<'_> {
             wanted.extend(state.structure.slots_under(thing));
         }
         let found: BTreeSet<_> = state.values.changed(&before.values).collect();
-        let names = |slots: Vec<&kernel::SlotId>| {
+        let names = |slots: Vec<&SlotId>| {
             let names = slots.into_iter().map(|&s| state.slot_path(s).to_string());
             names.collect::<Vec<_>>().join(", ")
         };
@@ -373,22 +421,6 @@ impl Run<'_> {
             }
         }
         Ok(())
-    }
-}
-
-/// Tests a rule, and shows both sides where it is not true.
-///
-/// # Errors
-/// What both sides are.
-pub(crate) fn expect_rule(state: &State, rule: &Term, within: Option<&Term>) -> Result<(), String> {
-    let evaluator = state.evaluator(&state.values);
-    let verdict = evaluator.test_rule(rule, within, DOCUMENT).map_err(|f| f.message)?;
-    if verdict.holds {
-        return Ok(());
-    }
-    match (verdict.left, verdict.right) {
-        (Some(left), Some(right)) => Err(format!("{left} and {right}")),
-        _ => Err("this is not true".into()),
     }
 }
 

@@ -4,8 +4,9 @@
 //! is found out in the state that it meets. That a task was done stays so, whatever is undone later.
 
 use crate::apply;
-use crate::check::{command_of, expect_rule, literal_of, meant};
+use crate::check::{command_of, literal_of, meant};
 use crate::document::Open;
+use crate::expected::expect_rule;
 use crate::host::{Beside, Host};
 use crate::session::Session;
 use crate::state::State;
@@ -238,7 +239,7 @@ fn missing(
     for (at, source) in sources.iter().enumerate() {
         let said = source.strip_prefix("expect ").unwrap_or(source).trim();
         let found = match statements.get(at).map(|s| &s.kind) {
-            Some(StatementKind::Expect(expectation)) => expected(open, host, expectation),
+            Some(StatementKind::Expect(expectation)) => expected(open, host, expectation, said),
             _ => Err(message.clone().unwrap_or_else(|| "this means nothing here".into())),
         };
         missing.extend(found.err().map(|why| format!("not yet: {said} ({why})")));
@@ -247,9 +248,16 @@ fn missing(
 }
 
 /// Tests what a lesson may expect.
-fn expected(open: &Open, host: &dyn Host, expectation: &Expectation) -> Result<(), String> {
+fn expected(
+    open: &Open,
+    host: &dyn Host,
+    expectation: &Expectation,
+    source: &str,
+) -> Result<(), String> {
     match expectation {
-        Expectation::Rule { rule, within } => expect_rule(&open.state, rule, within.as_ref()),
+        Expectation::Rule { rule, within } => {
+            expect_rule(&open.state, rule, within.as_ref(), source)
+        }
         Expectation::Satisfied => {
             let status = views::status::view(open);
             if status.satisfied { Ok(()) } else { Err(status.message) }

@@ -29,6 +29,7 @@ mod document;
 mod doubts;
 pub mod drafting;
 mod drag;
+mod expected;
 mod families;
 mod fixes;
 mod following;

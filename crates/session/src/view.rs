@@ -55,7 +55,7 @@ pub struct Change {
 /// A constraint that acts otherwise than before an edit, or than at the press of a drag.
 #[derive(Clone, PartialEq, Eq, Debug, Serialize)]
 pub struct ModeView {
-    /// Its path and name.
+    /// Its path and name; empty of given values that moved for others.
     pub constraint: String,
     /// One sentence: "wall is at its bound: p.x <= 100".
     pub message: String,

@@ -223,3 +223,54 @@ fn a_check_that_falls_short_says_what_sprang_back_and_shows_lists() {
     let back = "y springs back to 4: home, which is weaker, acts again once it is set";
     assert_eq!(told, [format!("4 and 9; {back}"), "[1, 2, 3, 4] and [1, 2, 3, 5]".into()]);
 }
+
+const PRICE: &str = "net: Real = 100\ntax: Real = 19 %\ngross: Real = net * (1 + tax)\n";
+
+#[test]
+fn a_check_that_falls_short_says_what_moved_unasked_and_how_it_is_held() {
+    let told = |check: &str| -> Vec<String> {
+        let desk = Desk::of(&format!("{PRICE}check \"a\" {{\n{check}\n}}\n"));
+        let report = desk.session.run_checks(desk.id).remove(0);
+        report.shortfalls.into_iter().map(|s| s.message).collect()
+    };
+    let moved = "net moved from 100 to 100.028, tax moved from 19 % to 137.933 %";
+    // what is asked to move is not what is to be held
+    assert_eq!(
+        told("set gross to 238\nexpect net = 200"),
+        [format!("100.028 and 200\n{moved}; `anchor tax` holds it")]
+    );
+    assert_eq!(
+        told("set gross to 238\nexpect tax = 19 %\nexpect net = 200"),
+        [format!("137.933 % and 19 %\n{moved}; `anchor tax` holds it"), "100.028 and 200".into()]
+    );
+    assert_eq!(
+        told("set gross to 238\nexpect net > 10 and tax < 20 %"),
+        [format!("tax < 20 %: 137.933 % and 20 %\n{moved}; `anchor tax` holds it")]
+    );
+    // nothing else moved, or all that did was spoken of
+    assert_eq!(told("anchor tax\nset gross to 238\nexpect net = 201"), ["200 and 201"]);
+    assert_eq!(told("set net to 3, tax to 1\nexpect gross = 7"), ["6 and 7"]);
+}
+
+#[test]
+fn a_number_that_was_set_says_which_others_moved_where_there_was_a_choice() {
+    let mut desk = Desk::of(PRICE);
+    let change = desk.set("gross", 238.0).expect("something yields");
+    let told: Vec<&str> = change.modes.iter().map(|mode| &*mode.message).collect();
+    let moved = "net moved from 100 to 100.028, tax moved from 19 % to 137.933 %";
+    assert_eq!(told, [format!("{moved}: lock what shall stay")]);
+    assert!(desk.set("net", 50.0).expect("it is given").modes.is_empty());
+    let mut desk = Desk::of(&format!("{PRICE}anchor tax\n"));
+    assert!(desk.set("gross", 238.0).expect("the net price yields").modes.is_empty());
+}
+
+#[test]
+fn sides_of_an_expectation_are_told_apart_in_the_unit_that_it_writes() {
+    let desk = Desk::of(
+        "use geometry\nl: Length = 4 m\na: Angle = 30 deg\np: Point = (1 m, 2 m)\ncheck \"a\" {\n\
+         expect l = 400.0001 cm\nexpect a = 31 deg\nexpect p = (1 m, 3 m)\n}\n",
+    );
+    let report = desk.session.run_checks(desk.id).remove(0);
+    let told: Vec<&str> = report.shortfalls.iter().map(|s| &*s.message).collect();
+    assert_eq!(told, ["400 cm and 400.0001 cm", "30 deg and 31 deg", "(1 m, 2 m) and (1 m, 3 m)"]);
+}
