@@ -265,7 +265,7 @@ pub fn form<'l>(word: &str, labels: impl IntoIterator<Item = &'l str>) -> Name {
 
 /// A message: its answer is an expression. Without parameters it is a virtual part, which stands among the values
 /// unless it is asked with parentheses.
-#[derive(Clone, PartialEq, Debug)]
+#[derive(Clone, Debug)]
 pub struct Message {
     /// Its name.
     pub name: Name,
@@ -287,6 +287,20 @@ pub struct Message {
     pub is_replacing: bool,
     /// Where it was written.
     pub origin: OriginId,
+}
+
+impl PartialEq for Message {
+    /// Answers are compared where they are not shared: each edit asks it of all classes of all libraries.
+    fn eq(&self, other: &Self) -> bool {
+        let Self { name, doc, parameters, class, answer, is_asked, is_default, .. } = self;
+        let is_same = |m: &Self| (m.is_combining, m.is_replacing, m.origin);
+        *name == other.name
+            && (*class, *is_asked, *is_default) == (other.class, other.is_asked, other.is_default)
+            && is_same(self) == is_same(other)
+            && *parameters == other.parameters
+            && (Rc::ptr_eq(answer, &other.answer) || *answer == other.answer)
+            && *doc == other.doc
+    }
 }
 
 impl Message {
