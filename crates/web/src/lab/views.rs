@@ -65,11 +65,11 @@ impl Lab {
             if is_seen && self.make_short_list() {
                 return self.list();
             }
-            // the picture comes first
-            return js::after_painting(move || self.go_on_listing(number));
+        } else {
+            self.renew_rows(id);
         }
-        self.renew_rows(id);
-        self.go_on_listing(number);
+        // the picture comes first
+        js::after_painting(move || self.go_on_listing(number));
     }
 
     /// Brings the picture up to date, and says what of it moves.

@@ -41,8 +41,8 @@ enum Mode {
     Idle,
     /// A thing is pressed that may be dragged; with it all that is selected with it, or else it is selected alone.
     Pressed { path: String, start: (f64, f64) },
-    /// A thing is dragged; the pointer is this far from it, on the sheet.
-    Drag { offset: (f64, f64) },
+    /// A thing is dragged; the pointer is this far from it, on the sheet, and it was last to go there.
+    Drag { offset: (f64, f64), wish: Option<(f64, f64)> },
     /// The sheet is dragged.
     Pan { last: (f64, f64) },
     /// A tool has set something where the pointer was pressed, or a construction has taken what is there.
@@ -433,7 +433,9 @@ impl Hand {
             Mode::Pressed { path, start } => {
                 if distance(at, start) >= STIR {
                     self.begin_drag(&path, start);
-                    self.drag_to(at);
+                    // how it moves was planned: the first move is work enough for another frame
+                    self.state.update_value(|state| state.latest = Some(at));
+                    request_animation_frame(move || self.frame());
                 }
             }
             Mode::Drag { .. } => self.drag_to(at),
@@ -480,7 +482,8 @@ impl Hand {
         });
         self.state.update_value(|state| state.rest = rest);
         let p = sheet_point(self.lab, start);
-        self.set_mode(Mode::Drag { offset: (handle.0 - p.x, handle.1 - p.y) });
+        let offset = (handle.0 - p.x, handle.1 - p.y);
+        self.set_mode(Mode::Drag { offset, wish: None });
     }
 
     /// Returns what moves with a thing: all that is selected, where it is of several that are, itself first.
@@ -504,15 +507,21 @@ impl Hand {
     }
 
     fn drag_to(self, at: (f64, f64)) {
-        let Mode::Drag { offset } = self.mode() else { return };
-        if self.lab.dragging.with_untracked(Option::is_some) {
+        let Mode::Drag { offset, wish } = self.mode() else { return };
+        if let Some(came) = self.lab.dragging.get_untracked() {
             let p = sheet_point(self.lab, at);
             let decimals = self.lab.view.with_untracked(View::decimals);
             let round = |x: f64| base::number::rounded(x, decimals).parse().unwrap_or(x);
             let to = (round(p.x + offset.0), round(p.y + offset.1));
             self.lab.look_for_joint(&self.near(to));
             let joint = self.lab.dropping.with_untracked(|d| d.as_ref().map(|(_, c)| c.at));
-            self.lab.drag(joint.unwrap_or(to));
+            let now = joint.unwrap_or(to);
+            // what is there already, as while another has caught it, has no further to go; a long way goes on
+            let goes_on = !came.reached && came.limit.is_none();
+            if goes_on || wish != Some(now) {
+                self.set_mode(Mode::Drag { offset, wish: Some(now) });
+                self.lab.drag(now);
+            }
         }
     }
 
@@ -555,6 +564,8 @@ impl Hand {
             self.lab.tool_set(&self.pointer(at));
         }
         self.state.update_value(|state| state.latest = Some(at));
+        self.frame();
+        // a drag that began just now
         self.frame();
         let mode = self.mode();
         self.let_go(e);
