@@ -486,9 +486,8 @@ async fn a_washer_is_recorded_on_a_narrow_page() {
     hands::use_library(&visit, "contours").await;
     visit.leave_and_return().await;
     // what an earlier visit left is offered where it covers nothing
-    let is_offered = |height: &str| {
-        format!("document.querySelector('.notice.draft')?.offsetHeight {height}")
-    };
+    let is_offered =
+        |height: &str| format!("document.querySelector('.notice.draft')?.offsetHeight {height}");
     visit.until(&is_offered("> 10")).await;
     visit.client.set_window_size(500, 844).await.expect("a narrow window");
     press(&visit, ".handles button").await;

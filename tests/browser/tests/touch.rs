@@ -1,4 +1,4 @@
-//! Three ordinary jobs by touch alone, on a phone's page. (The quadrilateral is in `hand.rs`.)
+//! Four ordinary jobs by touch alone, on a phone's page. (The quadrilateral is in `hand.rs`.)
 
 use browser::Visit;
 use browser::hands::{
@@ -22,7 +22,7 @@ impl Picture {
 /// Begins a document on a phone's page, and says where its picture lies.
 async fn begin_on_a_phone() -> (Visit, Picture) {
     let visit = begin().await;
-    visit.client.set_window_size(420, 844).await.expect("a phone's window");
+    visit.client.set_window_size(390, 844).await.expect("a phone's window");
     visit.until("document.getElementById('picture').clientWidth < 430").await;
     let script = "const r = document.getElementById('picture').getBoundingClientRect(); \
                   return [r.left, r.top, r.width, r.height]";
@@ -136,4 +136,41 @@ async fn a_bridge_is_built_and_loaded_by_touch_alone() {
     assert!(number(&loaded, "load.size") > 0.01, "{}", text_of(&loaded));
     // the joint comes after the finger, and is not joined with what pulls on it
     assert!(!text_of(&loaded).contains("load.tip"), "{}", text_of(&loaded));
+}
+
+#[tokio::test]
+async fn a_conflict_is_made_explained_and_repaired_by_touch_alone() {
+    let (visit, picture) = begin_on_a_phone().await;
+    press(&visit, "[data-action=tool-line]").await;
+    touch(&visit, &[picture.at(0.2, 0.4), picture.at(0.8, 0.45)]).await;
+    press(&visit, "[data-action=select]").await;
+    touch(&visit, &[picture.at(0.5, 0.425)]).await;
+    dimension(&visit, "length", "150").await;
+    visit.until("window.__thinglab.state().text.includes('line.length = 150')").await;
+    touch(&visit, &[grip(&state(&visit).await, "line.p1")]).await;
+    press(&visit, ".strip .adding").await;
+    touch(&visit, &[grip(&state(&visit).await, "line.p2")]).await;
+    dimension(&visit, "distance", "200").await;
+    let last = ".asked .choices button:nth-last-child(2)";
+    visit.until(&format!("document.querySelector('{last}')?.innerText.includes('conflict')")).await;
+    press(&visit, last).await;
+    visit.until("!window.__thinglab.state().status.satisfied").await;
+    press(&visit, ".status .verdict").await;
+    visit.until("document.querySelectorAll('.why .repair').length >= 2").await;
+    visit.picture("conflict-touch").await;
+    press(&visit, ".why .repair").await;
+    // what gave way to the repair is given where it is seen
+    visit
+        .until(
+            "(s => s.satisfied && !s.message.includes('gave way'))(window.__thinglab.state().status)",
+        )
+        .await;
+}
+
+/// Chooses a dimension of what is selected, and types what is asked for.
+async fn dimension(visit: &Visit, label: &str, value: &str) {
+    press(visit, &format!("[data-offer=\"{label}\"]")).await;
+    visit.until("document.activeElement.id === 'asked'").await;
+    keys(visit, value).await;
+    chord(visit, &[], key::ENTER).await;
 }
