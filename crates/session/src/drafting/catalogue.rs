@@ -588,7 +588,10 @@ fn constructor(document: &Document, id: ClassId, is_program: bool) -> Option<Too
     let is_of_places = compound::is_of_places(document, id);
     let is_by_place =
         is_of_places || matches!(name.as_str(), "Point" | "Line" | "Axis" | "Arc" | "ClockwiseArc");
-    let is_plain = is_by_place || name == "Circle" || compound::of(document, id).is_some();
+    let is_plain = is_by_place
+        || name == "Circle"
+        || compound::of(document, id).is_some()
+        || compound::is_freeform(document, id);
     if !is_program && !is_plain {
         return None;
     }

@@ -72,9 +72,15 @@ pub(crate) fn is_given(document: &Document, class: ClassId, part: &Name) -> bool
     document.lineage(class).iter().any(says)
 }
 
-/// Whether things of a class are drawn as figures: it is one, made of others, or drawn through places.
+/// Whether things of a class are curves that are measured as they are drawn.
+pub(crate) fn is_freeform(document: &Document, class: ClassId) -> bool {
+    document.lineage(class).iter().any(|&c| *document.classes[c].name == *"Freeform")
+}
+
+/// Whether things of a class are drawn as figures: it is one, made of others, drawn through places, or another curve.
 pub(crate) fn is_drawn(document: &Document, class: ClassId) -> bool {
     document.figure(class).is_some()
         || of(document, class).is_some()
         || is_of_places(document, class)
+        || is_freeform(document, class)
 }

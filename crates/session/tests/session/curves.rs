@@ -64,3 +64,35 @@ bow: Bow
     let found = desk.session.comes_to(desk.id, &format!("bow.{name}.center"));
     assert_eq!(found.as_deref(), Some("(14.1421, 14.1421)"));
 }
+
+#[test]
+fn the_nearest_point_of_a_drawn_curve_is_a_tool() {
+    let mut desk = Desk::of(
+        "use drafting
+unit mm
+program Bow(r: Length = 20) {
+    wave = Spline([Point(100, 0), Point(130, 40), Point(160, 80)])
+    oval = Ellipse(Point(0, 0), Point(r, 0), 10)
+    point = Point(0, 30)
+}
+bow: Bow
+",
+    );
+    desk.session.record(desk.id, "Bow").expect("it is there");
+    let all = desk.session.constructions(desk.id);
+    let tool = all.iter().find(|row| row.label == "Nearest point of a curve").expect("it is one");
+    assert!(tool.also.contains("closest"), "{tool:?}");
+    for (on, found) in [((115.0, 20.0), "(100, 0)"), ((20.0, 0.0), "(0, 10)")] {
+        desk.session.begin(desk.id, &tool.id).expect("it is in scope");
+        let pick = |desk: &mut Desk, at| {
+            let pointer = Pointer { at, reach: 1.0, ..Pointer::default() };
+            desk.session.point(desk.id, &pointer).unwrap_or_else(|r| panic!("{}", r.message))
+        };
+        pick(&mut desk, on);
+        let turn = pick(&mut desk, (0.0, 30.0));
+        let Turn::Made { name, .. } = turn else { panic!("all is given: {turn:?}") };
+        let says = desk.session.comes_to(desk.id, &format!("bow.{name}"));
+        assert_eq!(says.as_deref(), Some(found), "{}", desk.text());
+    }
+    assert_eq!(desk.wrong(), [], "{}", desk.text());
+}
