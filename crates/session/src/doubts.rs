@@ -11,6 +11,8 @@ use std::rc::Rc;
 
 /// The message by which a class tells them.
 const DOUBT: &str = "doubt";
+/// What is told of a run that has steps and no figure.
+const NOTHING: &str = "the drawing is empty";
 /// So many are told of a drawing.
 const MOST: usize = 3;
 
@@ -40,13 +42,18 @@ pub(crate) fn of_run<'a>(
     run: &Rc<Context<'a>>,
 ) -> String {
     let mut found = Vec::new();
+    let mut is_empty = true;
     let result = (&Answer::Context(run.clone()), Standing::Result);
     drawn::walk(document, result, &mut String::new(), &mut |answer, standing, path| {
         if standing != Standing::Result || found.len() >= MOST {
             return false;
         }
+        is_empty &= matches!(answer, Answer::Context(_) | Answer::List(_));
         found.extend(of(document, evaluator, answer).map(|words| format!("{path}: {words}")));
         matches!(answer, Answer::Context(_) | Answer::List(_))
     });
+    if is_empty && !run.made.is_empty() {
+        return NOTHING.into();
+    }
     found.join("; ")
 }

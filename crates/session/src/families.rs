@@ -378,7 +378,9 @@ pub(crate) fn draw(
         let values = values_of(state, class, &row.values);
         let measured = evaluator.measure_with(name, class, values, |run| {
             let is_member = ended(&evaluator, rules, run).is_none();
-            is_member.then(|| measures(document, &Answer::Context(run.clone())))
+            // what is doubtful is told of the whole run
+            let is_told = !is_member || !doubts::of_run(document, &evaluator, run).is_empty();
+            (!is_told).then(|| measures(document, &Answer::Context(run.clone())))
         });
         if let Some(measures) = measured.map_err(|f| words::refuse(f.message))? {
             outcome.outcome = "drawn".into();

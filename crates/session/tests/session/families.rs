@@ -369,15 +369,35 @@ fn a_rectangle_turned_inside_out_by_its_parameters_is_told_at_its_step_and_in_it
     desk.set("web.h", 6.0).expect("nothing is refused for it");
     assert!(doubt(&desk).is_some_and(|told| told.starts_with("its height is negative")));
     let grid = desk.session.family_grid(desk.id, "Webs", None).expect("a family");
-    let formats = RowFormats { svg: true, dxf: false };
-    let told = grid.rows.iter().map(|row| {
-        let outcome = desk.session.draw_row(desk.id, "Webs", row, formats).expect("it is one");
-        assert_eq!(outcome.outcome, "drawn");
-        outcome.message
-    });
-    let told: Vec<String> = told.collect();
-    assert_eq!(told[0], "");
-    assert!(told[1].starts_with("rectangle: its height is negative"), "{}", told[1]);
+    // in pictures and in the plain grid
+    for svg in [true, false, false] {
+        let formats = RowFormats { svg, dxf: false };
+        let told = grid.rows.iter().map(|row| {
+            let outcome = desk.session.draw_row(desk.id, "Webs", row, formats).expect("it is one");
+            assert_eq!(outcome.outcome, "drawn");
+            outcome.message
+        });
+        let told: Vec<String> = told.collect();
+        assert_eq!(told[0], "");
+        assert!(told[1].starts_with("rectangle: its height is negative"), "{}", told[1]);
+    }
+}
+
+#[test]
+fn a_row_by_which_no_step_draws_a_figure_says_so() {
+    let text = "use geometry\nprogram Row(holes: Integer = 2) {\n    \
+        turns = repeat holes times { c = Circle(center: Point(0, 0), radius: 4) }\n}\n\
+        family Rows of Row {\n    rows: (\"two\", 2)  (\"none\", 0)\n}\n";
+    let desk = Desk::of(text);
+    assert_eq!(desk.wrong(), [], "{}", desk.text());
+    let grid = desk.session.family_grid(desk.id, "Rows", None).expect("a family");
+    for svg in [true, false] {
+        let formats = RowFormats { svg, dxf: false };
+        let told = grid.rows.iter().map(|row| {
+            desk.session.draw_row(desk.id, "Rows", row, formats).expect("it is one").message
+        });
+        assert_eq!(told.collect::<Vec<_>>(), ["", "the drawing is empty"]);
+    }
 }
 
 #[test]
