@@ -36,8 +36,12 @@ pub(crate) fn apply(
     host: &dyn Host,
     command: &Command,
 ) -> Result<Change, Refusal> {
+    let before = open.state.clone();
     let change = apply_by(open, host, command, Mover::Lab)?;
     crate::drafting::settle(open);
+    if let Command::Set(_) | Command::Move(_) = command {
+        crate::drafting::keep_own(open, &before);
+    }
     Ok(change)
 }
 
@@ -466,6 +470,7 @@ pub(crate) fn keep(
     if let Some(step) = open.done.last_mut() {
         step.came = came;
     }
+    crate::drafting::keep_own(open, &before);
     let mut modes = limits::modes(&open.state, &modes);
     modes.extend(limits::sides(&before, &open.state));
     Ok(Change { modes, ..change(label, &before, &open.state) })

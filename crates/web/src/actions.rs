@@ -10,6 +10,7 @@ use wasm_bindgen::closure::Closure;
 mod conditions;
 pub(crate) use conditions::lockable;
 mod instances;
+mod recording;
 mod table;
 pub use table::ACTIONS;
 

@@ -189,6 +189,18 @@ impl Lab {
         self.tool_view.update(|view| view.preview = preview);
     }
 
+    /// Shows anew what a step made, and what is visited has drawn, where the values are others.
+    fn show_made_anew(self, example: &str) {
+        let lit = self.drafting.lit.get_untracked();
+        let visits = || self.ask_of_shown(session::Session::drawn_so_far).flatten().is_some();
+        if self.drafts() || (lit.is_none() && !visits()) {
+            return;
+        }
+        let made =
+            lit.and_then(|step| self.ask_of_shown(|s, id| s.step_drawing(id, example, &step)));
+        self.show_made(made.unwrap_or_default());
+    }
+
     /// The pointer of the construction is elsewhere.
     pub fn draft_hover(self, pointer: &Pointer) {
         let typed = self.drafting.typed.get_untracked();
@@ -470,6 +482,16 @@ impl Lab {
         self.show_waiting();
     }
 
+    /// Begins a loop in what is recorded.
+    pub fn record_repeat(self) {
+        self.about_block(|session, id| session.begin_loop(id, ""));
+    }
+
+    /// Begins an `if` in what is recorded.
+    pub fn record_if(self) {
+        self.ask_prompt(session::Session::begin_choice);
+    }
+
     /// The next drag is a rubber band.
     fn begin_band(self) {
         self.draft_end();
@@ -593,15 +615,18 @@ impl Lab {
         self.drafting.turned.update(|n| *n += 1);
     }
 
-    /// Goes somewhere in the program that is recorded.
-    fn visit(self, go: &Go) {
+    /// Goes somewhere in the program that is recorded; returns whether there is such a place.
+    fn visit(self, go: &Go) -> bool {
         self.tell(session::Session::give_up);
-        match self.tell(|session, id| session.visit(id, go)) {
-            Some(Err(refusal)) => self.notice.set(Some(Notice::Refused(refusal))),
-            Some(Ok(())) | None => self.notice.set(None),
-        }
+        let outcome = self.tell(|session, id| session.visit(id, go));
+        let is_there = matches!(outcome, Some(Ok(())));
+        self.notice.set(match outcome {
+            Some(Err(refusal)) => Some(Notice::Refused(refusal)),
+            Some(Ok(())) | None => None,
+        });
         self.drafting.lit.set(None);
         self.show_waiting();
+        is_there
     }
 
     /// The next click says until where the program is visited; or it does not any more.
@@ -613,15 +638,18 @@ impl Lab {
 
     /// The visit goes on until what is under the pointer is drawn.
     pub fn visit_picked(self, pointer: &Pointer) {
-        self.drafting.seeking.set(false);
-        self.visit(&Go::UntilPicked(pointer.clone()));
+        // where nothing lies another click is waited for
+        if self.visit(&Go::UntilPicked(pointer.clone())) {
+            self.drafting.seeking.set(false);
+        }
     }
 
     fn replace_step(self, step: &str) {
         self.tell(session::Session::give_up);
         match self.tell(|session, id| session.begin_replace(id, step)) {
             Some(Err(refusal)) => self.notice.set(Some(Notice::Refused(refusal))),
-            Some(Ok(())) | None => self.notice.set(Some(Notice::Said(words::draw_anew(step)))),
+            Some(Ok(name)) => self.notice.set(Some(Notice::Said(words::draw_anew(&name)))),
+            None => {}
         }
         self.show_waiting();
     }
@@ -723,6 +751,13 @@ pub fn Drawing(
     let steps = Memo::new(move |_| {
         track();
         ask(session::Session::program_shown)
+    });
+    Effect::new(move |_| {
+        lab.picture.track();
+        let example = steps.with_untracked(|s| s.as_ref().map(|s| s.example.clone()));
+        if let Some(example) = example {
+            lab.show_made_anew(&example);
+        }
     });
     let rows = once_painted(track, move || ask(session::Session::steps).unwrap_or_default());
     view! {

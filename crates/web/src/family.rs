@@ -208,10 +208,19 @@ pub fn Families(
     });
     let name = Memo::new(move |_| {
         let (choices, chosen) = (choices.get(), chosen.get());
-        match choices.contains(&chosen) {
-            true => chosen,
-            false => choices.first().cloned().unwrap_or_default(),
+        if choices.contains(&chosen) {
+            return chosen;
         }
+        // until one is chosen, that of what is selected
+        let selected = lab.selected.get();
+        let shown = |s: &Session, id| s.program_shown(id, selected.as_deref()).map(|s| s.program);
+        let program = lab.ask_of_shown(shown).flatten().unwrap_or_default();
+        let family = families.with(|all| {
+            all.iter().find(|family| family.program == program).map(|family| family.name.clone())
+        });
+        let own = family.unwrap_or(program);
+        let found = choices.iter().find(|choice| **choice == own).or(choices.first());
+        found.cloned().unwrap_or_default()
     });
     let file = file_of(lab, families, name);
     let read = Memo::new(move |_| {

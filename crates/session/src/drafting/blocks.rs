@@ -277,7 +277,13 @@ pub(crate) fn view(source: &text::Source, recording: &Recording) -> Vec<OpenBloc
         let set = caught.iter().map(|name| (name.clone(), set.contains(name))).collect();
         OpenBlock { address: address.clone(), words, kind, set }
     };
-    recording.blocks.iter().map(one).collect()
+    let replaced = recording.replaces.as_ref().map(|step| OpenBlock {
+        address: step.clone(),
+        words: format!("what you draw next takes the place of {}", text::told(step)),
+        kind: OpenKind::Visited,
+        set: Vec::new(),
+    });
+    recording.blocks.iter().map(one).chain(replaced).collect()
 }
 
 /// What was caught for the set that the open loop goes over, as long as that may be changed; nothing else.

@@ -119,7 +119,7 @@ fn give(open: &mut Open, host: &dyn Host, operand: Operand) -> Result<Turn, Refu
         }
         let next = prompt(open);
         let change = Box::new(change);
-        return Ok(Turn::Made { change, name: step, text: chosen.text, next });
+        return Ok(Turn::Made { change, name: text::told(&step).into(), text: chosen.text, next });
     }
     let line = recording::line(open, &home, &dialogue, (&filled, &chosen.text));
     let since = open.done.len();

@@ -9,6 +9,7 @@ use crate::host::Host;
 use crate::view::{Change, Pointer, Refusal};
 use crate::words;
 use base::Name;
+use syntax::ast::AstNode;
 
 /// A deletion whose dependents are asked about.
 #[derive(Clone, PartialEq, Debug)]
@@ -53,10 +54,29 @@ impl Removing {
         self.asked.retain(|asked| asked.answer.is_some() || !gone.contains(&asked.step));
     }
 
+    /// Whether what goes first stands in a step: what that says of it stands behind its turn.
+    fn is_around(&self, step: &str) -> bool {
+        self.gone[0].strip_prefix(step).is_some_and(|rest| rest.starts_with('.'))
+    }
+
+    /// Where a step reads the names of what it speaks of.
+    fn home(&self, source: &text::Source, of: (&Name, &Name), step: &str) -> Option<Home> {
+        if !self.is_around(step) {
+            return visit::home_of(source, of, step, &[]);
+        }
+        let rest = self.gone[0][step.len() + 1..].split('.').next()?;
+        let mut home = visit::home_of(source, of, &text::joined(step, rest), &[])?;
+        if let Home::Program { before, .. } = &mut home {
+            *before = None;
+        }
+        Some(home)
+    }
+
     /// What is waited for.
     pub(crate) fn prompt(&self) -> Option<Prompt> {
         let at = self.open_question()?;
         let Asked { step, of, .. } = &self.asked[at];
+        let told = text::told(step);
         Some(Prompt {
             label: format!(
                 "Delete {}, {} of {}",
@@ -64,10 +84,14 @@ impl Removing {
                 at + 1,
                 self.asked.len()
             ),
-            words: format!(
-                "{} is drawn from {of}: pick or type another object for it, or delete it too",
-                text::told(step)
-            ),
+            words: match self.is_around(step) {
+                true => format!(
+                    "the next turn of {told}, or its end, speaks of {of}: pick or type another object for it, or delete all of {told}"
+                ),
+                false => format!(
+                    "{told} is drawn from {of}: pick or type another object for it, or delete it too"
+                ),
+            },
             takes_sets: true,
             goes_wider: true,
             wants: Wants::Substitute { step: step.clone(), gone: of.clone() },
@@ -196,12 +220,8 @@ pub(super) fn home(open: &Open) -> Option<Home> {
     let recording = open.recording.as_ref()?;
     let removing = recording.removing.as_ref()?;
     let step = &removing.asked[removing.open_question()?].step;
-    visit::home_of(
-        &text::Source::now(&open.state),
-        (&recording.program, &recording.example),
-        step,
-        &[],
-    )
+    let of = (&recording.program, &recording.example);
+    removing.home(&text::Source::now(&open.state), of, step)
 }
 
 /// Gives another object for what goes: as it is typed, or as a pointer finds it.
@@ -218,7 +238,7 @@ pub(crate) fn instead(
     let at = removing.open_question().ok_or_else(none)?;
     let Asked { step, of, .. } = removing.asked[at].clone();
     let source = text::Source::now(&open.state);
-    let home = visit::home_of(&source, (&program, &example), &step, &[]).ok_or_else(none)?;
+    let home = removing.home(&source, (&program, &example), &step).ok_or_else(none)?;
     let found = match picked {
         Some((pointer, level)) => {
             let all = scene::scene(&open.state, &home);
@@ -261,7 +281,7 @@ pub(crate) fn instead(
     finish(open, host)
 }
 
-/// Returns a text in which a step speaks of something else.
+/// Returns a text in which a step speaks of something else; the steps in it speak as before.
 fn substituted(
     source: &text::Source,
     program: &str,
@@ -269,11 +289,20 @@ fn substituted(
     found: &str,
 ) -> Result<String, Refusal> {
     let none = || words::refuse(format!("{program} has no step {step}"));
-    let (_, span) = text::step(source, program, step).ok_or_else(none)?;
-    let (start, end) = (span.start as usize, span.end as usize);
-    let says = &source[start..end];
+    let value = text::step_at(source, program, step).and_then(|s| s.value).ok_or_else(none)?;
+    let (start, end) = (value.span().start as usize, value.span().end as usize);
     let written = catalogue::bracketed(found);
-    Ok(format!("{}{}{}", &source[..start], text::renamed(says, of, &written), &source[end..]))
+    let inner = text::inner_steps(&value).into_iter().flat_map(|(_, steps)| steps);
+    let mut inner: Vec<_> = inner.map(|s| (s.span.start as usize, s.span.end as usize)).collect();
+    inner.sort_unstable();
+    let (mut text, mut at) = (source[..start].to_string(), start);
+    for (from, to) in inner {
+        text += &text::renamed(&source[at..from], of, &written);
+        text += &source[from..to];
+        at = to;
+    }
+    text += &text::renamed(&source[at..end], of, &written);
+    Ok(text + &source[end..])
 }
 
 /// Deletes once everything is answered.
@@ -298,6 +327,7 @@ fn finish(open: &mut Open, host: &dyn Host) -> Result<Option<Change>, Refusal> {
     }
     let edited = patterns::settled(open, host, &program, (edited, &resettled))?;
     let edited = steps::without(&text::Source::of(edited), &program, &removing.gone)?;
-    let label = format!("delete {}", removing.gone.join(", "));
+    let gone: Vec<&str> = removing.gone.iter().map(|gone| text::told(gone)).collect();
+    let label = format!("delete {}", gone.join(", "));
     recording::retext(open, host, edited, label).map(Some)
 }

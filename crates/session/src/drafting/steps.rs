@@ -141,8 +141,10 @@ impl<'s> Found<'s> {
                 let before = recording.before.clone().unwrap_or_default();
                 text::joined(&text::address_of(home), &before)
             }),
-            replaces: recording.and_then(|recording| recording.replaces.clone()),
-            by_others: recording.is_some_and(|recording| recording.own_values.is_some()),
+            by_others: recording.is_some_and(|recording| {
+                let own = recording.own_values.as_ref();
+                own.is_some_and(|own| super::choice::example_text(open).as_ref() != Some(own))
+            }),
             example: self.example.clone(),
         }
     }

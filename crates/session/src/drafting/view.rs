@@ -189,8 +189,6 @@ pub struct StepsView {
     /// Where it is visited: the address of the step that comes next, or of the block at whose end one is; nothing where
     /// recording goes on at the end of the program.
     pub at: Option<String>,
-    /// The step that what is drawn next takes the place of.
-    pub replaces: Option<String>,
     /// Whether it is visited by other values of its parameters than the example's own.
     pub by_others: bool,
     /// Its parameters: name and the example's value.

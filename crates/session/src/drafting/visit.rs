@@ -247,15 +247,17 @@ pub(crate) fn place_of(
     Some((address, turns))
 }
 
-/// Keeps what the example is of its own, where the program is visited and a thing that gets other values is that.
-pub(crate) fn keep_own(open: &mut Open, thing: &str) {
-    let own = super::choice::example_text(open);
-    let is_visited = is_inside(open);
-    if let Some(recording) = &mut open.recording
-        && is_visited
-        && *recording.example == *thing
-        && recording.own_values.is_none()
-    {
+/// Keeps what the example was of its own in the state before, where the program is visited and the example has got other
+/// values, by whatever hand.
+pub(crate) fn keep_own(open: &mut Open, before: &State) {
+    let is_asked = open.recording.as_ref().is_some_and(|r| r.own_values.is_none());
+    if !is_asked || !is_inside(open) {
+        return;
+    }
+    let of =
+        |text: &str| super::choice::example_span(open, text).map(|span| text[span].to_string());
+    let (own, now) = (of(&before.text), of(&open.state.text));
+    if let Some(recording) = open.recording.as_mut().filter(|_| own != now) {
         recording.own_values = own;
     }
 }

@@ -42,13 +42,7 @@ impl Session {
     ) -> Result<Change, Refusal> {
         let open = self.document_mut(id);
         let example = blocks::recorded(open)?.example.to_string();
-        let before = open.recording.as_ref().and_then(|recording| recording.own_values.clone());
-        visit::keep_own(open, &example);
-        let outcome = self.set_parameters(id, &example, typed);
-        if let (Err(_), Some(recording)) = (&outcome, &mut self.document_mut(id).recording) {
-            recording.own_values = before;
-        }
-        outcome
+        self.set_parameters(id, &example, typed)
     }
 
     /// Gives the example of the program that is recorded its own values again.
@@ -166,11 +160,12 @@ impl Session {
         names.map(ToString::to_string).collect()
     }
 
-    /// Goes to a step, and lets what is drawn next take its place: it keeps its name, and what speaks of it.
+    /// Goes to a step, and lets what is drawn next take its place: it keeps its name, and what speaks of it. Returns what
+    /// it is called.
     ///
     /// # Errors
     /// Nothing is recorded, a block is demonstrated; there is no such step, or it is a block.
-    pub fn begin_replace(&mut self, id: DocumentId, step: &str) -> Result<(), Refusal> {
+    pub fn begin_replace(&mut self, id: DocumentId, step: &str) -> Result<String, Refusal> {
         let was = self.document(id).recording.as_ref();
         // from a step that was to be replaced and was not, one returns to where one was before it
         let was = was.map(|recording| match &recording.returns {
@@ -179,17 +174,17 @@ impl Session {
         });
         self.visit(id, &Go::To(step.into()))?;
         let open = self.document_mut(id);
-        let Some(recording) = &mut open.recording else { return Ok(()) };
+        let told = text::told(step);
+        let Some(recording) = &mut open.recording else { return Ok(told.into()) };
         let found = text::step_at(&text::Source::now(&open.state), &recording.program, step);
         if !matches!(found.and_then(|s| s.value), Some(syntax::ast::Value::Expr(_))) {
-            let told = text::told(step);
             return Err(words::refuse(format!(
                 "{told} has steps in it: step into it, or delete it"
             )));
         }
         recording.replaces = Some(step.into());
         recording.returns = was;
-        Ok(())
+        Ok(told.into())
     }
 
     /// Begins to delete a step: for each step that speaks of it another object is waited for, one by one.

@@ -359,7 +359,6 @@ impl Session {
                     };
                     values.push((path.then(Step::Part(column.name.as_str().into())), value));
                 }
-                crate::drafting::keep_own(self.document_mut(id), thing);
                 Ok((self.apply(id, &Command::Set(values))?, thing.clone()))
             }
             RowUse::Place => {

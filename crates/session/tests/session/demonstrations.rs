@@ -785,3 +785,78 @@ fn undo_of_the_other_branch_leads_back_into_the_first() {
         assert_eq!(open_in(&desk), ["draw what is done if d > 80"], "{}", desk.text());
     }
 }
+
+/// Rows of holes, each row begun by the hole to which the turn behind it goes on.
+fn sheet() -> Desk {
+    let mut desk = Desk::of(
+        "use geometry
+program Sheet(pitch: Length = 10) {
+    turns = repeat 3 times with start = Point(0, 0) {
+        circle = Circle(center: start, radius: 3)
+        turns2 = repeat 2 times with from = circle.center {
+            circle2 = Circle(center: Point(from.x + pitch, from.y), radius: 2)
+            next from = circle2.center
+        }
+        next start = Point(circle.center.x, circle.center.y + pitch)
+    }
+}
+sheet: Sheet
+",
+    );
+    assert_eq!(desk.wrong(), []);
+    desk.session.record(desk.id, "Sheet").expect("it is there");
+    desk
+}
+
+#[test]
+fn what_a_loop_carries_on_from_a_step_that_goes_is_asked_where_its_turn_ends() {
+    let mut desk = sheet();
+    let asked = |desk: &Desk| desk.session.prompt(desk.id).expect("it is asked").words;
+    desk.session.begin_delete(desk.id, "turns.circle").expect("it is there");
+    let words = asked(&desk);
+    assert!(words.starts_with("the next turn of turns, or its end, speaks of circle"), "{words}");
+    assert!(words.ends_with("or delete all of turns"), "{words}");
+    // what the turn draws later can be spoken of there
+    desk.session.enter(desk.id, "turns2[0].circle2").expect("it is drawn by then");
+    assert!(asked(&desk).starts_with("turns2 is drawn from circle: pick"));
+    desk.session.enter(desk.id, "Circle(center: start, radius: 1)").expect("it is a circle");
+    assert_eq!(desk.wrong(), [], "{}", desk.text());
+    let text = desk.text();
+    let wanted =
+        "next start = Point(turns2[0].circle2.center.x, turns2[0].circle2.center.y + pitch)";
+    assert!(text.contains(wanted), "{text}");
+    assert_eq!(desk.session.history(desk.id).0.last().map(String::as_str), Some("delete circle"));
+}
+
+#[test]
+fn a_value_that_is_set_by_hand_while_a_program_is_visited_is_one_of_the_visit() {
+    let by_others =
+        |desk: &Desk| desk.session.steps(desk.id, None).expect("it is recorded").by_others;
+    for is_dragged in [false, true] {
+        let mut desk = sheet();
+        let before = desk.text();
+        desk.session.visit(desk.id, &Go::To("turns.circle".into())).expect("it is there");
+        match is_dragged {
+            true => {
+                desk.session.press(desk.id, &session::Path::of(&["sheet", "pitch"])).expect("free");
+                desk.session.drag(desk.id, (14.0, 0.0));
+                desk.session.release(desk.id).expect("nothing is wrong");
+            }
+            false => _ = desk.set("sheet.pitch", 14.0).expect("a parameter can be set"),
+        }
+        assert!(by_others(&desk) && desk.text() != before, "{}", desk.text());
+        desk.session.own_values(desk.id).expect("it is recorded");
+        assert_eq!(desk.text(), before);
+        assert!(!by_others(&desk));
+    }
+}
+
+#[test]
+fn a_step_that_is_replaced_is_told_by_its_name() {
+    let mut desk = sheet();
+    let step = "turns.turns2.circle2";
+    assert_eq!(desk.session.begin_replace(desk.id, step).expect("it is one"), "circle2");
+    assert_eq!(open_in(&desk).last().unwrap(), "what you draw next takes the place of circle2");
+    let name = draw(&mut desk, "Circle", &[Typed("from"), Typed("pitch / 4")]);
+    assert_eq!(name, "circle2");
+}

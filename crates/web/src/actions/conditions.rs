@@ -3,6 +3,7 @@
 use crate::lab::Lab;
 use crate::words;
 use leptos::prelude::*;
+use session::drafting::view::{Prompt, Wants};
 use session::view::{RowKind, StructureRow};
 
 /// Whether things of a class can be made.
@@ -80,5 +81,20 @@ pub(super) fn constraint(lab: Lab, on: bool) -> Result<(), &'static str> {
         RowKind::Part | RowKind::Virtual | RowKind::Merge | RowKind::Side => {
             Err(words::NOT_A_CONSTRAINT)
         }
+    }
+}
+
+/// Whether a program is recorded in which a block can be begun now.
+pub(super) fn recorded(lab: Lab) -> Result<(), &'static str> {
+    document(lab)?;
+    lab.drafting.turned.track();
+    let is_recorded = lab.ask_of_shown(|session, id| session.recorded(id).is_some());
+    if is_recorded != Some(true) {
+        return Err(words::NOT_RECORDED);
+    }
+    let asks = |p: &Prompt| matches!(p.wants, Wants::Recurrence(_) | Wants::Ends(_));
+    match lab.drafting.prompt.with(|prompt| prompt.as_ref().is_some_and(asks)) {
+        true => Err(words::TURN_IS_ASKED),
+        false => Ok(()),
     }
 }

@@ -3,7 +3,7 @@
 use super::conditions::{
     class, constraint, document, drawn, instance, is_own, is_thing, lockable, selected, several,
 };
-use super::{Action, Context, Group};
+use super::{Action, Context, Group, recording};
 use crate::dialog::Wish;
 use crate::dock::{Sheet, Tab};
 use crate::keyboard::focus;
@@ -556,6 +556,8 @@ pub const ACTIONS: &[Action] = &[
         enabled: |lab| document(lab).map(drop),
         run: Lab::toggle_annotations,
     },
+    recording::REPEAT,
+    recording::IF,
     Action {
         id: "go-picture",
         group: Group::Go,

@@ -56,7 +56,13 @@ fn Blocks(lab: Lab, open: Vec<OpenBlock>) -> impl IntoView {
     let lines =
         open.into_iter().map(|block| view! { <p class="asked" role="status">{block.words}</p> });
     let button = |label: &'static str, mark: &'static str, run: Box<dyn Fn() + Send>| {
-        view! { <button data-draft=mark on:click=move |_| run()>{label}</button> }
+        let title = match mark {
+            "repeat" | "if" => {
+                crate::actions::named(&format!("record-{mark}")).keys.first().copied()
+            }
+            _ => None,
+        };
+        view! { <button data-draft=mark title=title on:click=move |_| run()>{label}</button> }
     };
     let turn = |label, mark, ends| button(label, mark, Box::new(move || lab.end_turn(ends)));
     let ends = match innermost {
@@ -78,10 +84,12 @@ fn Blocks(lab: Lab, open: Vec<OpenBlock>) -> impl IntoView {
         }
         Some(OpenKind::Asking | OpenKind::Visited) | None => ().into_any(),
     };
-    let begins = (innermost != Some(OpenKind::Asking)).then(|| view! {
-        {button(words::REPEAT, "repeat", Box::new(move || lab.about_block(|s, id| s.begin_loop(id, ""))))}
-        {button(words::IF, "if", Box::new(move || lab.ask_prompt(session::Session::begin_choice)))}
-        {button(words::FOR_EACH, "for-each", Box::new(move || lab.begin_band()))}
+    let begins = (innermost != Some(OpenKind::Asking)).then(|| {
+        view! {
+            {button(words::REPEAT, "repeat", Box::new(move || lab.record_repeat()))}
+            {button(words::IF, "if", Box::new(move || lab.record_if()))}
+            {button(words::FOR_EACH, "for-each", Box::new(move || lab.begin_band()))}
+        }
     });
     let member = |(name, is_in): (String, bool)| {
         let own = name.clone();

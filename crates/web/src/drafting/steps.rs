@@ -50,7 +50,7 @@ pub fn Steps(
             request_animation_frame(move || show(what));
         }
         let is_asked = lab.drafting.prompt.with_untracked(Option::is_some);
-        if sight.recorded > 0 && !is_asked && !js::coarse() {
+        if listed.with(|s| s.is_recorded) && !is_asked && !js::coarse() {
             // the rows are others now: who had the keyboard in one of them has it beside them
             keyboard::rest_at(".drawing [data-visit='step']");
         }
@@ -61,7 +61,7 @@ pub fn Steps(
         lab.drafting.lit.track();
         keyboard::one_stop(LIST);
     });
-    let go = move |go: Go| move |_| lab.visit(&go);
+    let go = move |go: Go| move |_| _ = lab.visit(&go);
     let is_recorded = Memo::new(move |_| steps.with(|s| s.as_ref().is_some_and(|s| s.is_recorded)));
     let more = move |_| lab.record(&steps.get_untracked().unwrap_or_default().program);
     let visit = move || {
@@ -151,14 +151,19 @@ impl Sight {
     }
 }
 
-/// Brings a row into the list's frame; where it is not merely the last, into the drawer's as well, which scrolls as a
-/// whole on narrow pages.
+/// Brings a row into the list's frame; where it is not merely the last, into those around as well: what is recorded
+/// scrolls where its parameters take much room, the drawer as a whole on narrow pages.
 fn show(rows: &[&str]) {
     let found = |selector: &str| document().query_selector(selector).ok().flatten();
     let row = rows.iter().find_map(|row| Some((found(row)?, row.ends_with("last-child"))));
     if let Some((step, is_last)) = row {
-        let frames = [found(LIST), found(".drawer .drawing").filter(|_| !is_last)];
-        frames.into_iter().flatten().for_each(|frame| bring_into(&frame, &step));
+        let frames = [LIST, ".drawing .recorded", ".drawer .drawing"];
+        let wanted = if is_last { 1 } else { frames.len() };
+        { frames[..wanted].iter() }
+            .map(|frame| found(frame))
+            .into_iter()
+            .flatten()
+            .for_each(|frame| bring_into(&frame, &step));
     }
     // rows that come push down what has the keyboard
     let drawer = found(".drawer .drawing");
@@ -274,7 +279,7 @@ fn Row(lab: Lab, steps: StepsView, row: StepRow) -> impl IntoView {
     };
     let replace = move |_| own.with_value(|(_, row)| lab.replace_step(&row.path));
     let turn = move |_| own.with_value(|(steps, row)| lab.turn_step(&steps.program, &row.path));
-    let here = move |_| own.with_value(|(_, row)| lab.visit(&Go::To(row.path.clone())));
+    let here = move |_| _ = own.with_value(|(_, row)| lab.visit(&Go::To(row.path.clone())));
     let can_replace = is_recorded && !row.is_block;
     let indent = format!("{}px", 14 * row.depth);
     let name = row.path.clone();

@@ -1,5 +1,13 @@
 //! What the page says of a program and its parameters, of recording among what is drawn already, and of solutions.
 
+/// Begins a loop in what is recorded.
+pub const RECORD_REPEAT: &str = "Repeat, in what is recorded";
+/// Begins a branch in what is recorded.
+pub const RECORD_IF: &str = "If, in what is recorded";
+/// Why no block can be begun.
+pub const NOT_RECORDED: &str = "no program is recorded";
+/// Why no block can be begun while the second turn is asked about.
+pub const TURN_IS_ASKED: &str = "the second turn is asked about: answer first";
 /// The field for the name of a program.
 pub const PROGRAM_NAME: &str = "Program, as Washer";
 /// Defines a parameter.
