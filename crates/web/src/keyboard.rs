@@ -67,8 +67,8 @@ fn is_shut_away(e: &HtmlElement) -> bool {
     })
 }
 
-/// With the next frame, makes the buttons of a list one stop of Tab: the one that is chosen, or was it last, or the
-/// first. To be said again where its rows are others.
+/// With the next frame, makes the buttons of a list one stop of Tab: the one that is chosen, or comes next, or was it
+/// last, or the first. To be said again where its rows are others.
 pub fn one_stop(list: &'static str) {
     request_animation_frame(move || {
         // of a long list few are looked at: those that are stops already, as each new one is
@@ -78,6 +78,7 @@ pub fn one_stop(list: &'static str) {
         let first = |filter| of_list(list, filter).into_iter().next();
         let stop = held
             .or_else(|| first("[aria-selected='true']"))
+            .or_else(|| first("[aria-current='step']"))
             // a new button has no such word of its own
             .or_else(|| first("[tabindex='0']"))
             .or_else(|| first(""));

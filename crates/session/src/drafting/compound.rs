@@ -74,7 +74,7 @@ pub(crate) fn is_given(document: &Document, class: ClassId, part: &Name) -> bool
 
 /// Whether things of a class are curves that are measured as they are drawn.
 pub(crate) fn is_freeform(document: &Document, class: ClassId) -> bool {
-    document.lineage(class).iter().any(|&c| *document.classes[c].name == *"Freeform")
+    document.class_named("Freeform").is_some_and(|curve| document.is_a(class, curve))
 }
 
 /// Whether things of a class are drawn as figures: it is one, made of others, drawn through places, or another curve.

@@ -84,14 +84,17 @@ pub(super) fn constraint(lab: Lab, on: bool) -> Result<(), &'static str> {
     }
 }
 
-/// Whether a program is recorded in which a block can be begun now.
-pub(super) fn recorded(lab: Lab) -> Result<(), &'static str> {
+/// Whether a program is recorded.
+pub(super) fn is_recorded(lab: Lab) -> Result<(), &'static str> {
     document(lab)?;
     lab.drafting.turned.track();
     let is_recorded = lab.ask_of_shown(|session, id| session.recorded(id).is_some());
-    if is_recorded != Some(true) {
-        return Err(words::NOT_RECORDED);
-    }
+    if is_recorded == Some(true) { Ok(()) } else { Err(words::NOT_RECORDED) }
+}
+
+/// Whether a program is recorded in which a block can be begun now.
+pub(super) fn recorded(lab: Lab) -> Result<(), &'static str> {
+    is_recorded(lab)?;
     let asks = |p: &Prompt| matches!(p.wants, Wants::Recurrence(_) | Wants::Ends(_));
     match lab.drafting.prompt.with(|prompt| prompt.as_ref().is_some_and(asks)) {
         true => Err(words::TURN_IS_ASKED),

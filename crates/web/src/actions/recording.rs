@@ -1,9 +1,11 @@
 //! What is done about a program that is recorded, wherever the keyboard is: one types operands in a field.
 
-use super::conditions::recorded;
+use super::conditions::{is_recorded, recorded};
 use super::{Action, Group};
-use crate::lab::Lab;
+use crate::keyboard::focus;
+use crate::lab::{Drawer, Lab};
 use crate::words;
+use leptos::prelude::request_animation_frame;
 
 /// Begins a loop.
 pub(super) const REPEAT: Action = Action {
@@ -14,6 +16,20 @@ pub(super) const REPEAT: Action = Action {
     keys: &["Alt+R"],
     enabled: recorded,
     run: Lab::record_repeat,
+};
+
+/// Leads to what can be begun and ended.
+pub(super) const GO: Action = Action {
+    id: "go-recording",
+    group: Group::Go,
+    contexts: &[],
+    label: words::GO_RECORDING,
+    keys: &["Alt+8"],
+    enabled: is_recorded,
+    run: |lab| {
+        lab.open_drawer(Drawer::Draw);
+        request_animation_frame(|| focus(".drawing .blocks button"));
+    },
 };
 
 /// Begins a branch.

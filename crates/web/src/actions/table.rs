@@ -558,6 +558,7 @@ pub const ACTIONS: &[Action] = &[
     },
     recording::REPEAT,
     recording::IF,
+    recording::GO,
     Action {
         id: "go-picture",
         group: Group::Go,

@@ -286,7 +286,7 @@ fn Row(lab: Lab, steps: StepsView, row: StepRow) -> impl IntoView {
     view! {
         <li class:lit=is_lit class:guide=row.is_guide class:unmade=row.is_unmade class:next=is_next
             class:failed=is_failed class:selected=is_selected style:margin-left=indent data-step=name>
-            <button class="bare step" title=row.formula on:click=light>
+            <button class="bare step" title=row.formula aria-current=is_next.then_some("step") on:click=light>
                 <b>{row.name}</b>" "{row.words}
                 {row.value.map(|value| view! { <span class="quiet">{value}</span> })}
                 {row.doubt.map(|doubt| view! { <span class="doubt">{doubt}</span> })}

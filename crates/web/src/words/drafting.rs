@@ -4,6 +4,8 @@
 pub const RECORD_REPEAT: &str = "Repeat, in what is recorded";
 /// Begins a branch in what is recorded.
 pub const RECORD_IF: &str = "If, in what is recorded";
+/// Leads to the blocks of what is recorded.
+pub const GO_RECORDING: &str = "Go to what can be begun and ended while recording";
 /// Why no block can be begun.
 pub const NOT_RECORDED: &str = "no program is recorded";
 /// Why no block can be begun while the second turn is asked about.
