@@ -328,10 +328,8 @@ impl Met {
     }
 
     fn planned(&mut self, planner: &Planner, mode: &Mode) -> &(Rc<System>, Rc<Plan>) {
-        if !self.planned.contains_key(mode) {
-            self.planned.insert(mode.clone(), planner.in_mode(&self.modes, mode));
-        }
-        &self.planned[mode]
+        let Self { modes, planned } = self;
+        planned.entry(mode.clone()).or_insert_with(|| planner.in_mode(modes, mode))
     }
 }
 

@@ -563,8 +563,7 @@ fn restructured(open: &mut Open, host: &dyn Host, command: &Command) -> Result<C
             let mut texts = Texts::new(&state.lowered.document, &state.structure);
             planner.satisfy_since(state.model(), &state.values, &mut values, &mut texts);
             let edited = Edited { by_hand: Some(Vec::new()), ..Edited::default() };
-            let (state, planner) =
-                write_back(&state, &values, &edited, host, planner.into_plans());
+            let (state, planner) = write_back(&state, &values, &edited, host, planner.into_plans());
             match command {
                 Command::Enable { .. } => settle_places(&before, state, planner, host),
                 _ => (state, planner),
