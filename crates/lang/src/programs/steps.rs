@@ -166,15 +166,6 @@ impl Lowerer<'_> {
                 else {
                     return (Says::Unclear, Kind::Unknown);
                 };
-                if let Some(condition) = choice.turned_round() {
-                    let span = self.first_line(scope.file, value.span());
-                    let place = Place { file: scope.file, span };
-                    let message = "this `if` is open: its condition is turned round";
-                    let d = Diagnostic::warning("open-block", place, message);
-                    let hint =
-                        format!("record more of the program and end it, or write `if {condition}`");
-                    self.report(d.hint(hint));
-                }
                 let mut inner = scope.clone();
                 (self.branches(&mut inner, class, choice), Kind::Thing(class))
             }
@@ -347,6 +338,13 @@ impl Lowerer<'_> {
 
     /// Lowers both branches of an `if`. What they make is visible after it.
     fn branches(&mut self, scope: &mut Scope, class: ClassId, choice: &ast::If) -> Says {
+        if let Some(condition) = choice.turned_round() {
+            let span = self.first_line(scope.file, choice.span());
+            let message = "this `if` is open: its condition is turned round";
+            let d = Diagnostic::warning("open-block", Place { file: scope.file, span }, message);
+            let hint = format!("record more of the program and end it, or write `if {condition}`");
+            self.report(d.hint(hint));
+        }
         let condition = choice.condition().and_then(|c| self.expr_of(scope, &c, &Kind::Bool));
         let known = scope.locals.len();
         let branch = |l: &mut Self, members: &[Member]| {

@@ -208,6 +208,11 @@ const WRONG: &[(&str, &str, &str)] = &[
     ("program P() { a = b  b = 3 }", "not-visible", "b"),
     ("program P() { c = repeat 3 times { a = 1 }  d = a }", "not-visible", "a"),
     ("program P() { c = repeat { a = 1 } }", "open-block", "repeat { a = 1 }"),
+    (
+        "program P(a: Real = 1) { if not ((a > 0)) { b = 1 } else { b = 2 } }",
+        "open-block",
+        "if not ((a > 0)) { b = 1 } else { b = 2 }",
+    ),
     ("program P() { c = repeat 3 times { a = 1  next b = 2 } }", "not-carried", "b"),
     (
         "program P() { c = repeat 3 times with s = 0, n = 1 { next s = s + n, n = n + 1 }  d = c.last.s }",

@@ -728,7 +728,8 @@ fn a_recording_that_was_broken_off_goes_on_in_its_if() {
         desk = gone_on(&desk);
         assert_eq!(open_in(&desk), ["draw what is done unless d > 80"], "{}", desk.text());
         let said = desk.session.text(desk.id).diagnostics;
-        assert!(said.iter().all(|d| d.severity == "recording"), "{said:?}");
+        let said: Vec<_> = said.iter().map(|d| (d.code.as_str(), d.severity.as_str())).collect();
+        assert_eq!(said, [("open-block", "recording")]);
         if !desk.text().contains("d / 4") {
             draw(&mut desk, "Circle", &[Typed("0, 0"), Typed("d / 4")]);
             desk.session.give_up(desk.id);
