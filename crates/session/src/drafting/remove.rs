@@ -86,7 +86,7 @@ impl Removing {
             ),
             words: match self.is_around(step) {
                 true => format!(
-                    "the next turn of {told}, or its end, speaks of {of}: pick or type another object for it, or delete all of {told}"
+                    "what {told} carries on, or ends by, is drawn from {of}: pick or type another object for it, or delete all of {told}"
                 ),
                 false => format!(
                     "{told} is drawn from {of}: pick or type another object for it, or delete it too"

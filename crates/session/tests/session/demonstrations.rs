@@ -815,7 +815,10 @@ fn what_a_loop_carries_on_from_a_step_that_goes_is_asked_where_its_turn_ends() {
     let asked = |desk: &Desk| desk.session.prompt(desk.id).expect("it is asked").words;
     desk.session.begin_delete(desk.id, "turns.circle").expect("it is there");
     let words = asked(&desk);
-    assert!(words.starts_with("the next turn of turns, or its end, speaks of circle"), "{words}");
+    assert!(
+        words.starts_with("what turns carries on, or ends by, is drawn from circle"),
+        "{words}"
+    );
     assert!(words.ends_with("or delete all of turns"), "{words}");
     // what the turn draws later can be spoken of there
     desk.session.enter(desk.id, "turns2[0].circle2").expect("it is drawn by then");
