@@ -437,7 +437,12 @@ pub(crate) fn analyse(path: &Path, form: Form) -> Result<Report, OpenError> {
         }
     }
     write_advice(&mut words, &analysis.advice);
-    Ok(report(form, analysis.contradictions.is_empty(), words, &json!(analysis)))
+    let good = analysis.contradictions.is_empty();
+    // as plain data it would take several times the room of the document
+    Ok(match form {
+        Form::Words => Report { text: words, aside: String::new(), good },
+        Form::Json => report(form, good, words, &json!(analysis)),
+    })
 }
 
 /// Names second views, with the members that make them.
