@@ -408,6 +408,11 @@ impl Lowerer<'_> {
             {
                 match sent.receiver()? {
                     Expr::List(list) => Some(list.elements().count() as u32),
+                    Expr::Name(_) | Expr::Field(_)
+                        if let Some(n) = self.length_of(scope, &sent.receiver()?) =>
+                    {
+                        Some(n)
+                    }
                     other => self.count_of_range(scope, &other),
                 }
             }
