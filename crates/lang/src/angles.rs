@@ -48,6 +48,10 @@ impl Lowerer<'_> {
             return;
         }
         let place = Place { file: scope.file, span: written.span() };
+        // `45°30'`, which is told as what it is
+        if self.goes_on(place, "°") {
+            return;
+        }
         let number = written.syntax().text().to_string();
         let message = format!("{number} is an angle in radians here");
         let degrees = format!("{number} deg");

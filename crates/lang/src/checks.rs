@@ -174,7 +174,10 @@ fn lower_check(l: &mut Lowerer<'_>, check: &ast::Check) -> Check {
         lower_statements(l, &mut scope, one, (&mut lowered, &mut restructured));
         lowered.iter_mut().skip(before).for_each(|s: &mut Statement| s.whole = whole);
     }
-    if let (Some(name), true) = (check.name(), statements.is_empty() && !own.is_empty()) {
+    let is_broken = check.syntax().descendants().any(|node| node.kind() == SyntaxKind::Error);
+    if let (Some(name), true) =
+        (check.name(), statements.is_empty() && !own.is_empty() && !is_broken)
+    {
         let place = Place { file: OWN, span: name.span() };
         let d = Diagnostic::warning("nothing-expected", place, "nothing is expected in this check");
         l.report(d.hint("what is to be true is expected: `expect x = 3`; `x = 3` gives a value"));

@@ -90,9 +90,14 @@ impl Lowerer<'_> {
                     let place = Place { file: id, span: syntax::span_of_token(&word) };
                     let is_adjacent =
                         word.prev_token().is_some_and(|t| t.kind() == SyntaxKind::Number);
-                    match is_adjacent && parts.contains(word.text()) {
-                        true => hints::product_without_sign(place, word.text()),
-                        false => hints::unknown_unit(place, word.text()),
+                    let rest = text.get(place.span.end as usize..).unwrap_or_default();
+                    let compares = rest.trim_start_matches(' ').starts_with(['<', '>', '=']);
+                    match (parts.contains(word.text()), is_adjacent) {
+                        (true, true) => hints::product_without_sign(place, word.text()),
+                        (true, false) if compares => {
+                            hints::comparison_without_and(place, word.text())
+                        }
+                        _ => hints::unknown_unit(place, word.text()),
                     }
                 }
                 None => diagnostic.clone(),

@@ -47,14 +47,16 @@ impl Lowerer<'_> {
         value: &Expr,
     ) {
         self.hint_computed(before, target, value);
-        // where errors are many, each is told without what was perhaps meant
-        if !self.may_guess() {
-            return;
-        }
         let Expr::Name(name) = target else { return };
         let Some(word) = name.name() else { return };
         let unknown = |d: &Diagnostic| d.code == "unknown-name" && d.place.span == word.span();
         let Some(at) = self.diagnostics.iter().skip(before).position(unknown) else { return };
+        // it is told here, and not wherever it is used
+        self.broken.insert((scope.class(), word.name()));
+        // where errors are many, each is told without what was perhaps meant
+        if !self.may_guess() {
+            return;
+        }
         let class = scope.class();
         let names = self.names_of(class);
         let near = self.nearest(word.text(), names.iter().map(String::as_str)).map(str::to_string);
@@ -113,8 +115,23 @@ impl Lowerer<'_> {
         alike.next().is_none().then(|| document.field_name(one).clone())
     }
 
+    /// Says how what is computed of plain numbers becomes a length: the first of them that the document declares is one.
+    fn plain_as_length(&self, value: &Expr) -> String {
+        let of_document = |word: &Name| self.class_of_part(self.document.root, word);
+        let is_plain = |class: ClassId| *self.document.classes[class].name == *"Real";
+        let names = value.syntax().descendants().filter_map(ast::NameExpr::cast);
+        let words = names.filter_map(|name| name.name());
+        match { words }.find(|word| of_document(&word.name()).is_some_and(is_plain)) {
+            Some(word) => {
+                let word = word.text();
+                format!("what is computed of plain numbers alone is none: declare `{word}: Length`")
+            }
+            None => PLAIN_AS_LENGTH.into(),
+        }
+    }
+
     /// Returns the part of a class, not of the document itself, that has a part of this name.
-    fn part_with(&self, class: ClassId, name: &str) -> Option<Name> {
+    pub(crate) fn part_with(&self, class: ClassId, name: &str) -> Option<Name> {
         let document = &self.document;
         let mut fields = document.layout(class).into_iter().filter(|_| class != document.root);
         let has_it = |field: &PartRef| {
@@ -315,7 +332,7 @@ impl Lowerer<'_> {
                 d.hint(counted(&self.document, *found, value, &written))
             }
             (Kind::Tuple(items), Kind::Thing(class), _) if self.wants_length(*class, items) => {
-                d.hint(PLAIN_AS_LENGTH)
+                d.hint(self.plain_as_length(value))
             }
             (Kind::List(_), Kind::Thing(_), Expr::List(list)) => {
                 let items: Vec<String> =
@@ -715,6 +732,12 @@ pub(crate) fn product_without_sign(place: Place, name: &str) -> Diagnostic {
 fn no_unit(place: Place, spelling: &str) -> Diagnostic {
     let message = format!("{spelling} is no unit that is known here");
     Diagnostic::error("unknown-unit", place, message)
+}
+
+/// Says of a name behind a number, with a comparison behind it, that it belongs to another rule.
+pub(crate) fn comparison_without_and(place: Place, name: &str) -> Diagnostic {
+    no_unit(place, name)
+        .hint("two rules are joined by `and`; comparisons stand in a chain, `0 <= x <= 10`")
 }
 
 /// Says that a word is no unit, and which one is meant.

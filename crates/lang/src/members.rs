@@ -13,6 +13,7 @@ use kernel::{
 };
 use std::cell::OnceCell;
 use std::rc::Rc;
+use syntax::SyntaxKind;
 use syntax::ast::{self, AstNode, Expr, Member, TypeShape, span_without_doc};
 
 /// A member whose expressions are still to be lowered.
@@ -112,7 +113,8 @@ impl Lowerer<'_> {
                 | Member::Handle(_) => {
                     self.pending.push(Pending::Member(shared(), member.clone()));
                 }
-                Member::Unit(_) | Member::Y(_) | Member::Use(_) | Member::Error(_) => {}
+                Member::Error(error) => self.note_meant(scope, error),
+                Member::Unit(_) | Member::Y(_) | Member::Use(_) => {}
                 Member::Class(_)
                 | Member::Choice(_)
                 | Member::Program(_)
@@ -244,7 +246,10 @@ impl Lowerer<'_> {
                         "what is one of several is a rule: `constraint x in {}`",
                         domain.syntax().text()
                     )),
-                    None => d.hint("write `in 0..9`; what depends on parts is a constraint"),
+                    None => d.hint(match ends_by_minus(domain) {
+                        Some(range) => format!("write `in {range}`"),
+                        None => "write `in 0..9`; what depends on parts is a constraint".into(),
+                    }),
                 };
                 self.report_whole(d);
             }
@@ -281,9 +286,13 @@ impl Lowerer<'_> {
     /// Returns the members of the branch that a condition of constants chooses; reports one that no constants decide.
     pub(crate) fn chosen(&mut self, scope: &Scope, choice: &ast::If) -> Option<Vec<Member>> {
         let condition = choice.condition()?;
+        // `x: Real = 1 if c else 2`, which the parser told
+        let place = Place { file: scope.file, span: condition.span() };
+        if choice.then_body().is_none() && self.goes_on(place, "else") {
+            return None;
+        }
         let Some(holds) = self.constant_truth(scope, &condition) else {
             let message = "members stand under a condition that is known as the text stands";
-            let place = Place { file: scope.file, span: condition.span() };
             let d = Diagnostic::error("not-a-constant", place, message);
             let hint = "what depends on values is a rule: `constraint if c { a = b } else { … }`";
             self.report(d.hint(hint));
@@ -417,6 +426,19 @@ impl Lowerer<'_> {
                 }
             }
             _ => None,
+        }
+    }
+
+    /// Notes what a member that was not understood was perhaps to declare, `let x = 3`: where it is used is no mistake of
+    /// its own.
+    fn note_meant(&mut self, scope: &Scope, error: &ast::Error) {
+        let tokens = error.syntax().children_with_tokens().filter_map(|e| e.into_token());
+        let tokens: Vec<_> = tokens.filter(|t| !t.kind().is_trivia()).take(3).collect();
+        let signs = [SyntaxKind::Eq, SyntaxKind::LParen, SyntaxKind::Colon];
+        for pair in tokens.windows(2) {
+            if pair[0].kind() == SyntaxKind::Ident && signs.contains(&pair[1].kind()) {
+                self.broken.insert((scope.class(), Name::new(pair[0].text())));
+            }
         }
     }
 
@@ -698,11 +720,17 @@ pub(crate) fn values_alone(members: &[Member]) -> Option<Vec<(Expr, Expr)>> {
 /// Returns true if an expression speaks of no part.
 pub(crate) fn is_constant(expr: &Expr) -> bool {
     !expr.syntax().descendants().any(|n| {
-        matches!(
-            n.kind(),
-            syntax::SyntaxKind::NameExpr
-                | syntax::SyntaxKind::OwnerExpr
-                | syntax::SyntaxKind::SuperExpr
-        )
+        matches!(n.kind(), SyntaxKind::NameExpr | SyntaxKind::OwnerExpr | SyntaxKind::SuperExpr)
     })
+}
+
+/// Returns `1..10` for `1-10`, the range of other texts.
+fn ends_by_minus(domain: &Expr) -> Option<String> {
+    let Expr::Binary(difference) = domain else { return None };
+    let (ast::BinaryOp::Subtract, Expr::Number(low), Expr::Number(high)) =
+        (difference.op()?, difference.left()?, difference.right()?)
+    else {
+        return None;
+    };
+    Some(format!("{}..{}", low.syntax().text(), high.syntax().text()))
 }

@@ -162,7 +162,7 @@ impl Lowerer<'_> {
         let rest = self.files[place.file].text.get(place.span.end as usize..)?;
         let line = rest.lines().next()?;
         let is_operand = |word: &&str| {
-            word.chars().all(|c| c.is_alphanumeric() || c == '_' || c == '.')
+            word.chars().all(|c| c.is_alphanumeric() || "_.^".contains(c))
                 && !matches!(*word, "then" | "else" | "and" | "or" | "in" | "is" | "mod")
         };
         let operands: Vec<String> = line
@@ -344,7 +344,7 @@ impl Lowerer<'_> {
     }
 
     /// Returns true if the text goes on with a sign behind a place, on its line.
-    fn goes_on(&self, place: Place, sign: &str) -> bool {
+    pub(crate) fn goes_on(&self, place: Place, sign: &str) -> bool {
         let rest = self.files[place.file].text.get(place.span.end as usize..).unwrap_or_default();
         rest.trim_start_matches([' ', '\t']).starts_with(sign)
     }
@@ -441,6 +441,11 @@ impl Lowerer<'_> {
                 d.hint("so many decimals are `x.decimals(2)`")
             }
             _ if matches!(word.text(), "toString" | "str") => d.meant("text"),
+            _ if matches!(word.text(), "rotated" | "rotate")
+                && names.iter().any(|name| name.starts_with("turned")) =>
+            {
+                d.hint("what is turned is another: `turned(about: p, by: 90 deg)`")
+            }
             _ if matches!(word.text(), "copy" | "clone") => d.hint("write `copy of thing`"),
             _ if is_list && matches!(word.text(), "average" | "avg") => d.meant("mean"),
             _ if is_list && matches!(word.text(), "contains" | "has" | "includes") => {
@@ -451,6 +456,11 @@ impl Lowerer<'_> {
             ),
             Some(near) => d.meant(near),
             None if let Some(made) = made => d.hint(made),
+            None if let Kind::Thing(class) = receiver
+                && let Some(part) = self.part_with(*class, word.text()) =>
+            {
+                d.hint(format!("its {part} has one: `{part}.{}`", word.text()))
+            }
             None if names.is_empty() => d,
             None if names.len() > MOST_LISTED => {
                 d.hint(format!("it has {}, …", names[..MOST_LISTED].join(", ")))

@@ -28,6 +28,8 @@ pub mod parser;
 
 mod grammar;
 
+mod strange;
+
 pub mod tree;
 
 mod reparse;

@@ -69,10 +69,7 @@ fn an_unclosed_bracket_ends_with_its_line() {
         "x = [1, [2\nclass A { p = (1, 2) }",
         &["expected-bracket at `2`: found the end of the line, wanted `]` at the list's end"],
     );
-    check(
-        "x = f(a b c)\ny: Real",
-        &["expected-bracket at `b`: found `b`, wanted `)` after the arguments"],
-    );
+    check("x = f(a b c)\ny: Real", &["expected-comma at `b`: found `b`, wanted `,` before it"]);
 }
 #[test]
 fn an_unclosed_body_is_reported_once() {

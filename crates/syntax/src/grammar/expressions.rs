@@ -241,6 +241,12 @@ fn operand(p: &mut Parser<'_>, start: Checkpoint) -> u32 {
             return height;
         }
         match p.current() {
+            Dot if mistakes::numbers::dotted_digits(p) => {
+                p.bump();
+                p.bump();
+                p.start_at(start, FieldExpr);
+                p.finish();
+            }
             Dot => {
                 p.bump();
                 if p.at(OwnerKw) {
@@ -340,7 +346,12 @@ fn primary(p: &mut Parser<'_>, start: Checkpoint) -> u32 {
         Ident => return named(p),
         _ => {
             let hint = mistakes::calls::no_operand(p);
+            let is_in = p.pos() > 0 && p.text_between(p.pos() - 1, p.pos() - 1) == "in";
+            let is_braced = hint.is_some() && p.at(LBrace) && (p.behind(1) == Eq || is_in);
             p.expected_hint("expected-expression", "an expression", hint);
+            if is_braced {
+                p.skip_brackets();
+            }
         }
     }
     1
@@ -582,11 +593,11 @@ pub(super) fn conditional_rest(p: &mut Parser<'_>, start: Checkpoint) -> u32 {
         p.bump();
         height = height.max(operators(p, Power::Or));
     } else {
-        p.expected_hint(
-            "expected-else",
-            "`else`",
-            Some("an expression has a value either way".into()),
-        );
+        let hint = match p.member_word() {
+            "constraint" => "a rule under a condition is `constraint if c { a = b }`",
+            _ => "an expression has a value either way",
+        };
+        p.expected_hint("expected-else", "`else`", Some(hint.into()));
     }
     p.start_at(start, IfExpr);
     p.finish();

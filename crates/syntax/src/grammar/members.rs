@@ -321,6 +321,12 @@ fn assigned(p: &mut Parser<'_>) {
         assigns
             .then(|| "a value is given with `=`; `:=` stands in the methods of a constraint".into())
     });
+    let hint = hint.or_else(|| {
+        let is_given = p.at(Colon) && !p.begins_line(0) && !p.begins_line(1);
+        is_given.then(|| {
+            format!("write `{} = {}`", p.quoted(first, p.pos() - 1), p.quoted_line(p.pos() + 1))
+        })
+    });
     p.expected_hint("expected-value", "`=` and a value", hint);
 }
 
@@ -562,6 +568,8 @@ pub(super) fn unknown(p: &mut Parser<'_>) {
             }
             _ => "a part is written `name: Class`, a value `name = value`".into(),
         })
+    } else if matches!(p.current(), RParen | SyntaxKind::RBracket) {
+        Some("it closes nothing: take it away, or write the bracket that it closes".into())
     } else {
         None
     };

@@ -9,7 +9,7 @@ use super::members::is_keyword;
 use crate::kind::SyntaxKind::{
     AndKw, Arrow, Colon, ColonEq, Comma, Dot, Ellipsis, Eof, Eq, EqEq, FatArrow, Greater,
     GreaterEq, Ident, LBrace, LBracket, LParen, Less, LessEq, LetKw, Minus, NotEq, NotKw, Number,
-    OrKw, Plus, RBrace, RBracket, RParen, Slash, Star, Text, TextOpen, Unit,
+    OrKw, Plus, RBrace, RBracket, RParen, Semicolon, Slash, Star, Text, TextOpen, Unit,
 };
 use crate::parser::Parser;
 use base::Span;
@@ -51,10 +51,13 @@ pub(super) fn of_member(p: &mut Parser<'_>) -> bool {
 
 /// `= 3, 4`, where what is given is a place or a list: returns true where it was reported.
 pub(super) fn several_values(p: &mut Parser<'_>) -> bool {
+    let are_names =
+        (p.behind(2), p.behind(1), p.nth(1)) == (Eq, Ident, Ident) && !p.names_itself(2);
     let is_one = p.at(Comma)
         && !p.begins_line(0)
-        && matches!(p.behind(1), Number | Unit | Text)
-        && matches!(p.nth(1), Number | Minus | Text);
+        && (matches!(p.behind(1), Number | Unit | Text)
+            && matches!(p.nth(1), Number | Minus | Text)
+            || are_names);
     if is_one {
         let at = p.pos();
         let said = (
@@ -213,7 +216,8 @@ fn bare_equation(p: &mut Parser<'_>) -> bool {
     let compares = |n| matches!(p.nth(n), Eq | EqEq | Less | LessEq | Greater | GreaterEq | NotEq);
     let joins = p.at(Ident) && p.nth(1) == Ident;
     let before_brace = (1..=last - first).take_while(|&n| p.nth(n) != LBrace);
-    let is_one = begins && !joins && p.begins_line(0) && { before_brace }.any(compares);
+    let is_first = p.begins_line(0) || p.behind(1) == Semicolon;
+    let is_one = begins && !joins && is_first && { before_brace }.any(compares);
     if is_one {
         equation_since(p, first, last);
     }
@@ -327,7 +331,7 @@ fn class_and_brackets(p: &mut Parser<'_>) -> bool {
 
 /// `p: Point { 1, 2 }`
 fn values_in_braces(p: &mut Parser<'_>) -> bool {
-    let is_one = matches!(p.current(), Number | Minus)
+    let is_one = matches!(p.current(), Number | Minus | LParen | LBracket)
         && p.behind(1) == LBrace
         && p.behind(2) == Ident
         && p.behind(3) == Colon;

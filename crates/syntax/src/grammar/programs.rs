@@ -158,7 +158,7 @@ fn for_rest(p: &mut Parser<'_>, scope: Scope) {
         });
         return;
     }
-    if p.at(Colon) {
+    if p.at(Colon) || p.begins_line(0) && !p.at(LBrace) {
         let head = p.quoted(first, p.pos() - 1);
         let hint = format!("what a loop repeats stands in braces: `{head} {{ … }}`");
         p.expected_hint("expected-body", "a body in `{ }`", Some(hint));

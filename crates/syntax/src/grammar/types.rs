@@ -26,13 +26,16 @@ fn class_within(p: &mut Parser<'_>, is_told: bool) {
         }
         return;
     }
-    if matches!(p.word(0), "a" | "an") && p.nth(1) == Ident && !p.line_ended(1) {
+    if matches!(p.word(0), "a" | "an" | "new") && p.nth(1) == Ident && !p.line_ended(1) {
         let (at, class) = (p.pos(), p.word(1));
         if class.starts_with(char::is_uppercase) {
             let said = (
                 "expected-class",
                 format!("found `{} {class}`, wanted a class", p.word(0)),
-                format!("a class has no article: `{class}`"),
+                match p.word(0) {
+                    "new" => format!("a part is there by being declared: `{class}`"),
+                    _ => format!("a class has no article: `{class}`"),
+                },
             );
             let span = p.span_at(at).join(p.span_at(at + 1));
             p.report_mistake((at, at + 1), said, Some((span, class.into())));

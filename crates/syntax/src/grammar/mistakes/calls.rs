@@ -21,7 +21,7 @@ pub(in crate::grammar) fn called_member(p: &mut Parser<'_>) -> bool {
         p.report_mistake((at, at), said, None);
         return true;
     }
-    if parameters_without_class(p) {
+    if parameters_without_class(p) || unnamed_thing(p) {
         return true;
     }
     let is_one = p.nth(1) == LParen
@@ -43,6 +43,27 @@ pub(in crate::grammar) fn called_member(p: &mut Parser<'_>) -> bool {
     );
     p.report_mistake((first, last), said, None);
     true
+}
+
+/// `Circle(center: p, radius: 3)` by itself
+fn unnamed_thing(p: &mut Parser<'_>) -> bool {
+    let class = p.word(0);
+    let is_one = class.starts_with(char::is_uppercase)
+        && !p.begins_line(1)
+        && !matches!(p.after_bracket(1), Eq | FatArrow | Colon);
+    if is_one {
+        let at = p.pos();
+        let name = class.to_lowercase();
+        let said = (
+            "expected-member",
+            format!("found `{class}(…)`, wanted {MEMBER}"),
+            format!(
+                "what is made has a name: `{name}: {class} = {class}(…)`, as a step of a program `{name} = {class}(…)`"
+            ),
+        );
+        p.report_mistake((at, p.line_end()), said, None);
+    }
+    is_one
 }
 
 /// `f(x) = x^2`, `f(x, y) => x + y`

@@ -252,6 +252,15 @@ fn behind_value(p: &Parser<'_>, of: &str) -> Option<String> {
             "a value is exact; how nearly something holds is said of a rule: `constraint x = 3 within 0.1`"
                 .into()
         }
+        // `x: Integer 1..10`
+        Number if (p.behind(1), p.behind(2), p.nth(1)) == (Ident, Colon, SyntaxKind::DotDot) => {
+            format!("a range of whole numbers is `in {}..{}`", p.word(0), p.word(2))
+        }
+        // `r: Resistor 100 ohm`
+        Number if (p.behind(1), p.behind(2)) == (Ident, Colon) => {
+            let class = before(1);
+            format!("a value is given with `=`, those of parts in a body: `{class} {{ x = {} }}`", p.word(0))
+        }
         // `3 4`, and no thousands
         Number if p.behind(1) == Number && p.behind(2) == Eq && p.word(0).len() != 3 => {
             format!("several values stand in a list: `[{}, {}]`", before(1), p.word(0))
@@ -287,7 +296,16 @@ fn word_for_sign(p: &Parser<'_>) -> Option<String> {
             if p.word(0) == "between"
                 && (p.nth(1), p.nth(2), p.nth(3)) == (Number, AndKw, Number) =>
         {
-            format!("write `{} <= {} <= {}`", p.word(1), before(1), p.word(3))
+            match (p.behind(2), before(1)) {
+                (Colon, "Integer") => {
+                    format!("a range of whole numbers is `in {}..{}`", p.word(1), p.word(3))
+                }
+                (Colon, _) => {
+                    let (low, name, high) = (p.word(1), before(3), p.word(3));
+                    format!("what lies between is a rule: `constraint {low} <= {name} <= {high}`")
+                }
+                _ => format!("write `{} <= {} <= {}`", p.word(1), before(1), p.word(3)),
+            }
         }
         _ => return None,
     })
@@ -451,10 +469,12 @@ fn resistance(p: &Parser<'_>) -> Option<(usize, String)> {
     is_one.then(|| (1 + usize::from(has_unit), format!("{digits}.{rest} {unit}")))
 }
 
-/// `2h30m`, `45º`, `0x1F`: how many tokens it has behind its number, and how it is written. `2h1` is two heights.
+/// `2h30m`, `2h30`, `45º`, `0x1F`: how many tokens it has behind its number, and how it is written. `2h1` is two heights.
 fn spelled(p: &Parser<'_>) -> Option<(usize, String)> {
     let (digits, rest) = (p.text_between(p.pos() - 1, p.pos() - 1), p.word(0));
     let minutes = rest.strip_suffix("min").or_else(|| rest.strip_suffix('m'));
+    // `3h30`, where a time is wanted
+    let minutes = minutes.or_else(|| Some(rest).filter(|w| w.len() == 3 && p.is_of("Time")));
     let minutes = minutes.and_then(|rest| rest.strip_prefix('h')).filter(|rest| is_whole(rest));
     let number = match rest.split_at_checked(1) {
         _ if let Some(minutes) = minutes => format!("{digits} h + {minutes} min"),
@@ -558,15 +578,23 @@ pub(in crate::grammar) fn strange_unit(p: &mut Parser<'_>) -> bool {
 pub(in crate::grammar) fn without_comma(p: &mut Parser<'_>) -> bool {
     let said = comma_left_out(p);
     let is_one = said.is_some();
-    if let Some(said) = said {
+    // of three names one after the other the first gap is told
+    let is_told = p.at(Ident) && p.behind(2) == Ident;
+    if let Some(said) = said.filter(|_| !is_told) {
         p.report_mistake((p.pos(), p.pos()), said, None);
     }
     is_one
 }
 
-/// What is said of a number behind another.
+/// What is said of a number behind another, and of a name.
 fn comma_left_out(p: &Parser<'_>) -> Option<(&'static str, String, String)> {
-    let is_one = p.at(Number) && matches!(p.behind(1), Number | Unit) && !p.begins_line(0);
+    let begins = |n: usize| matches!(p.behind(n), LParen | Comma);
+    let are_names = p.at(Ident)
+        && p.behind(1) == Ident
+        && !super::is_keyword(p.text_between(p.pos() - 1, p.pos() - 1))
+        && (begins(2) || p.behind(2) == Ident && begins(3));
+    let are_numbers = p.at(Number) && matches!(p.behind(1), Number | Unit);
+    let is_one = (are_numbers || are_names) && !p.begins_line(0);
     is_one.then(|| {
         (
             "expected-comma",

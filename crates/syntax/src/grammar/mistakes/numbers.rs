@@ -36,6 +36,38 @@ pub(super) fn grouped_digits(p: &mut Parser<'_>) -> bool {
     true
 }
 
+/// `1.000.000`: points between thousands. Returns true where they were reported, at the second point.
+pub(in crate::grammar) fn dotted_digits(p: &mut Parser<'_>) -> bool {
+    let are_groups = |word: &str, first: usize| {
+        let groups: Vec<&str> = word.split('.').collect();
+        let is_of_digits = |group: &&str| group.bytes().all(|b| b.is_ascii_digit());
+        groups.iter().all(is_of_digits)
+            && groups[..first].iter().all(|group| (1..=3).contains(&group.len()))
+            && groups[first..].iter().all(|group| group.len() == 3)
+    };
+    let is_one = p.at(Dot)
+        && p.behind(1) == Number
+        && p.nth(1) == Number
+        && p.is_adjacent(0)
+        && p.is_adjacent(1)
+        && p.text_between(p.pos() - 1, p.pos() - 1).contains('.')
+        && are_groups(p.text_between(p.pos() - 1, p.pos() - 1), 1)
+        && are_groups(p.word(1), 0);
+    if is_one {
+        let at = p.pos();
+        let written = p.text_between(at - 1, at + 1);
+        let number = written.replace('.', "");
+        let said = (
+            "grouped-digits",
+            format!("found `{written}`, wanted one number"),
+            format!("the digits of a number stand together: write `{number}`"),
+        );
+        let span = p.span_at(at - 1).join(p.span_at(at + 1));
+        p.report_mistake((at - 1, at + 1), said, Some((span, number)));
+    }
+    is_one
+}
+
 /// Returns true behind what groups of three digits follow: a number of at most three digits and nothing else.
 fn is_first_group(p: &Parser<'_>) -> bool {
     let is_of_digits = |word: &str| word.len() <= 3 && word.chars().all(|c| c.is_ascii_digit());
