@@ -160,8 +160,7 @@ pub(crate) struct Unasked<'s> {
 impl<'s> Unasked<'s> {
     /// Returns the given values that are others than they were; `spoken` are the slots of what was set or moved itself.
     ///
-    /// Places yield as a matter of course, and are told where nothing else moved. So is what moved by less than six
-    /// digits tell.
+    /// Places are among them where nothing else moved. What moved by less than six digits tell is left out.
     pub(crate) fn of(before: &'s State, after: &'s State, spoken: &BTreeSet<SlotId>) -> Self {
         let shown = |unit: ThingId| {
             let was = show_thing(before, unit, &before.values).unwrap_or_default();
@@ -178,9 +177,10 @@ impl<'s> Unasked<'s> {
         Self { before, after, units, told, more }
     }
 
-    /// Returns true where there was a choice of what moves.
+    /// Returns true where there was a choice of which number moves.
     pub(crate) fn are_several(&self) -> bool {
-        self.units.len() + self.more > 1
+        let is_lone = |&unit: &ThingId| self.before.structure.slot_of(unit).is_some();
+        self.units.len() + self.more > 1 && self.units.iter().all(is_lone)
     }
 
     /// Says what moved; empty where nothing did.
@@ -205,9 +205,12 @@ impl<'s> Unasked<'s> {
         let slots = |unit: ThingId| self.before.structure.slots_under(unit);
         let is_read = |unit: &&ThingId| slots(**unit).iter().any(|slot| read.contains(slot));
         let all = || self.units.iter();
-        let unit = match was_true {
-            true => all().find(is_read).or_else(|| all().next()),
-            false => all().find(|unit| !is_read(unit)),
+        // places yield as a matter of course: they are told to who asks of them that they stay
+        let are_lone = all().any(|&unit| self.before.structure.slot_of(unit).is_some());
+        let unit = match (was_true, are_lone) {
+            (true, _) => all().find(is_read).or_else(|| all().next().filter(|_| are_lone)),
+            (false, true) => all().find(|unit| !is_read(unit)),
+            (false, false) => None,
         }?;
         let unit = path(self.before, *unit);
         Some(format!("{}; `anchor {unit}` holds it", self.in_words()))

@@ -45,7 +45,12 @@ fn add_missing_uses(text: &str, diagnostics: &mut [Diagnostic], host: &dyn Host)
             names.filter_map(|name| Some(Library::of(host.read(&name)?, name))).collect()
         });
         // what was used already would have been found
-        for library in libraries.iter().filter(|library| library.declares(word)) {
+        let declaring: Vec<&Library> = libraries.iter().filter(|l| l.declares(word)).collect();
+        if !declaring.is_empty() {
+            // a word that is written almost so, `rectangle`, is not what is meant
+            diagnostic.fixes = Box::default();
+        }
+        for library in declaring {
             let name = &library.name;
             let title = format!("use {name}");
             let (at, insert) = library.line.get_or_init(|| line_at_head(text, &title)).clone();

@@ -55,6 +55,14 @@ class B { m: Real = 2  said => m }
 ";
 
 #[test]
+fn a_class_of_a_library_is_not_taken_for_a_word_that_is_written_almost_so() {
+    let desk = Desk::of("r => Rectangle((0, 0), (3, 2))\n");
+    let wrong = first(&desk, "unknown-name");
+    let titles: Vec<&str> = wrong.fixes.iter().map(|f| f.title.as_str()).collect();
+    assert_eq!(titles, ["use geometry"]);
+}
+
+#[test]
 fn a_conflict_offers_both_ways_out() {
     let text = format!("{TWO}class C is A as a, B as b {{ }}\nc: C\n");
     let wrong = first(&Desk::of(&text), "conflict");

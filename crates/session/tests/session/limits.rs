@@ -274,3 +274,14 @@ fn sides_of_an_expectation_are_told_apart_in_the_unit_that_it_writes() {
     let told: Vec<&str> = report.shortfalls.iter().map(|s| &*s.message).collect();
     assert_eq!(told, ["400 cm and 400.0001 cm", "30 deg and 31 deg", "(1 m, 2 m) and (1 m, 3 m)"]);
 }
+
+#[test]
+fn places_that_move_for_a_dimension_are_no_choice() {
+    let mut desk = Desk::of(
+        "use geometry\na: Point = (0, 0)\nb: Point = (3, 4)\nlong: Length = a.distance(to: b)\n\
+         check \"a\" { set long to 10  expect a.x = 5 }\n",
+    );
+    let report = desk.session.run_checks(desk.id).remove(0);
+    assert!(report.shortfalls.iter().all(|s| !s.message.contains("moved")), "{report:?}");
+    assert_eq!(desk.set("long", 10.0).expect("the points yield").modes, []);
+}
