@@ -87,8 +87,9 @@ impl Lowerer<'_> {
     }
 
     fn declare_parameter(&mut self, scope: &Scope, param: &ast::Param) {
-        let (Some(word), Some(ty)) = (param.name(), param.class()) else { return };
-        let Some(class) = self.class_of_type(scope, &ty) else {
+        let Some(word) = param.name() else { return };
+        let class = param.class().and_then(|ty| Some((self.class_of_type(scope, &ty)?, ty)));
+        let Some((class, ty)) = class else {
             self.broken.insert((scope.class(), word.name()));
             return;
         };

@@ -23,6 +23,12 @@ pub(super) fn text_body(p: &mut Parser<'_>, scope: Scope) {
             _ => "what it promises stands in quotes: `check \"…\" { }`".to_string(),
         };
         p.expected_hint("expected-text", "a name in quotes", Some(hint));
+    } else if p.at(Ident) && !p.begins_line(0) {
+        // `check "a" expect x = 1`
+        let (at, name) = (p.pos(), p.text_between(p.pos().saturating_sub(2), p.pos() - 1));
+        let hint = format!("what it says stands in braces: `{name} {{ {} }}`", p.quoted_line(at));
+        p.expected_hint("expected-body", "a body in `{ }`", Some(hint));
+        return p.skip_line();
     }
     body(p, scope);
 }

@@ -50,6 +50,9 @@ fn word(p: &Parser<'_>) -> Option<String> {
         "connect" | "join" | "link" | "attach" | "glue" if is_named => {
             "two become one by `merge a = b`".into()
         }
+        "forall" | "foreach" | "loop" if is_named => {
+            "many at once are a loop: `for i in 0..<3 { constraint xs[i] > 0 }`".into()
+        }
         "solve" => "what is to hold is a rule, and is solved: `constraint x^2 = 4`".into(),
         "minimize" | "minimise" | "maximize" | "maximise" => {
             "nothing is minimized: what is wished is a soft rule, `weak constraint x = 0`".into()
