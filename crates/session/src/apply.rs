@@ -189,11 +189,9 @@ fn edit(
 #[cold]
 #[inline(never)]
 fn chosen(open: &Open, before: &State, aims: &[(Aim, Vec<Value>)]) -> Option<ModeView> {
-    let slots = |(aim, _): &(Aim, Vec<Value>)| match aim {
-        Aim::Thing(_) => slots_of(before, aim),
-        Aim::Term(_) => Vec::new(),
-    };
-    let unasked = Unasked::of(before, &open.state, &aims.iter().flat_map(slots).collect());
+    let things = aims.iter().filter(|(aim, _)| matches!(aim, Aim::Thing(_)));
+    let spoken = things.flat_map(|(aim, _)| slots_of(before, aim)).collect();
+    let unasked = Unasked::of(before, &open.state, &spoken);
     let message = format!("{}: lock what shall stay", unasked.in_words());
     unasked.are_several().then(|| ModeView { constraint: String::new(), message, span: None })
 }
