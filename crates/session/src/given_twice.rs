@@ -5,6 +5,7 @@
 
 use crate::session::thing_at;
 use crate::state::State;
+use crate::unlike::around;
 use kernel::{Structure, ThingId};
 use lang::Lowered;
 use std::collections::BTreeSet;
@@ -23,10 +24,18 @@ pub(crate) fn forgotten(
         let was_double = |was| is_double((&before.lowered, &before.structure), was);
         thing_at(before, &path).is_none_or(|was| !was_double(was))
     };
-    let doubles: BTreeSet<ThingId> = merged
+    let mut doubles: BTreeSet<ThingId> = merged
         .map(|(t, _)| t)
         .filter(|&t| is_double((lowered, structure), t) && is_new(t))
         .collect();
+    // where both are anchored neither yields: that is told, and refused
+    let anchors = structure.stays.iter().filter(|stay| stay.strength.is_none());
+    let anchors: BTreeSet<ThingId> = anchors.map(|stay| stay.thing).collect();
+    let is_anchored = |thing| around(structure, thing).any(|t| anchors.contains(&t));
+    doubles.retain(|&thing| {
+        let others = || structure.merged_with(thing).into_iter().filter(|&other| other != thing);
+        !is_anchored(thing) || !others().any(is_anchored)
+    });
     if doubles.is_empty() {
         return Vec::new();
     }

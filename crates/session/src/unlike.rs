@@ -193,7 +193,7 @@ fn parts_of<'a>(
 }
 
 /// Returns a thing and all that it is in: lists too, which own no part by its name.
-fn around(structure: &Structure, thing: ThingId) -> impl Iterator<Item = ThingId> {
+pub(crate) fn around(structure: &Structure, thing: ThingId) -> impl Iterator<Item = ThingId> {
     std::iter::successors(Some(thing), |&t| structure.things[t].owner)
 }
 
