@@ -432,7 +432,8 @@ impl Lowerer<'_> {
     /// Notes what a member that was not understood was perhaps to declare, `let x = 3`: where it is used is no mistake of
     /// its own.
     fn note_meant(&mut self, scope: &Scope, error: &ast::Error) {
-        let tokens = error.syntax().children_with_tokens().filter_map(|e| e.into_token());
+        let tokens =
+            error.syntax().children_with_tokens().filter_map(syntax::SyntaxElement::into_token);
         let tokens: Vec<_> = tokens.filter(|t| !t.kind().is_trivia()).take(3).collect();
         let signs = [SyntaxKind::Eq, SyntaxKind::LParen, SyntaxKind::Colon];
         for pair in tokens.windows(2) {

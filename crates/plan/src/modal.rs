@@ -214,7 +214,7 @@ pub(crate) fn run_on(
     let numbers: Vec<f64> = task.numbers(&values.numbers).collect();
     let hands = &mut Hands { planner, model, values, host };
     if let Some(decision) = dragged(task, modes, ground, hands) {
-        return tell(planner, stands(planner, modes, decision.mode.clone()), task, decision);
+        return tell(planner, stands(planner, modes, decision.mode.clone()), task, &decision);
     }
     values.texts = texts;
     scatter(task, &numbers, values);
@@ -262,7 +262,7 @@ pub(crate) fn run(
         attempt(&decision.mode);
     }
     scatter(task, &decision.tried.values, values);
-    tell(planner, stands(planner, modes, decision.mode.clone()), task, decision)
+    tell(planner, stands(planner, modes, decision.mode.clone()), task, &decision)
 }
 
 pub(crate) fn has_texts(task: &Task) -> bool {
@@ -270,7 +270,7 @@ pub(crate) fn has_texts(task: &Task) -> bool {
 }
 
 /// Says in the document's terms what a decision came to.
-pub(crate) fn tell(planner: &Planner, stands: Stands, task: &Task, decision: Decision) -> Ran {
+pub(crate) fn tell(planner: &Planner, stands: Stands, task: &Task, decision: &Decision) -> Ran {
     let mut task = task.clone();
     task.stand(stands.clone());
     let mut told = ran(planner, &task, &decision.tried.outcome);
@@ -419,7 +419,7 @@ impl ModalDrag {
         if decision.ended != Ended::Settled {
             self.come_near(task, targets, until, hands);
         }
-        let mut told = tell(planner, self.met.stands(planner, &decision.mode), task, decision);
+        let mut told = tell(planner, self.met.stands(planner, &decision.mode), task, &decision);
         if told.stands.take().is_some() {
             task.stand(self.met.stands(planner, &self.mode));
         }

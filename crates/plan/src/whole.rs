@@ -149,7 +149,7 @@ pub(crate) fn run(
                 trying.attempt(&decision.mode, &begun);
             }
             scatter(task, &decision.tried.values, trying.values);
-            Some(tell(planner, stands(planner, modes, decision.mode.clone()), task, decision))
+            Some(tell(planner, stands(planner, modes, decision.mode.clone()), task, &decision))
         }
         looked @ (Looked::Impossible | Looked::NotDecided(_)) => {
             trying.values.texts = trying.texts;

@@ -72,7 +72,7 @@ impl<'t> Parser<'t> {
                 let is_quote = |span: &Span| text[span.range()].starts_with('\'');
                 let are_inches = *fault == Fault::UnterminatedText && is_quote(before);
                 let alike = fault == other && text[before.range()] == text[span.range()];
-                let are_minutes = is_quote(&span) && text[before.range()].starts_with('°');
+                let are_minutes = is_quote(span) && text[before.range()].starts_with('°');
                 !(alike || are_inches || are_minutes)
                     || text[before.range().start..span.range().start].contains('\n')
             })

@@ -159,11 +159,9 @@ fn show(rows: &[&str]) {
     if let Some((step, is_last)) = row {
         let frames = [LIST, ".drawing .recorded", ".drawer .drawing"];
         let wanted = if is_last { 1 } else { frames.len() };
-        { frames[..wanted].iter() }
-            .map(|frame| found(frame))
-            .into_iter()
-            .flatten()
-            .for_each(|frame| bring_into(&frame, &step));
+        for frame in frames[..wanted].iter().filter_map(|frame| found(frame)) {
+            bring_into(&frame, &step);
+        }
     }
     // rows that come push down what has the keyboard
     let drawer = found(".drawer .drawing");
