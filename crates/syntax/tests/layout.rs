@@ -146,7 +146,7 @@ const PIECES: &[&str] = &[
 
 #[test]
 fn a_text_with_an_error_stays_where_white_space_decides() {
-    let text = "m :=  constraint  in/* c\nd */12List ( merge  Listelse";
+    let text = "... /* c\nd */class set  :  ";
     assert_eq!(format(&parse(FileId(0), text)), text);
     check("x:Real y=1 z", "x: Real  y = 1 z\n");
 }
