@@ -273,7 +273,7 @@ pub(crate) fn second(open: &mut Open, host: &dyn Host, is_same: bool) -> Result<
 /// Returns a condition that is none of those that are turned round.
 fn plain(condition: &str) -> String {
     let mut condition = condition.trim().to_string();
-    while let Some(inner) = condition.strip_prefix("not ((").and_then(|c| c.strip_suffix("))")) {
+    while let Some(inner) = If::inside_turned(&condition) {
         condition = format!("not ({})", inner.trim());
     }
     condition

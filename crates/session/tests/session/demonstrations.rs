@@ -773,6 +773,24 @@ fn an_if_keeps_no_empty_branch() {
 }
 
 #[test]
+fn a_condition_of_two_in_parentheses_is_turned_round_as_a_whole() {
+    let mut desk = Desk::recording("Pulley", &[("d", "100")]);
+    desk.session.begin_choice(desk.id).expect("it is recorded");
+    desk.session.enter(desk.id, "(d < 20) or (d > 200)").expect("it is a condition");
+    draw(&mut desk, "Circle", &[Typed("0, 0"), Typed("5")]);
+    desk.session.give_up(desk.id);
+    desk.session.end_choice(desk.id).expect("it is open");
+    assert!(desk.text().contains("    if not ((d < 20) or (d > 200)) {"), "{}", desk.text());
+    desk.session.begin_choice(desk.id).expect("it is recorded");
+    desk.session.enter(desk.id, "not ((d < 30) or (d > 300))").expect("it is a condition");
+    draw(&mut desk, "Circle", &[Typed("0, 0"), Typed("6")]);
+    desk.session.give_up(desk.id);
+    desk.session.end_choice(desk.id).expect("it is open");
+    assert!(desk.text().contains("    if not ((d < 30) or (d > 300)) {"), "{}", desk.text());
+    assert_eq!(open_in(&gone_on(&desk)), [""; 0]);
+}
+
+#[test]
 fn undo_of_the_other_branch_leads_back_into_the_first() {
     for is_same in [true, false] {
         let mut desk = in_its_if();

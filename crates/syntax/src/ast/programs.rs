@@ -132,8 +132,12 @@ impl If {
     /// its other branch is demonstrated with the same values.
     pub fn turned_round(&self) -> Option<String> {
         let condition = self.condition()?.syntax().text().to_string();
-        let inner = condition.trim().strip_prefix("not ((")?.strip_suffix("))")?;
-        is_closed(inner).then(|| inner.to_string())
+        Self::inside_turned(condition.trim()).map(str::to_string)
+    }
+    /// Returns what stands in the parentheses of a condition `not ((…))`. `not ((a) or (b))` is none.
+    pub fn inside_turned(condition: &str) -> Option<&str> {
+        let inner = condition.strip_prefix("not ((")?.strip_suffix("))")?;
+        is_closed(inner).then_some(inner)
     }
 }
 
