@@ -15,7 +15,7 @@ use crate::prototype;
 use crate::sheet;
 use crate::state::State;
 use crate::texts::Texts;
-use crate::view::{Change, Choice, DragState, Limit, ModeView, Question, Refusal};
+use crate::view::{Change, Choice, DragState, Limit, Question, Refusal};
 use crate::views::analysis::only_reading;
 use crate::words;
 use crate::write_back::{Edited, differing, settle_places, sides_after, write_back, write_sides};
@@ -177,23 +177,13 @@ fn edit(
     if report.reached {
         change.modes.extend(limits::courses(&state, &report.courses));
     }
-    let back = (kind == EditKind::Set).then(|| limits::sprung_back(&open.state, &aims));
-    change.modes.extend(back.into_iter().flatten());
     if kind == EditKind::Set {
-        change.modes.extend(chosen(open, &state, &aims));
+        change.modes.extend(limits::sprung_back(&open.state, &aims));
+        let things = aims.iter().filter(|(aim, _)| matches!(aim, Aim::Thing(_)));
+        let spoken = things.flat_map(|(aim, _)| slots_of(&state, aim)).collect();
+        change.modes.extend(Unasked::of(&state, &open.state, &spoken).view());
     }
     Ok(change)
-}
-
-/// Says which given values moved for others that were set, where there was a choice.
-#[cold]
-#[inline(never)]
-fn chosen(open: &Open, before: &State, aims: &[(Aim, Vec<Value>)]) -> Option<ModeView> {
-    let things = aims.iter().filter(|(aim, _)| matches!(aim, Aim::Thing(_)));
-    let spoken = things.flat_map(|(aim, _)| slots_of(before, aim)).collect();
-    let unasked = Unasked::of(before, &open.state, &spoken);
-    let message = format!("{}: lock what shall stay", unasked.in_words());
-    unasked.are_several().then(|| ModeView { constraint: String::new(), message, span: None })
 }
 
 /// Says of what was too hard how many values hang together with what was to change.
@@ -555,26 +545,21 @@ fn restructured(open: &mut Open, host: &dyn Host, command: &Command) -> Result<C
     };
     let carried = carried_over(command, &before, &state, &anew);
     let carried = carried.filter(|values| differing(&state, values).next().is_some());
-    let (state, mut planner) = match (carried, &class) {
+    let settles = matches!(command, Command::Enable { .. }) || joins && carried.is_none();
+    let (state, planner) = match (carried, &class) {
         (Some(mut values), _) => {
             // what holds no more is computed anew, so that no given number has to yield to what is kept
             let mut texts = Texts::new(&state.lowered.document, &state.structure);
             planner.satisfy_since(state.model(), &state.values, &mut values, &mut texts);
             let edited = Edited { by_hand: Some(Vec::new()), ..Edited::default() };
-            let (state, planner) = write_back(&state, &values, &edited, host, planner.into_plans());
-            match command {
-                Command::Enable { .. } => settle_places(&before, state, planner, host),
-                _ => (state, planner),
-            }
+            write_back(&state, &values, &edited, host, planner.into_plans())
         }
-        (None, Some(class)) => {
-            let (state, planner) = place_new_parts(&before, state, planner, class, host);
-            settle_places(&before, state, planner, host)
-        }
-        (None, None) if joins || matches!(command, Command::Enable { .. }) => {
-            settle_places(&before, state, planner, host)
-        }
+        (None, Some(class)) => place_new_parts(&before, state, planner, class, host),
         (None, None) => (state, planner),
+    };
+    let (state, mut planner) = match settles {
+        true => settle_places(&before, state, planner, host),
+        false => (state, planner),
     };
     if matches!(command, Command::Merge(_)) && open.status.satisfied {
         let status = state.status(&mut planner);

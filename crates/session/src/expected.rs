@@ -5,6 +5,7 @@
 //! comparisons joined by `and` the first that is not true is told.
 
 use crate::state::State;
+use crate::view::ModeView;
 use crate::words::{listed, show_thing};
 use crate::write_back::unit_of_writing;
 use crate::{angles, words};
@@ -177,14 +178,20 @@ impl<'s> Unasked<'s> {
         Self { before, after, units, told, more }
     }
 
-    /// Returns true where there was a choice of which number moves.
-    pub(crate) fn are_several(&self) -> bool {
+    /// Says what moved for a number that was set, where there was a choice of which one moves.
+    #[cold]
+    #[inline(never)]
+    pub(crate) fn view(&self) -> Option<ModeView> {
         let is_lone = |&unit: &ThingId| self.before.structure.slot_of(unit).is_some();
-        self.units.len() + self.more > 1 && self.units.iter().all(is_lone)
+        let are_several = self.units.len() + self.more > 1 && self.units.iter().all(is_lone);
+        are_several.then(|| {
+            let message = format!("{}: lock what shall stay", self.in_words());
+            ModeView { constraint: String::new(), message, span: None }
+        })
     }
 
     /// Says what moved; empty where nothing did.
-    pub(crate) fn in_words(&self) -> String {
+    fn in_words(&self) -> String {
         let mut all: Vec<String> = self.told.iter().take(MOST_NAMED).cloned().collect();
         let more = self.told.len() - all.len() + self.more;
         if more > 0 {
