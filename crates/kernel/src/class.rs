@@ -290,16 +290,30 @@ pub struct Message {
 }
 
 impl PartialEq for Message {
-    /// Answers are compared where they are not shared: each edit asks it of all classes of all libraries.
+    /// Answers are compared last, and where they are not shared: each edit asks it of all classes of all libraries.
     fn eq(&self, other: &Self) -> bool {
-        let Self { name, doc, parameters, class, answer, is_asked, is_default, .. } = self;
-        let is_same = |m: &Self| (m.is_combining, m.is_replacing, m.origin);
+        let Self {
+            name,
+            doc,
+            parameters,
+            class,
+            answer,
+            is_asked,
+            is_default,
+            is_combining,
+            is_replacing,
+            origin,
+        } = self;
         *name == other.name
-            && (*class, *is_asked, *is_default) == (other.class, other.is_asked, other.is_default)
-            && is_same(self) == is_same(other)
+            && *class == other.class
+            && *is_asked == other.is_asked
+            && *is_default == other.is_default
+            && *is_combining == other.is_combining
+            && *is_replacing == other.is_replacing
+            && *origin == other.origin
             && *parameters == other.parameters
-            && (Rc::ptr_eq(answer, &other.answer) || *answer == other.answer)
             && *doc == other.doc
+            && (Rc::ptr_eq(answer, &other.answer) || *answer == other.answer)
     }
 }
 
