@@ -39,7 +39,7 @@ pub(crate) fn begin(model: Model<'_>, has_value: &IdVec<SlotId, bool>, values: &
 }
 
 impl Planner {
-    /// Goes over to the roots that lie as is written, side by side in order of declaration. What is given stays as it
+    /// Goes over to the roots that lie as is written, one side after the other in order of declaration. What is given stays as it
     /// is, and so does what an earlier side says.
     ///
     /// Cost: nothing where no side is written of what is not given, else a solve for each root of its component.
