@@ -8,6 +8,7 @@ use session::drafting::view::{
     Wants,
 };
 use session::view::{Change, DocumentId, Pointer, Refusal};
+use std::time::Duration;
 use wasm_bindgen::JsCast;
 use wasm_bindgen::closure::Closure;
 
@@ -21,6 +22,8 @@ pub mod tools;
 
 /// Where an operand is typed.
 const OPERAND: &str = "input[name='operand']";
+/// After so long without a step, what may come next is made ready.
+const PAUSE: Duration = Duration::from_millis(120);
 
 /// What of drafting the panels share.
 #[derive(Clone, Copy, Debug)]
@@ -201,6 +204,20 @@ impl Lab {
         self.show_made(made.unwrap_or_default());
     }
 
+    /// Runs the second turn of the loop that is drawn ahead, if nothing more comes for a while: as it is, or with what is
+    /// under a pointer for an answer.
+    fn foresee_turn(self, pointer: Option<Pointer>) {
+        let Drafting { turned, pointer: latest, .. } = self.drafting;
+        let before = turned.get_untracked();
+        let foresee = move || {
+            let is_so = pointer.is_none() || latest.try_get_value() == Some(pointer.clone());
+            if is_so && turned.try_get_untracked() == Some(before) {
+                self.tell(|session, id| session.foresee_turn(id, pointer.as_ref()));
+            }
+        };
+        set_timeout(foresee, PAUSE);
+    }
+
     /// The pointer of the construction is elsewhere.
     pub fn draft_hover(self, pointer: &Pointer) {
         let typed = self.drafting.typed.get_untracked();
@@ -208,6 +225,11 @@ impl Lab {
         let Some(hover) = hover else { return };
         self.drafting.by_keys.set_value(false);
         self.drafting.pointer.set_value((pointer.reach >= 0.0).then(|| pointer.clone()));
+        if let Some(pointer) = self.drafting.pointer.get_value()
+            && self.drafting.prompt.with_untracked(|p| p.as_ref().is_some_and(Prompt::asks_object))
+        {
+            self.foresee_turn(Some(pointer));
+        }
         self.show_made(hover.ghost);
         let finds = match (hover.finds, hover.why) {
             (Some(finds), Some(why)) => Some(format!("{finds}: {why}")),
@@ -758,6 +780,10 @@ pub fn Drawing(
         if let Some(example) = example {
             lab.show_made_anew(&example);
         }
+    });
+    Effect::new(move |_| {
+        lab.drafting.turned.track();
+        lab.foresee_turn(None);
     });
     let rows = once_painted(track, move || ask(session::Session::steps).unwrap_or_default());
     view! {

@@ -1,6 +1,6 @@
 //! Recording at the boundary: a program begun and ended, its parameters, loops and branches demonstrated.
 
-use super::hands::{home, not_in_a_pane, prompt, turn_of};
+use super::hands::{home, not_in_a_pane, object_at, prompt, turn_of};
 use super::view::{Ends, NewParameter, ParameterReading, Prompt, Turn};
 use super::{blocks, choice, parameters, reading, recording, repeat, scene};
 
@@ -128,6 +128,20 @@ impl Session {
         let home = home(open);
         let set = blocks::taken(open);
         scene::drawing_of_all(&open.state, &home, &set)
+    }
+
+    /// Runs the second turn of the loop that is drawn ahead, while nobody waits: before its first turn is ended, or, where
+    /// a question is open, with what lies under a pointer for an answer. It is shown at once then.
+    pub fn foresee_turn(&mut self, id: DocumentId, pointer: Option<&Pointer>) {
+        let (open, beside) = self.beside_others(id);
+        let asked = blocks::prompt(open).filter(Prompt::asks_object);
+        let (state, home, level) = (open.state.clone(), home(open), open.picking.level);
+        let Some((asked, pointer)) = asked.zip(pointer) else {
+            return repeat::foresee(open, &beside, None);
+        };
+        if let Ok(found) = object_at(&state, &home, asked.of_turn_before(), (pointer, level)) {
+            repeat::foresee(open, &beside, Some((&found.text, pointer.at)));
+        }
     }
 
     /// Ends the first turn of the loop, and says how the loop ends; what is asked of the second turn is then waited for.

@@ -317,9 +317,14 @@ impl Session {
             }
             None => {
                 let home = changing::home(open).or_else(|| remove::home(open)).unwrap_or(home);
-                let was = of_turn_before(blocks::prompt(open).as_ref());
-                let found = object_at(&state, &home, &was, (pointer, level));
-                let mut hover = found_hover(&state, &home, found);
+                let wanted = blocks::prompt(open).unwrap_or_default();
+                let was = wanted.of_turn_before();
+                let mut hover = match pointer.reach < 0.0 {
+                    true => Hover::default(),
+                    false => {
+                        found_hover(&state, &home, object_at(&state, &home, was, (pointer, level)))
+                    }
+                };
                 let asked = repeat::asked_drawing(open, &beside);
                 hover.ghost.elements.extend(asked.elements);
                 hover
@@ -587,16 +592,8 @@ fn found_hover(state: &State, home: &Home, found: Result<scene::Found, Refusal>)
     }
 }
 
-/// What the object that is asked about was in the first turn; nothing where none is.
-fn of_turn_before(prompt: Option<&Prompt>) -> String {
-    match prompt.map(|prompt| &prompt.wants) {
-        Some(Wants::Recurrence(question)) => question.first.clone(),
-        _ => String::new(),
-    }
-}
-
 /// What lies under a pointer of what is drawn, or what that is in; it may take the place of something.
-fn object_at(
+pub(super) fn object_at(
     state: &State,
     home: &Home,
     was: &str,
@@ -685,8 +682,7 @@ fn pointed(open: &mut Open, host: &dyn Host, pointer: &Pointer) -> Result<Turn, 
     let Some(wanted) = blocks::prompt(open) else {
         return Err(words::refuse("nothing is asked now: choose what to draw first".into()));
     };
-    let was = of_turn_before(Some(&wanted));
-    let found = object_at(&state, &home, &was, (pointer, level))?;
+    let found = object_at(&state, &home, wanted.of_turn_before(), (pointer, level))?;
     match wanted.wants {
         Wants::Recurrence(_) if !wanted.is_value => {
             answered(open, host, (Some(&found.text), Some(pointer.at)))

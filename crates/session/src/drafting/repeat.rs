@@ -5,6 +5,10 @@
 //! the loop is closed: answers that differ from the first turn become what is carried from turn to turn.
 //! A loop over a set asks only of what speaks of the set's first element: each in turn, or always this one?
 
+mod second_turn;
+
+pub(crate) use second_turn::{Tried, asked_drawing, foresee};
+
 use super::blocks::{self, Block, Kind};
 use super::operands::{self, Occurrence};
 use super::outcome::{self, Worth};
@@ -18,7 +22,6 @@ use crate::words;
 use base::{Name, Span};
 use kernel::Path;
 use std::collections::BTreeSet;
-use std::rc::Rc;
 use syntax::SyntaxKind;
 use syntax::ast::{AstNode, ListExpr};
 
@@ -431,6 +434,23 @@ pub(crate) fn answer(
     host: &dyn Host,
     (answer, at): (Option<&str>, Option<(f64, f64)>),
 ) -> Result<Option<Change>, Refusal> {
+    let mut it = opened(open)?.it;
+    let (i, way) = way_of(open, host, (answer, at))?;
+    it.asked[i].answer = Some(way);
+    let is_settled = it.each.is_some() && it.question().is_none();
+    keep(open, it);
+    is_settled.then(|| close(open, host, "")).transpose()
+}
+
+/// Returns which question an answer is for, and what it is: where it was picked decides which way round.
+///
+/// # Errors
+/// No question is open; the second turn would have no outcome.
+fn way_of(
+    open: &mut Open,
+    host: &dyn Host,
+    (answer, at): (Option<&str>, Option<(f64, f64)>),
+) -> Result<(usize, String), Refusal> {
     let loop_now = opened(open)?;
     let Some(i) = loop_now.it.asked.iter().position(|asked| asked.answer.is_none()) else {
         return Err(words::refuse("nothing is asked".into()));
@@ -449,7 +469,7 @@ pub(crate) fn answer(
     for way in ways {
         let mut tried = loop_now.it.clone();
         tried.asked[i].answer = Some(way.clone());
-        match second_turn(open, host, (&loop_now, &tried, i), at) {
+        match second_turn::run(open, host, (&loop_now, &tried, i), at) {
             Ok(away) if best.as_ref().is_none_or(|(least, _)| away < *least - 1e-9) => {
                 best = Some((away, way));
             }
@@ -459,14 +479,8 @@ pub(crate) fn answer(
             }
         }
     }
-    let Some((_, way)) = best else {
-        return Err(words::refuse(why.unwrap_or_else(|| "there is no such turn".into())));
-    };
-    let mut it = loop_now.it;
-    it.asked[i].answer = Some(way);
-    let is_settled = it.each.is_some() && it.question().is_none();
-    keep(open, it);
-    is_settled.then(|| close(open, host, "")).transpose()
+    let none = || words::refuse(why.unwrap_or_else(|| "there is no such turn".into()));
+    best.map(|(_, way)| (i, way)).ok_or_else(none)
 }
 
 /// What an answer is for each of the set, where it says of the second what the first turn says of the first: that one is
@@ -541,112 +555,6 @@ fn as_typed(
     let none = || words::refuse(format!("{step} has no such place that {typed} could go on from"));
     let from = all.iter().find(|found| is_there(found)).ok_or_else(none)?;
     typed::at(typed, &from.text)
-}
-
-/// States in which a loop took two turns, the latest last: what was asked of them is asked again while the pointer moves.
-#[derive(Default)]
-pub(crate) struct Tried(Vec<Trial>);
-
-/// A state that was tried.
-struct Trial {
-    of: Rc<State>,
-    written: String,
-    outcome: Result<Rc<State>, String>,
-}
-
-/// So many states are kept: both ways of the latest answer, and that before it.
-const MOST_TRIED: usize = 3;
-
-/// Returns the state in which the loop takes two turns, with the answers so far.
-fn with_two_turns(
-    open: &mut Open,
-    host: &dyn Host,
-    (opened, it): (&Opened, &Loop),
-) -> Result<Rc<State>, String> {
-    let state = open.state.clone();
-    let head = if it.each.is_some() { None } else { Some("repeat 2 times") };
-    let written = closed(&text::Source::now(&state), (opened, it), (head, ""));
-    let written = written.map_err(|refusal| refusal.message)?;
-    let all = &mut open.tried.0;
-    all.retain(|trial| Rc::ptr_eq(&trial.of, &state));
-    if let Some(known) = all.iter().find(|trial| trial.written == written) {
-        return known.outcome.clone();
-    }
-    let (tried, _) = State::of(written.clone(), Some(&state), host, plan::Plans::default());
-    let outcome = match recording::new_error(&state, &tried) {
-        Some(wrong) => Err(wrong),
-        None => Ok(Rc::new(tried)),
-    };
-    if all.len() == MOST_TRIED {
-        all.remove(0);
-    }
-    all.push(Trial { of: state, written, outcome: outcome.clone() });
-    outcome
-}
-
-/// The path to the second turn.
-fn second_path(opened: &Opened) -> Path {
-    let mut path = opened.home.path();
-    path.0.pop();
-    path.then(kernel::Step::Index(1))
-}
-
-/// Runs the second turn with the answers so far; says how far the step of a question lies from a place.
-fn second_turn(
-    open: &mut Open,
-    host: &dyn Host,
-    (opened, it, i): (&Opened, &Loop, usize),
-    at: Option<(f64, f64)>,
-) -> Result<f64, String> {
-    let tried = with_two_turns(open, host, (opened, it))?;
-    let evaluator = tried.evaluator(&tried.values);
-    let example = opened.home.path().0.first().cloned();
-    let thing =
-        example.and_then(|step| tried.structure.follow(kernel::DOCUMENT, &Path(vec![step])).ok());
-    // what failed in the second turn ended the run
-    if let Some(Ok(Some(run))) = thing.map(|thing| evaluator.run(thing))
-        && let Some(ended) = &run.ended
-        && ended.step.contains(&format!("{}[1]", opened.name))
-    {
-        return Err(ended.reason.clone());
-    }
-    let turn = second_path(opened);
-    let made = { it.asked[i].step.split('.') }.filter(|s| text::is_name(s));
-    let path = made.fold(turn, |path, name| path.then(kernel::Step::Part(name.into())));
-    // what the second turn does not come to has no place
-    let curve = evaluator.at(&path).ok().and_then(|a| scene::Curve::of(&evaluator, &a));
-    Ok(curve.zip(at).map_or(0.0, |(curve, at)| curve.distance(at)))
-}
-
-/// Returns what is asked about now, and the second turn as the answers so far make it.
-pub(crate) fn asked_drawing(open: &mut Open, host: &dyn Host) -> drawing::Drawing {
-    let state = open.state.clone();
-    let Ok(opened) = opened(open) else { return drawing::Drawing::default() };
-    let Some(question) = opened.it.question() else { return drawing::Drawing::default() };
-    let mut elements = Vec::new();
-    for name in names_in(&question.first) {
-        elements.extend(scene::drawing_of(&state, &opened.home, &name).elements);
-    }
-    // what is no name is lit as what it comes to: `Point(pitch / 2, 0)`
-    let first = [question.first.clone()];
-    outcome::try_all(&state, &opened.home, &first, &mut |_, evaluator, answer| {
-        elements.extend(answer.iter().flat_map(|answer| scene::elements_of(evaluator, answer)));
-    });
-    if let Ok(tried) = with_two_turns(open, host, (&opened, &opened.it)) {
-        let evaluator = tried.evaluator(&tried.values);
-        if let Ok(answer) = evaluator.at(&second_path(&opened)) {
-            elements.extend(scene::elements_of(&evaluator, &answer));
-        }
-    }
-    drawing::Drawing { elements, ..drawing::Drawing::default() }
-}
-
-/// The paths that an expression speaks of.
-fn names_in(text: &str) -> Vec<String> {
-    text.split(|c| !text::is_of_path(c))
-        .filter(|w| w.starts_with(char::is_alphabetic))
-        .map(String::from)
-        .collect()
 }
 
 /// Closes the loop by what ends it: a condition, or a number of turns. It is one step.

@@ -46,6 +46,21 @@ pub struct Prompt {
     pub insert: Option<String>,
 }
 
+impl Prompt {
+    /// Whether it asks which object of the turn before is meant.
+    pub fn asks_object(&self) -> bool {
+        !self.is_value && matches!(self.wants, Wants::Recurrence(_))
+    }
+
+    /// What the object that is asked about was in the first turn; nothing where none is.
+    pub(crate) fn of_turn_before(&self) -> &str {
+        match &self.wants {
+            Wants::Recurrence(question) => &question.first,
+            _ => "",
+        }
+    }
+}
+
 /// What kind of answer a prompt wants.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub enum Wants {

@@ -64,6 +64,33 @@ fn a_step_whose_name_was_typed_with_a_capital_is_asked_about() {
 }
 
 #[test]
+fn a_second_turn_that_was_run_ahead_is_the_one_of_what_is_drawn_now() {
+    let shown = |is_ahead: bool| {
+        let mut desk = Desk::recording("Row", &[("pitch", "20")]);
+        desk.session.begin_loop(desk.id, "").expect("a loop");
+        for place in ["pitch, 0", "pitch, 5"] {
+            draw(&mut desk, "Circle", &[Typed(place), Typed("3")]);
+            if is_ahead {
+                desk.session.foresee_turn(desk.id, None);
+            }
+        }
+        desk.session.end_turn(desk.id, Ends::Until).expect("a turn is drawn");
+        let nowhere = Pointer { reach: -1.0, ..Pointer::default() };
+        let lit = desk.session.hover(desk.id, &nowhere, "");
+        let first = Pointer { at: (23.0, 0.0), reach: 0.4, ..Pointer::default() };
+        if is_ahead {
+            desk.session.foresee_turn(desk.id, Some(&first));
+        }
+        (desk.session.prompt(desk.id), lit, desk.text())
+    };
+    let (prompt, lit, text) = shown(true);
+    assert_eq!((&prompt, &lit, &text), (&shown(false).0, &shown(false).1, &shown(false).2));
+    // the two circles of the second turn, and nothing under a pointer that is nowhere
+    let circles = |e: &&drawing::Element| matches!(e.shape, drawing::Shape::Circle { .. });
+    assert_eq!((lit.ghost.elements.iter().filter(circles).count(), lit.finds), (2, None));
+}
+
+#[test]
 fn a_band_takes_what_a_loop_begins_with_where_nothing_else_draws_it() {
     let mut desk = Desk::recording("Rings", &[]);
     draw(&mut desk, "Circle", &[Typed("0, 0"), Typed("5")]);
