@@ -303,6 +303,8 @@ pub(crate) struct Lowerer<'l> {
     pub(crate) depth: u32,
     /// While positive, nothing is reported.
     pub(crate) silent: u32,
+    /// Products and quotients of the text's loops that may be meant otherwise: they are looked at once.
+    pub(crate) read_in_turns: BTreeSet<Span>,
     /// In how many branches it is that a turn of a loop does not take: of these few mistakes are told.
     pub(crate) untaken: u32,
     pub(crate) declared: Vec<(ClassId, FileId, ast::Class)>,
@@ -389,6 +391,7 @@ impl<'l> Lowerer<'l> {
             repeated: Vec::new(),
             unrolled: 0,
             silent: 0,
+            read_in_turns: BTreeSet::new(),
             untaken: 0,
             declared: Vec::new(),
             choices: Vec::new(),

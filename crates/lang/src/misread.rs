@@ -28,7 +28,10 @@ impl Lowerer<'_> {
         if scope.file != OWN || self.silent > 0 {
             return;
         }
-        // a loop asks at each turn: what is no candidate is not written out
+        // a loop asks at each turn
+        if !scope.turns.is_empty() && !self.read_in_turns.insert(binary.span()) {
+            return;
+        }
         let told = match binary.op() {
             Some(BinaryOp::Divide) => fraction(binary).or_else(|| root(binary)),
             Some(BinaryOp::Add | BinaryOp::Subtract) => {
