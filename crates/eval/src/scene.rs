@@ -233,13 +233,12 @@ impl Evaluator<'_> {
             return None;
         }
         let parts = self.parts_of(&Answer::Thing(thing)).ok()?;
-        let is_drawn = |part: &Answer<'_>| match part {
-            Answer::Thing(part) if !matches!(self.class_kind(*part), ClassKind::Set(_)) => {
-                Some(*part)
-            }
+        let thing = |part: &Answer<'_>| match part {
+            Answer::Thing(thing) => Some(*thing),
             _ => None,
         };
-        Some(parts.iter().filter_map(is_drawn).collect())
+        let drawn = parts.iter().filter(|part| self.may_draw(part));
+        Some(drawn.filter_map(thing).collect())
     }
 
     /// Names what a document computes that is drawn with its parts: things that are made, as by a construction.

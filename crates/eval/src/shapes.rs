@@ -324,11 +324,15 @@ impl<'a> Evaluator<'a> {
         Ok(())
     }
 
-    /// Returns true for what has a picture; the members of a set are parts of something else.
-    fn may_draw(&self, answer: &Answer<'a>) -> bool {
+    /// Returns true for what has a picture; the members of a set are parts of something else,
+    /// and things of a used text of which nothing speaks are not shown.
+    pub(crate) fn may_draw(&self, answer: &Answer<'a>) -> bool {
         match answer {
             Answer::Picture(_) | Answer::List(_) | Answer::Made(_) | Answer::Context(_) => true,
-            Answer::Thing(t) => !matches!(self.class_kind(*t), ClassKind::Set(_)),
+            Answer::Thing(t) => {
+                !matches!(self.class_kind(*t), ClassKind::Set(_))
+                    && !self.structure.is_unseen(self.document, *t)
+            }
             Answer::Number(..)
             | Answer::Bool(_)
             | Answer::Option(..)

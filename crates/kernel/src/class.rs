@@ -115,6 +115,8 @@ pub struct Class {
     pub supers: Vec<Superclass>,
     /// True for the class of a single thing, or of a part as its owner refines it: no text names it.
     pub is_of_one: bool,
+    /// True for the things of a text that is used where nothing speaks of them: they are not shown, nor counted.
+    pub is_unseen: bool,
     /// The class that it is, with other counts.
     pub general: Option<ClassId>,
     /// Its whole numbers that say how many elements its lists have or how often its loops run, and
@@ -171,6 +173,7 @@ impl Class {
             elements: Vec::new(),
             supers,
             is_of_one: false,
+            is_unseen: false,
             general: None,
             counts: Vec::new(),
             is_abstract: false,

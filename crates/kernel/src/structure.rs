@@ -544,7 +544,7 @@ impl Form {
             others.into_iter().find_map(|part| self.constraint_named(document, part, name))
         })
     }
-    /// Returns the things of a class in order of declaration, merged ones once.
+    /// Returns the things of a class in order of declaration, merged ones once. Unseen ones are none of the document's.
     pub fn all(&self, document: &Document, class: ClassId) -> Vec<ThingId> {
         let mut is: BTreeMap<ClassId, bool> = BTreeMap::new();
         let mut of_class = |t: ThingId| {
@@ -558,9 +558,13 @@ impl Form {
             if is_first && self.merged_with(thing).into_iter().any(&mut of_class) {
                 found.push(thing);
             }
-            stack.extend(self.parts(thing).rev());
+            stack.extend(self.parts(thing).rev().filter(|&t| !self.is_unseen(document, t)));
         }
         found
+    }
+    /// Returns true for the things of a text that is used where nothing speaks of them.
+    pub fn is_unseen(&self, document: &Document, thing: ThingId) -> bool {
+        document.classes[self.things[thing].class].is_unseen
     }
     /// Returns the slots of a thing and of all its parts, in order of declaration.
     pub fn slots_under(&self, thing: ThingId) -> Vec<SlotId> {

@@ -3,6 +3,7 @@
 //! In: what a text meant, a class, expressions. Out: their terms, over a document that has whatever classes these
 //! made besides. A hand that hovers asks so many times a second.
 
+use crate::files::{Use, UsedParts};
 use crate::kinds::Kind;
 use crate::lower::{ByName, Lowered, Lowerer, OWN};
 use crate::programs::Programs;
@@ -25,6 +26,8 @@ pub(crate) struct Names {
     pub(crate) constants: BTreeSet<(ClassId, Name)>,
     pub(crate) broken: BTreeSet<(ClassId, Name)>,
     pub(crate) file_things: BTreeMap<FileId, Path>,
+    pub(crate) used_parts: UsedParts,
+    pub(crate) spoken: BTreeSet<(FileId, Use)>,
     pub(crate) choices: Vec<ClassId>,
     pub(crate) made: BTreeMap<(&'static str, ClassId), ClassId>,
     pub(crate) counted: BTreeMap<(ClassId, u32), ClassId>,
@@ -84,6 +87,7 @@ pub(crate) fn knowing(lowered: &Lowered) -> Lowerer<'static> {
     l.constants = names.constants;
     l.broken = names.broken;
     l.file_things = names.file_things;
+    l.used_parts = names.used_parts;
     l.choices = names.choices;
     l.made = names.made;
     l.counted = names.counted;

@@ -8,7 +8,7 @@ use base::{Diagnostic, FileId, Name, Place};
 use expr::dimension::Dimension;
 use kernel::{ClassId, OriginId, Part, Step, Vertical};
 use std::cell::LazyCell;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 use syntax::ast::{self, AstNode, Member};
 use syntax::{Parse, SyntaxKind, SyntaxNode, SyntaxToken};
@@ -25,6 +25,12 @@ pub struct File {
     /// What is in it where it is a table and no text of the language, or why it cannot be read.
     pub table: Option<tables::Reading>,
 }
+
+/// A text, and one whose things it has by using it.
+pub(crate) type Use = (FileId, FileId);
+
+/// The parts that are the things of used texts, by class and name.
+pub(crate) type UsedParts = BTreeMap<(ClassId, Name), Use>;
 
 /// What every thing answers, in the language itself.
 const OBJECT: &str = include_str!("object.thing");
@@ -189,10 +195,34 @@ impl Lowerer<'_> {
                     is_layout: false,
                     origin,
                 };
+                self.used_parts.insert((class, part.name.clone()), (file, found));
                 self.add_part(Place { file, span: last.span() }, class, part);
             }
         }
         self.using.pop();
+    }
+
+    /// Notes that a text speaks of the things of one that is used, if a member of a class is those.
+    pub(crate) fn speak_of_used(&mut self, by: FileId, name: &Name, class: ClassId) {
+        if self.used_parts.is_empty() {
+            return;
+        }
+        if let Some(&used) = self.used_parts.get(&(class, name.clone())) {
+            self.spoken.insert((by, used));
+        }
+    }
+
+    /// Hides the things of used texts of which nothing speaks: they are examples of what their text is for.
+    pub(crate) fn hide_unspoken(&mut self) {
+        let spoken: BTreeSet<Use> = self.spoken.iter().map(|&(_, used)| used).collect();
+        for ((class, name), _) in self.used_parts.iter().filter(|(_, used)| !spoken.contains(used))
+        {
+            let Some(&index) = self.parts.get(&(*class, name.clone())) else { continue };
+            let part = &mut self.document.classes[*class].parts[index];
+            part.is_layout = true;
+            let things = part.class;
+            self.document.classes[things].is_unseen = true;
+        }
     }
 
     /// Makes the class of a file that has things, of its own or by what it uses.

@@ -8,7 +8,7 @@ use crate::alone::{Names, Reader};
 use crate::checks::Check;
 use crate::counts::Counts;
 use crate::families::Family;
-use crate::files::{File, name_of};
+use crate::files::{File, Use, UsedParts, name_of};
 use crate::hints::instead_of_abstract;
 use crate::kept::Added;
 use crate::kept::used::Used;
@@ -233,6 +233,10 @@ pub(crate) struct Lowerer<'l> {
     pub(crate) using: Vec<FileId>,
     /// Where the document has the things of what it uses.
     pub(crate) file_things: BTreeMap<FileId, Path>,
+    /// The parts that these are of the class of what uses them, and who uses whom.
+    pub(crate) used_parts: UsedParts,
+    /// Which of these uses a text speaks of: the text first.
+    pub(crate) spoken: BTreeSet<(FileId, Use)>,
     /// Files after those that they use; the document last.
     pub(crate) order: Vec<FileId>,
     pub(crate) document: Document,
@@ -341,6 +345,8 @@ impl<'l> Lowerer<'l> {
             reading: Vec::new(),
             using: Vec::new(),
             file_things: BTreeMap::new(),
+            used_parts: UsedParts::new(),
+            spoken: BTreeSet::new(),
             order: Vec::new(),
             document: Document {
                 classes: IdVec::new(),
@@ -441,6 +447,8 @@ impl<'l> Lowerer<'l> {
                 constants: self.constants,
                 broken: self.broken,
                 file_things: self.file_things,
+                used_parts: self.used_parts,
+                spoken: self.spoken,
                 choices: self.choices,
                 made: self.made,
                 counted: self.counted,

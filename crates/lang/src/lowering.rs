@@ -152,6 +152,7 @@ impl Lowerer<'_> {
             }
             Stage::Ends => {
                 self.next_used = self.keepable_of_used();
+                self.hide_unspoken();
                 let checks = checks::lower(self);
                 let lessons = crate::lessons::lower(self);
                 let (views, toolboxes) = (views::lower(self), views::toolboxes(self));

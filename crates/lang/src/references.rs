@@ -34,6 +34,7 @@ pub(crate) struct References {
 impl Lowerer<'_> {
     /// Notes that a word speaks of a member of a class, or of one above it.
     pub(crate) fn refer(&mut self, place: Place, name: &Name, class: ClassId) {
+        self.speak_of_used(place.file, name, class);
         if self.references.is_none() || place.file != OWN {
             return;
         }

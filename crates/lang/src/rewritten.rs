@@ -76,7 +76,8 @@ pub(crate) fn rewritten(
     let anew = anew.collect::<Option<Vec<Anew>>>()?;
     let new = others.new.iter().map(|(_, at, value)| l.given_more(before, *at, value));
     let new = new.collect::<Option<Vec<Anew>>>()?;
-    let is_as_it_was = l.document.classes.len() == before.document.classes.len();
+    let is_as_it_was = l.document.classes.len() == before.document.classes.len()
+        && l.spoken.is_subset(&before.names.spoken);
     if !is_as_it_was || !l.diagnostics.is_empty() {
         return None;
     }

@@ -43,6 +43,8 @@ impl<'l> Lowerer<'l> {
         for (key, kind) in known {
             self.message_kinds.entry(key.clone()).or_insert_with(|| kind.clone());
         }
+        // what is taken over is not read again, and speaks of what it spoke of
+        self.spoken.extend(before.names.spoken.iter().filter(|(by, _)| *by != OWN));
         self.used = Some((before, used));
     }
 

@@ -167,7 +167,7 @@ here: Spot
 ";
 
 /// What a document says, and what it says then: what used texts say in it is another thing each time.
-const OTHERWISE: [(&str, &str); 5] = [
+const OTHERWISE: [(&str, &str); 6] = [
     // a thing of a used class is merged with one that has the name, or with none, or with another
     (
         "use boxes\nb: Box\nw: Heavy\nmerge b.held = w\nclass Heavy { weight: Real = 3 }",
@@ -179,6 +179,8 @@ const OTHERWISE: [(&str, &str); 5] = [
     ),
     // the things of a used text stand elsewhere
     ("use alone\nuse things\nk: Spot", "use alone\nk: Spot"),
+    // its things are spoken of, and shown
+    ("use things\nk: Spot\nconstraint k.x = things.here.x", "use things\nk: Spot"),
     // classes that it makes come sooner
     (
         "use geometry\nclass One { }\nclass Two { all: List of 2 One }\nc: Circle",

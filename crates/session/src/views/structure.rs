@@ -148,9 +148,7 @@ impl Maker<'_> {
                 let parts: Vec<ThingId> =
                     match crate::general::named(self.state, thing, "structure") {
                         Some(named) => named,
-                        None => {
-                            structure.parts(thing).filter(|&p| !self.keeps_masters(p)).collect()
-                        }
+                        None => structure.parts(thing).filter(|&p| self.is_shown(p)).collect(),
                     };
                 let all = parts.len();
                 if all > MOST_ELEMENTS {
@@ -175,12 +173,14 @@ impl Maker<'_> {
         self.work.rows[at].descendants = (self.work.rows.len() - at - 1) as u32;
     }
 
-    /// Returns true for the part that nobody wrote, which keeps the masters of placed things.
-    fn keeps_masters(&self, part: ThingId) -> bool {
+    /// Returns false for the part that nobody wrote, which keeps the masters of placed things, and for the things of a
+    /// used text of which nothing speaks.
+    fn is_shown(&self, part: ThingId) -> bool {
         let State { structure, lowered, .. } = self.state;
         let name = lowered.masters.as_ref();
-        structure.things[part].owner == Some(kernel::DOCUMENT)
-            && name.is_some_and(|n| structure.field_name(&lowered.document, part) == Some(n))
+        let keeps_masters = structure.things[part].owner == Some(kernel::DOCUMENT)
+            && name.is_some_and(|n| structure.field_name(&lowered.document, part) == Some(n));
+        !keeps_masters && !structure.is_unseen(&lowered.document, part)
     }
 
     fn part_origin(&self, thing: ThingId) -> OriginId {

@@ -398,7 +398,7 @@ impl<'a> Maker<'a> {
     fn open_parts(&mut self, thing: ThingId, mut path: String) {
         let (document, structure) = (&self.state.lowered.document, &self.state.structure);
         let end = path.len();
-        for part in structure.parts(thing) {
+        for part in structure.parts(thing).filter(|&p| !structure.is_unseen(document, p)) {
             match structure.field_name(document, part) {
                 Some(name) => append(&mut path, name),
                 None => {

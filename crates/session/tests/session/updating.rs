@@ -265,3 +265,58 @@ slacks: List of 3 Real = [yard.gate.slack, mine.slack, copied.slack]
     assert_eq!(codes(&session), Vec::<String>::new());
     assert_eq!(number(&session, farm, "mine.width"), Some(8.0));
 }
+
+const CART: &str = "use geometry
+program Wheel(radius: Length = 10) { rim = Circle(center: (0, 0), radius: radius) }
+example: Wheel
+axle: Line { p1 = (0, 0)  p2 = (50, 0) }
+";
+
+/// A folder with a program, and an example of it.
+struct Workshop;
+
+impl Host for Workshop {
+    fn read(&self, name: &str) -> Option<String> {
+        if name == "cart" {
+            return Some(CART.into());
+        }
+        std::fs::read_to_string(format!(
+            "{}/../../library/{name}.thing",
+            env!("CARGO_MANIFEST_DIR")
+        ))
+        .ok()
+    }
+}
+
+/// Returns what is drawn, the rows of the structure and of the values that a used text has, and what is free.
+fn seen(session: &mut Session, text: &str) -> (usize, usize, usize, u32) {
+    let id = session.open("user", text);
+    let drawn = session.picture(id).drawing.elements.len();
+    let is_used = |path: &str| path.starts_with("cart");
+    let rows = session.structure(id).into_iter().filter(|row| is_used(&row.path)).count();
+    let values = session.values(id).into_iter().filter(|row| is_used(&row.path)).count();
+    (drawn, rows, values, session.status(id).freedom)
+}
+
+#[test]
+fn the_example_of_a_used_text_is_not_drawn_nor_counted() {
+    let mut session = Session::new(Box::new(Workshop));
+    let alone = seen(&mut session, "use geometry\np: Point = (3, 4)\n");
+    assert_eq!(seen(&mut session, "use geometry\nuse cart\np: Point = (3, 4)\n"), alone);
+    let (drawn, ..) = seen(&mut session, "use cart\nw: Wheel { radius = 4 }\n");
+    assert_eq!(drawn, 1, "the wheel of the document alone");
+    // what speaks of one of them shows them, as it always did
+    let text = "use geometry\nuse cart\np: Point = (3, 4)\nmerge p = cart.axle.p1\n";
+    let (drawn, rows, values, free) = seen(&mut session, text);
+    assert!(drawn >= 3 && rows > 2 && values > 2 && free >= 4, "{drawn} {rows} {values} {free}");
+    let text = "use geometry\nuse cart\nl: Line\nconstraint l.length = cart.axle.length\n";
+    let id = session.open("user", text);
+    let length = session.values(id).into_iter().find(|row| row.path == "l.length");
+    assert!(length.and_then(|row| row.number).is_some_and(|x| (x - 50.0).abs() < 1e-9));
+    // so it is while the text is edited
+    let command = Command::Text("use geometry\nuse cart\nl: Line\n".into());
+    session.apply(id, &command).expect("it can be edited");
+    assert_eq!(session.picture(id).drawing.elements.len(), 1);
+    session.apply(id, &Command::Undo).expect("there is a step");
+    assert_eq!(session.picture(id).drawing.elements.len(), 3);
+}
