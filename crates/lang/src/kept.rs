@@ -2,12 +2,15 @@
 //!
 //! A part at the top of the document's own text, of a class that is declared and with values that are
 //! constants, depends on the classes alone. Where these are as they were, and the part's node is the
-//! one that it was, its part and given values are copied from what the text meant before.
+//! one that it was, its part and given values are copied from what the text meant before. What the turns of a loop
+//! give is copied too (`kept/loops.rs`).
 
+pub(crate) mod loops;
 pub(crate) mod used;
 
 use crate::counts::has_named_count;
 use crate::files::File;
+use crate::kept::loops::{Looped, gives_only};
 use crate::lower::{Lowered, Lowerer, OWN};
 use crate::members::{Pending, is_constant, values_alone};
 use crate::scope::Scope;
@@ -19,12 +22,14 @@ use syntax::ast::{AstNode, Expr, Member, Value};
 use syntax::{Changed, Parse, SyntaxKind};
 
 /// What a member at the top of the text added to the document's class: one part whose class depends on the classes
-/// alone, with some given values; or one value of a part that another member declares.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+/// alone, with some given values; or one value of a part that another member declares, or those of a loop.
+#[derive(Clone, PartialEq, Eq, Debug)]
 pub(crate) struct Added {
     part: Option<u32>,
     first_given: u32,
     givens: u32,
+    /// What else the values of a loop depend on.
+    looped: Option<Rc<Looped>>,
 }
 
 /// How much there is that values may add to.
@@ -35,6 +40,10 @@ pub(crate) struct SoFar {
     rules: usize,
     classes: usize,
     diagnostics: usize,
+    /// Members of loops.
+    unrolled: usize,
+    /// Names that were looked for in what things are merged with.
+    asked: usize,
 }
 
 impl SoFar {
@@ -46,21 +55,25 @@ impl SoFar {
     pub(crate) fn with_givens(self, givens: usize) -> Self {
         Self { givens, ..self }
     }
+    /// The same with so many members of loops.
+    fn with_unrolled(self, unrolled: usize) -> Self {
+        Self { unrolled, ..self }
+    }
 }
 
 impl Added {
     /// Where its values are among those that the document gives.
-    pub(crate) fn givens_range(self) -> Range<usize> {
+    pub(crate) fn givens_range(&self) -> Range<usize> {
         let first = self.first_given as usize;
         first..first + self.givens as usize
     }
-    /// The same with more values before it.
-    pub(crate) fn behind(self, more: u32) -> Self {
-        Self { first_given: self.first_given + more, ..self }
+    /// Moves it behind more values.
+    pub(crate) fn move_behind(&mut self, more: u32) {
+        self.first_given += more;
     }
     /// One value, of a part that another member declares.
     pub(crate) fn value(first_given: u32) -> Self {
-        Self { part: None, first_given, givens: 1 }
+        Self { part: None, first_given, givens: 1, looped: None }
     }
 }
 
@@ -156,6 +169,7 @@ impl<'l> Lowerer<'l> {
             self.reserve(before);
         }
         let classes = self.document.classes.len();
+        self.declared_classes = classes;
         OwnMembers { scope, members, next: 0, is_known: before.is_some(), classes }
     }
 
@@ -182,8 +196,15 @@ impl<'l> Lowerer<'l> {
                 }
                 continue;
             }
-            if let Some(node) = file.member_at(span) {
-                self.declare_anew(own, (member, part), node);
+            if let Some((before, moved)) = known
+                && self.may_keep_loop(before, member, moved)
+            {
+                continue;
+            }
+            match file.member_at(span) {
+                Some(node) if gives_only(&node) => self.declare_loop_anew(&own.scope, member, node),
+                Some(node) => self.declare_anew(own, (member, part), node),
+                None => {}
             }
         }
         own.next = to;
@@ -243,27 +264,32 @@ impl<'l> Lowerer<'l> {
     /// Gives parts that were kept the values that they were given before.
     pub(crate) fn keep_values(&mut self, run: Run) {
         let (Some(before), root) = (self.before, self.document.root) else { return };
-        let givens = &before.document.classes[before.document.root].givens;
         let were = before.added[run.was..].iter().flatten();
         for ((member, part), was) in run.members.zip(run.part..).zip(were) {
             let first_given = self.document.classes[root].givens.len() as u32;
-            let first = was.first_given as usize;
-            for given in &givens[first..first + was.givens as usize] {
-                let place = before.origins.place(given.origin);
-                let moved = |at: u32| (i64::from(at) + run.shift) as u32;
-                let span = Span::new(moved(place.span.start), moved(place.span.end));
-                let origin = self.origin(OWN, span);
-                if let Some(unit) = before.document.units.get(&given.origin) {
-                    self.document.units.insert(origin, unit.clone());
-                }
-                let given = match given.origin == origin {
-                    true => given.clone(),
-                    false => Rc::new(Given { origin, ..Given::clone(given) }),
-                };
-                self.document.classes[root].givens.push(given);
-            }
+            self.keep_givens(before, was.givens_range(), run.shift);
             self.given_from[member] = first_given;
-            self.added[member] = Some(Added { part: Some(part), first_given, givens: was.givens });
+            self.added[member] =
+                Some(Added { part: Some(part), first_given, givens: was.givens, looped: None });
+        }
+    }
+
+    /// Gives what was given before by these, which have moved so far.
+    fn keep_givens(&mut self, before: &Lowered, these: Range<usize>, shift: i64) {
+        let root = self.document.root;
+        for given in &before.document.classes[before.document.root].givens[these] {
+            let place = before.origins.place(given.origin);
+            let moved = |at: u32| (i64::from(at) + shift) as u32;
+            let span = Span::new(moved(place.span.start), moved(place.span.end));
+            let origin = self.origin(OWN, span);
+            if let Some(unit) = before.document.units.get(&given.origin) {
+                self.document.units.insert(origin, unit.clone());
+            }
+            let given = match given.origin == origin {
+                true => given.clone(),
+                false => Rc::new(Given { origin, ..Given::clone(given) }),
+            };
+            self.document.classes[root].givens.push(given);
         }
     }
 
@@ -272,11 +298,14 @@ impl<'l> Lowerer<'l> {
         let root = &self.document.classes[self.document.root];
         let rules = root.constraints.len() + root.merges.len() + root.bindings.len();
         let rules = rules + root.stays.len() + root.switches.len() + root.sides.len();
+        let rules = rules + self.switches.len();
         SoFar {
             givens: root.givens.len(),
             rules,
             classes: self.document.classes.len(),
             diagnostics: self.diagnostics.len(),
+            unrolled: self.unrolled,
+            asked: self.kin.asked,
         }
     }
 
@@ -293,7 +322,7 @@ impl<'l> Lowerer<'l> {
         let is_as_declared = part.is_none_or(|part| !self.counts.from_outside.contains(&part));
         let wanted = SoFar { givens: before.givens + givens as usize, ..before };
         if is_as_declared && self.so_far() == wanted {
-            self.added[member] = Some(Added { part, first_given, givens });
+            self.added[member] = Some(Added { part, first_given, givens, looped: None });
         }
     }
 }

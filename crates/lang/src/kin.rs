@@ -15,6 +15,8 @@ pub(crate) struct Kin {
     /// How many merges were looked at.
     merges: usize,
     of: BTreeMap<ClassId, BTreeSet<ClassId>>,
+    /// How often it was asked.
+    pub(crate) asked: usize,
     /// Whether a used text has asked: what it says depends on what the document merges.
     pub(crate) is_asked_by_used: bool,
 }
@@ -41,6 +43,7 @@ impl Lowerer<'_> {
         class: ClassId,
         is_wanted: impl Fn(&Self, ClassId) -> bool,
     ) -> Option<ClassId> {
+        self.kin.asked += 1;
         self.kin.is_asked_by_used |= scope.file != OWN;
         let merges = self.document.classes.iter().map(|(_, c)| c.merges.len()).sum();
         if self.kin.merges != merges {

@@ -292,6 +292,8 @@ pub(crate) struct Lowerer<'l> {
     pub(crate) copies: Vec<(ClassId, ClassId)>,
     /// What things of classes are merged with.
     pub(crate) kin: Kin,
+    /// How many classes there were when the document's own members began.
+    pub(crate) declared_classes: usize,
     /// What loops declare over what is not known yet.
     pub(crate) repeated: Vec<Repeated>,
     /// How many members `for` has made.
@@ -394,6 +396,7 @@ impl<'l> Lowerer<'l> {
             narrowed: Made::new(),
             copies: Vec::new(),
             kin: Kin::default(),
+            declared_classes: 0,
             repeated: Vec::new(),
             unrolled: 0,
             silent: 0,

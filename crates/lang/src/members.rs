@@ -2,6 +2,7 @@
 
 use crate::counts::{Numbers, has_named_count, whole};
 use crate::kept::Run;
+use crate::kept::loops::KeptLoop;
 use crate::kinds::Kind;
 use crate::loops::MOST_MEMBERS;
 
@@ -37,10 +38,14 @@ pub(crate) enum Pending {
     Absolute { scope: Rc<Scope>, path: Path, target: Expr },
     /// The values of parts of the document that are kept.
     Kept(Run),
+    /// What the turns of a loop of the document gave, which are not taken.
+    KeptLoop(KeptLoop),
     /// The values of this member of the document follow.
     Note(usize),
     /// They end here: so many values, of the part of this index where the member declares one.
     Noted { member: usize, part: Option<u32>, givens: u32 },
+    /// Those of a loop end here, which made so many members where it was declared.
+    NotedLoop { member: usize, members: usize },
     /// The answer of a message.
     Answer { scope: Rc<Scope>, index: usize, definition: Rc<Definition> },
 }

@@ -202,7 +202,7 @@ fn declared(part: &ast::Part) -> Option<String> {
 impl Lowerer<'_> {
     /// Returns what a member gives now, where it gives the same parts as before.
     fn given_anew(&mut self, before: &Lowered, other: &Other) -> Option<Anew> {
-        let added = before.added[other.was]?;
+        let added = before.added[other.was].as_ref()?;
         let (prefix, values) = match &other.written {
             Written::Part(was, is) => {
                 let (were, are) = (values_of(was)?, values_of(is)?);
@@ -319,7 +319,7 @@ impl Lowered {
         }
         self.document.classes[root].givens.insert(at, Rc::new(Given { origin, ..given }));
         for added in self.added[member..].iter_mut().flatten() {
-            *added = added.behind(1);
+            added.move_behind(1);
         }
         self.given_from[member..].iter_mut().for_each(|from| *from += 1);
         self.added.insert(member, Some(Added::value(at as u32)));

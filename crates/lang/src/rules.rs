@@ -54,6 +54,7 @@ impl Lowerer<'_> {
     /// Declares what can be declared only once all members were seen.
     pub(crate) fn begin_members(&mut self) {
         self.declare_repeated();
+        self.decide_loops();
         self.declare_for_counts_from_outside();
         self.continue_loops();
         self.complete_placed();
@@ -92,6 +93,8 @@ impl Lowerer<'_> {
         }
         match pending {
             Pending::Kept(run) => self.keep_values(run),
+            Pending::KeptLoop(kept) => self.keep_loop(&kept),
+            Pending::NotedLoop { member, members } => self.note_loop(member, members, among.noted),
             Pending::Note(member) => among.noted = self.begin_note(member),
             Pending::Noted { member, part, givens } => {
                 self.note(member, part, givens, among.noted);

@@ -77,6 +77,57 @@ fn what_is_kept_is_what_lowering_anew_gives() {
     assert!(kept > 500, "{kept} parts could be kept");
 }
 
+/// What stands in a document with loops that only give values: of each row one, mostly the first.
+const LOOPS: [&[&str]; 16] = [
+    &["many: List of 4 Widget", "many: List of 4 Widget { left = 9 }", "many: List of 5 Widget"],
+    &["", "// a word", "unit mm", "x: Real = 3"],
+    &["few: List of 4 Real", "few: List of 4 Real = [1, 2, 3, 4]", "few: List of 4 Integer"],
+    &["table: List of 2 List of 2 Widget", "table: List of 3 List of 2 Widget"],
+    &["constant n: Integer = 3", "constant n: Integer = 2", "n: Real = 3"],
+    &["for i in 0..3 { many[i].left = 2 * i }", "for i in 0..2 { many[i].left = 2 * i }"],
+    &["", "x: Real = 3", "w: Widget"],
+    &["for i in 0..<n { many[i].bottom = i }", "for i in 0..2 { many[i].bottom = n + i }"],
+    &["for a in many { a.left = 3  a.bottom = 4 }", "for a in few { a = 3 }"],
+    &["for i in 0..1 { for j in 0..1 { table[i][j].left = 2 * i + j } }", ""],
+    &["for i in 0..1 { for a in table[i] { a.bottom = i } }", "for i in 0..9 { few[i] = 1 }"],
+    &["for i in 0..3 { few[i] = i * 2 }", "for i in 0..3 { few[i] = many[i].left }"],
+    &["for i in 1..3 { many[i] = copy of many[i - 1] }", ""],
+    &["", "merge many[0].left = many[1].left", "constraint few[0] = few[1]"],
+    &["", "p: Pair", "left: Widget", "class More { a: Real }"],
+    &["", "many[1].bottom = 5", "for a in many { a.more = 3 }"],
+];
+
+#[test]
+fn what_loops_give_is_kept_as_long_as_their_words_mean_the_same() {
+    let mut dice = Dice::new(11);
+    let mut kept = 0;
+    for _ in 0..12 {
+        let mut chosen = [0; LOOPS.len()];
+        let mut before: Option<Lowered> = None;
+        for _ in 0..24 {
+            let lines: Vec<&str> = chosen.iter().zip(LOOPS).map(|(i, row)| row[*i]).collect();
+            let text = format!("{CLASSES}{}\n", lines.join("\n"));
+            let (now, is_right) = as_anew(&text, &|_| None, before.as_ref());
+            let is_kept = before.as_ref().is_some_and(|before| gives_the_same(&now, before));
+            kept += u32::from(is_right && is_kept);
+            before = Some(now);
+            let row = dice.below(LOOPS.len());
+            chosen[row] = if chosen[row] == 0 { dice.below(LOOPS[row].len()) } else { 0 };
+        }
+    }
+    assert!(kept > 60, "{kept} times");
+}
+
+/// Whether the last value of a loop is the very same.
+fn gives_the_same(now: &Lowered, before: &Lowered) -> bool {
+    let last = |l: &Lowered| {
+        let givens = &l.document.classes[l.document.root].givens;
+        let of_list = |g: &&Rc<kernel::Given>| g.path.to_string().starts_with("many[");
+        givens.iter().rev().find(of_list).cloned()
+    };
+    matches!((last(now), last(before)), (Some(a), Some(b)) if Rc::ptr_eq(&a, &b))
+}
+
 /// What a document with a library may say: steps and classes that speak of its classes, and what makes these others.
 const DRAWN: [&str; 26] = [
     "c => Circle(center: Point(0, 1), radius: 2)",
