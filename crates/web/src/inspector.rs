@@ -1,6 +1,7 @@
 //! The inspector: what is selected, with its values, sliders and constraints; else what the document is given.
 
 use crate::actions;
+use crate::js;
 use crate::lab::Lab;
 use crate::marked::marked;
 use crate::plot::ViewsOf;
@@ -13,9 +14,15 @@ use presentation::rows::{shown_rules, told_apart};
 use presentation::sentences::formula;
 use session::Command;
 use session::view::{Offer, RowKind, StructureRow, ValueRow, ValueWithin};
+use std::collections::BTreeSet;
 
 /// At most so many values, and so many constraints, are shown at once; table and tree have the others.
 const MOST: usize = 40;
+/// So many rows are made in one go, and while a hand presses the picture one: each costs some milliseconds.
+const AT_ONCE: usize = 4;
+
+/// Which of the values a row is, and its path within what is inspected.
+type Inspected = (usize, String);
 
 /// The panel at the right.
 #[component]
@@ -186,11 +193,11 @@ fn Numbers(lab: Lab) -> impl IntoView {
         };
         lab.values.with_untracked(of)
     });
-    let shown = move || {
-        let shown = found.get();
-        lab.inspected_values.set_value(shown.iter().map(|shown| shown.0).collect());
-        shown
-    };
+    let shown = RwSignal::new(Vec::new());
+    Effect::new(move |_| {
+        found.track();
+        show_more(lab, found, shown);
+    });
     on_cleanup(move || {
         // The lab may have gone with the page.
         let _ = lab.inspected_values.try_set_value(Vec::new());
@@ -215,7 +222,7 @@ fn Numbers(lab: Lab) -> impl IntoView {
             <table>
                 <caption class="unseen">{words::VALUES}</caption>
                 <tbody>
-                    <For each=shown key=Clone::clone let(row)>
+                    <For each=move || shown.get() key=Clone::clone let(row)>
                         <values::Row lab=lab at=row.0 place=Place::Inspector within=row.1 />
                         <tr><td colspan="4">
                             {asked(lab, row.0)}
@@ -225,6 +232,32 @@ fn Numbers(lab: Lab) -> impl IntoView {
                 </tbody>
             </table>
         </div>
+    }
+}
+
+/// Shows some more of the rows that were found, besides those that are shown already; the others follow with the next
+/// frames.
+fn show_more(lab: Lab, found: Memo<Vec<Inspected>>, shown: RwSignal<Vec<Inspected>>) {
+    let Some(mut all) = found.try_get_untracked() else { return };
+    let known = shown.with_untracked(|shown| shown.iter().cloned().collect::<BTreeSet<_>>());
+    let mut new = if lab.pressed.get_value() { 1 } else { AT_ONCE };
+    let together = all.len();
+    all.retain(|row| {
+        let is_new = !known.contains(row);
+        let is_shown = !is_new || new > 0;
+        new -= usize::from(is_new && is_shown);
+        is_shown
+    });
+    let is_all = all.len() == together;
+    lab.inspected_values.set_value(all.iter().map(|shown| shown.0).collect());
+    shown.set(all);
+    if !is_all {
+        js::after_painting(move || {
+            // the page may be gone
+            if shown.try_with_untracked(|_| ()).is_some() {
+                show_more(lab, found, shown);
+            }
+        });
     }
 }
 
@@ -288,7 +321,7 @@ fn shown_values(
     rows: &[ValueRow],
     selected: Option<&str>,
     within: &[ValueWithin],
-) -> Vec<(usize, String)> {
+) -> Vec<Inspected> {
     let depth = |name: &str| name.matches('.').count();
     let name = |row: &ValueRow| match selected {
         Some(path) => {
@@ -308,7 +341,7 @@ fn shown_values(
     };
     let shared =
         |row: &ValueRow| { within.iter().find(|w| w.row == row.path) }.map(|w| w.path.clone());
-    let mut found: Vec<(usize, String)> = { rows.iter().enumerate() }
+    let mut found: Vec<Inspected> = { rows.iter().enumerate() }
         .filter_map(|(at, row)| Some((at, name(row).or_else(|| shared(row))?)))
         .collect();
     let is_own = |at: usize| selected.is_some_and(|path| rows[at].path == path);
