@@ -34,17 +34,24 @@ pub struct Asked {
 /// The values that are allowed of a parameter.
 #[derive(Clone, PartialEq, Debug)]
 pub enum Allowed {
-    /// From the least to the largest.
+    /// From the least to the largest; nothing where there is no such end, of which one at most is missing.
     Range {
         /// The least.
-        least: Term,
-        /// The largest, or the one that all are less than.
-        most: Term,
-        /// Whether the largest is not allowed itself.
-        is_open: bool,
+        least: Option<Bound>,
+        /// The largest.
+        most: Option<Bound>,
     },
     /// Those of a table.
     OneOf(Vec<Term>),
+}
+
+/// An end of the values that are allowed.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Bound {
+    /// The value.
+    pub value: Term,
+    /// Whether it is not allowed itself.
+    pub is_outside: bool,
 }
 
 /// A constraint in a program: what rows and calls have to fulfil.

@@ -251,8 +251,8 @@ impl Lowerer<'_> {
                         "what is one of several is a rule: `constraint x in {}`",
                         domain.syntax().text()
                     )),
-                    None => d.hint(match ends_by_minus(domain) {
-                        Some(range) => format!("write `in {range}`"),
+                    None => d.hint(match ends_by_minus(domain).or_else(|| one_sided(domain)) {
+                        Some(said) => said,
                         None => "write `in 0..9`; what depends on parts is a constraint".into(),
                     }),
                 };
@@ -268,7 +268,9 @@ impl Lowerer<'_> {
                     _ => None,
                 };
                 let (low, high) = ends.unwrap_or_else(|| ("0".into(), "9".into()));
-                self.report(d.hint(format!("write a constraint: `{low} <= x <= {high}`")));
+                let hint = one_sided(domain)
+                    .unwrap_or_else(|| format!("write a constraint: `{low} <= x <= {high}`"));
+                self.report(d.hint(hint));
             }
         }
         None
@@ -730,7 +732,21 @@ pub(crate) fn is_constant(expr: &Expr) -> bool {
     })
 }
 
-/// Returns `1..10` for `1-10`, the range of other texts.
+/// Says what to write for a domain that is open at an end.
+fn one_sided(domain: &Expr) -> Option<String> {
+    let Expr::Range(range) = domain else { return None };
+    let text = |e: Expr| e.syntax().text().to_string();
+    let sign =
+        |sign: &str, is_outside: bool| format!("{sign}{}", if is_outside { "" } else { "=" });
+    let rule = match (range.start(), range.end()) {
+        (Some(least), None) => format!("{} {}", sign(">", range.is_above()), text(least)),
+        (None, Some(most)) => format!("{} {}", sign("<", range.is_open()), text(most)),
+        _ => return None,
+    };
+    Some(format!("what has one end is a constraint: `x {rule}`"))
+}
+
+/// Returns `1..10` for `1-10`, the range of other texts, as what to write.
 fn ends_by_minus(domain: &Expr) -> Option<String> {
     let Expr::Binary(difference) = domain else { return None };
     let (ast::BinaryOp::Subtract, Expr::Number(low), Expr::Number(high)) =
@@ -738,5 +754,5 @@ fn ends_by_minus(domain: &Expr) -> Option<String> {
     else {
         return None;
     };
-    Some(format!("{}..{}", low.syntax().text(), high.syntax().text()))
+    Some(format!("write `in {}..{}`", low.syntax().text(), high.syntax().text()))
 }

@@ -263,6 +263,11 @@ fn space(pieces: &[Piece], i: usize) -> &'static str {
     if arithmetic(left) {
         return if tight(pieces, i - 1) { "" } else { " " };
     }
+    // `< 9` is a range that begins nowhere, `..<` one sign
+    let is_after_dots = || i > 1 && pieces[i - 2].kind == SyntaxKind::DotDot;
+    if left.kind == SyntaxKind::Less && !is_after_dots() {
+        return " ";
+    }
     if !joins(left, right) {
         return " ";
     }
@@ -287,7 +292,9 @@ fn tight(pieces: &[Piece], i: usize) -> bool {
 /// Returns true if no space stands between the two.
 fn joins(left: &Piece, right: &Piece) -> bool {
     let tight_left = match left.kind {
-        SyntaxKind::LParen | SyntaxKind::LBracket | SyntaxKind::Dot | SyntaxKind::DotDot => true,
+        SyntaxKind::LParen | SyntaxKind::LBracket | SyntaxKind::Dot => true,
+        // a range may be open at an end
+        SyntaxKind::DotDot => !matches!(right.kind, SyntaxKind::Eq | SyntaxKind::LBrace),
         SyntaxKind::TextOpen | SyntaxKind::TextMiddle => true,
         SyntaxKind::Less => left.parent == SyntaxKind::RangeExpr,
         SyntaxKind::Caret => true,
@@ -302,10 +309,10 @@ fn joins(left: &Piece, right: &Piece) -> bool {
         | SyntaxKind::Semicolon
         | SyntaxKind::Colon
         | SyntaxKind::Dot
-        | SyntaxKind::DotDot
         | SyntaxKind::TextMiddle
         | SyntaxKind::TextClose
         | SyntaxKind::Caret => true,
+        SyntaxKind::DotDot => left.kind != SyntaxKind::Keyword,
         SyntaxKind::LParen => {
             matches!(right.parent, SyntaxKind::ArgList | SyntaxKind::ParamList)
         }

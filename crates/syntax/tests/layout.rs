@@ -163,3 +163,11 @@ proptest! {
         check_promises(&soup);
     }
 }
+
+#[test]
+fn a_range_that_is_open_at_an_end_keeps_its_distance() {
+    check(
+        "program P(a:Real in   >0=2,b:Real in ..9 = 1,c:Real in 1 .. <9=2,d:Real in 0.5 ..  = 1){}\n",
+        "program P(a: Real in > 0 = 2, b: Real in ..9 = 1, c: Real in 1..<9 = 2, d: Real in 0.5.. = 1) { }\n",
+    );
+}

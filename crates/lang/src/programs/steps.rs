@@ -8,7 +8,7 @@ use crate::lower::Lowerer;
 use crate::scope::Scope;
 use crate::tables;
 use base::{Diagnostic, Name, Place, Span};
-use kernel::program::{Allowed, Asked, Block, Carried, Says, Step};
+use kernel::program::{Allowed, Asked, Block, Bound, Carried, Says, Step};
 use kernel::{BinaryOperator, ClassId, Constraint, Program, Term};
 use syntax::ast::{self, AstNode, Else, Expr, Member, Value, span_without_doc};
 
@@ -72,9 +72,17 @@ impl Lowerer<'_> {
     ) -> Option<Allowed> {
         match domain {
             Expr::Range(range) => {
-                let least = self.expr_of(scope, &range.start()?, kind)?;
-                let most = self.expr_of(scope, &range.end()?, kind)?;
-                Some(Allowed::Range { least, most, is_open: range.is_open() })
+                let mut bound = |end: Option<Expr>, is_outside| match end {
+                    Some(end) => {
+                        let value = self.expr_of(scope, &end, kind)?;
+                        Some(Some(Bound { value, is_outside }))
+                    }
+                    None => Some(None),
+                };
+                let least = bound(range.start(), range.is_above())?;
+                let most = bound(range.end(), range.is_open())?;
+                let has_end = least.is_some() || most.is_some();
+                has_end.then_some(Allowed::Range { least, most })
             }
             Expr::List(list) if list.elements().next().is_some() => {
                 let each = list.elements().map(|one| self.expr_of(scope, &one, kind));
@@ -415,11 +423,19 @@ impl Lowerer<'_> {
 fn within(name: &Name, allowed: Allowed) -> Term {
     let me = || Box::new(Term::send(Term::Me, name));
     match allowed {
-        Allowed::Range { least, most, is_open } => {
-            let less = if is_open { BinaryOperator::Less } else { BinaryOperator::LessEqual };
-            let least = Term::Binary(BinaryOperator::LessEqual, Box::new(least), me());
-            let most = Term::Binary(less, me(), Box::new(most));
-            Term::Binary(BinaryOperator::And, Box::new(least), Box::new(most))
+        Allowed::Range { least, most } => {
+            let less = |is_outside| match is_outside {
+                true => BinaryOperator::Less,
+                false => BinaryOperator::LessEqual,
+            };
+            let least = least.map(|b| Term::Binary(less(b.is_outside), Box::new(b.value), me()));
+            let most = most.map(|b| Term::Binary(less(b.is_outside), me(), Box::new(b.value)));
+            match (least, most) {
+                (Some(least), Some(most)) => {
+                    Term::Binary(BinaryOperator::And, Box::new(least), Box::new(most))
+                }
+                (one, other) => one.or(other).unwrap_or(Term::Bool(true)),
+            }
         }
         Allowed::OneOf(values) => {
             Term::Binary(BinaryOperator::In, me(), Box::new(Term::List(values)))

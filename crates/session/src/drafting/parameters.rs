@@ -32,17 +32,23 @@ pub(crate) struct Declared {
     node: Param,
 }
 
+/// An end of a range, as it is written.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub(crate) struct Bound {
+    value: String,
+    /// Whether it is not allowed itself.
+    is_outside: bool,
+}
+
 /// The values that are allowed, as they are written.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub(crate) enum Allowed {
-    /// A range.
+    /// A range, of which an end may be missing.
     Range {
         /// The least value that is allowed.
-        least: String,
-        /// The largest one, or the one that all are less than.
-        most: String,
-        /// Whether the largest one is not allowed itself.
-        is_open: bool,
+        least: Option<Bound>,
+        /// The largest one.
+        most: Option<Bound>,
     },
     /// A table of values.
     OneOf(Vec<String>),
@@ -61,18 +67,23 @@ pub(crate) enum Allowed {
 const MANY: usize = 12;
 
 impl Allowed {
-    /// Reads `1..10`, `1..<10`, `[3 mm, 4 mm]` and `3, 4, 5 mm`, `"bolts.csv".d` and `bolts.csv.d`; nothing else.
+    /// Reads `1..10`, `1..<10`, `0.5..`, `..10`, `> 0`, `[3 mm, 4 mm]` and `3, 4, 5 mm`, `"bolts.csv".d` and `bolts.csv.d`; nothing else.
     pub(crate) fn of(text: &str) -> Option<Self> {
         if let Some(column) = column_of(text) {
             return Some(column);
         }
+        if let Some(range) = open_range(text) {
+            return Some(range);
+        }
         let said = |of: Expr| of.syntax().text().to_string().trim().to_string();
         match typed::expression(text) {
-            Some(Expr::Range(range)) => Some(Self::Range {
-                least: said(range.start()?),
-                most: said(range.end()?),
-                is_open: range.is_open(),
-            }),
+            Some(Expr::Range(range)) => {
+                let bound = |value: Expr, is_outside| Bound { value: said(value), is_outside };
+                Some(Self::Range {
+                    least: Some(bound(range.start()?, false)),
+                    most: Some(bound(range.end()?, range.is_open())),
+                })
+            }
             Some(Expr::List(list)) => {
                 let values: Vec<String> = list.elements().map(said).collect();
                 (!values.is_empty()).then_some(Self::OneOf(values))
@@ -144,8 +155,18 @@ impl Allowed {
     /// Says it: `1 to 10`, `1 to less than 10`, `3 mm, 4 mm or 5 mm`.
     pub(crate) fn in_words(&self) -> String {
         match self {
-            Self::Range { least, most, is_open } => {
-                format!("{least} to {}{most}", if *is_open { "less than " } else { "" })
+            Self::Range { least: Some(least), most: Some(most) } => {
+                let less = if most.is_outside { "less than " } else { "" };
+                format!("{} to {less}{}", least.value, most.value)
+            }
+            Self::Range { least, most } => {
+                let one = |bound: &Option<Bound>, [outside, with]: [&str; 2]| {
+                    let bound = bound.as_ref()?;
+                    let way = if bound.is_outside { outside } else { with };
+                    Some(format!("{way} {}", bound.value))
+                };
+                let least = one(least, ["more than", "at least"]);
+                least.or_else(|| one(most, ["less than", "at most"])).unwrap_or_default()
             }
             Self::Column { file, column, values } if values.is_empty() || values.len() > MANY => {
                 format!("those of column {column} of {file}")
@@ -161,9 +182,18 @@ impl Allowed {
     pub(crate) fn written(&self, unit: Option<&str>) -> String {
         let own = |text: &String| unit.map_or_else(|| text.clone(), |unit| in_unit(text, unit));
         match self {
-            Self::Range { least, most, is_open } => {
-                let dots = if *is_open { "..<" } else { ".." };
-                format!("{}{dots}{}", own(least), own(most))
+            Self::Range { least: Some(Bound { value, is_outside: true }), .. } => {
+                format!("> {}", own(value))
+            }
+            Self::Range { least, most } => {
+                let end = |bound: &Option<Bound>| bound.as_ref().map(|b| own(&b.value));
+                let is_outside = most.as_ref().is_some_and(|most| most.is_outside);
+                let dots = if is_outside { "..<" } else { ".." };
+                let [least, most] = [least, most].map(|bound| end(bound).unwrap_or_default());
+                match (least.is_empty(), is_outside) {
+                    (true, true) => format!("< {most}"),
+                    _ => format!("{least}{dots}{most}"),
+                }
             }
             Self::OneOf(values) => {
                 format!("[{}]", values.iter().map(own).collect::<Vec<_>>().join(", "))
@@ -175,9 +205,11 @@ impl Allowed {
     /// The condition that a value is allowed.
     pub(crate) fn condition(&self, value: &str) -> String {
         match self {
-            Self::Range { least, most, is_open } => {
-                let less = if *is_open { "<" } else { "<=" };
-                format!("{least} <= ({value}) and ({value}) {less} {most}")
+            Self::Range { least, most } => {
+                let sign = |bound: &Bound| if bound.is_outside { "<" } else { "<=" };
+                let least = least.as_ref().map(|b| format!("{} {} ({value})", b.value, sign(b)));
+                let most = most.as_ref().map(|b| format!("({value}) {} {}", sign(b), b.value));
+                [least, most].into_iter().flatten().collect::<Vec<_>>().join(" and ")
             }
             Self::OneOf(values) | Self::Column { values, .. } => {
                 format!("({value}) in [{}]", values.join(", "))
@@ -188,7 +220,9 @@ impl Allowed {
     /// What is said in it.
     fn values(&self) -> Vec<&String> {
         match self {
-            Self::Range { least, most, .. } => vec![least, most],
+            Self::Range { least, most } => {
+                [least, most].into_iter().flatten().map(|bound| &bound.value).collect()
+            }
             Self::OneOf(values) | Self::Column { values, .. } => values.iter().collect(),
         }
     }
@@ -199,6 +233,30 @@ impl Allowed {
             Self::OneOf(values) | Self::Column { values, .. } => values,
             Self::Range { .. } => Vec::new(),
         }
+    }
+}
+
+/// Reads a range that is open at an end: `0.5..`, `..10`, `> 0`, `<= 10`.
+fn open_range(text: &str) -> Option<Allowed> {
+    let text = text.trim();
+    let bound = |value: &str, is_outside| {
+        let value = value.trim();
+        let found = typed::expression(value)?;
+        let is_value = !matches!(found, Expr::Range(_) | Expr::List(_));
+        is_value.then(|| Some(Bound { value: value.into(), is_outside }))
+    };
+    if let Some(least) = text.strip_suffix("..") {
+        return Some(Allowed::Range { least: bound(least, false)?, most: None });
+    }
+    let most = [("..<", true), ("..", false), ("<=", false), ("≤", false), ("<", true)];
+    let least = [(">=", false), ("≥", false), (">", true)];
+    let begins = |ends: &[(&str, bool)]| {
+        let one = |&(sign, is_outside): &(&str, bool)| bound(text.strip_prefix(sign)?, is_outside);
+        ends.iter().find_map(one)
+    };
+    match (begins(&most), begins(&least)) {
+        (None, None) => None,
+        (most, least) => Some(Allowed::Range { least: least.flatten(), most: most.flatten() }),
     }
 }
 
@@ -358,7 +416,7 @@ pub(crate) fn is_name(name: &str) -> bool {
 }
 
 /// What is wrong with what is no range.
-pub(crate) const NO_RANGE: &str = "no range and no table: wanted is from..to, as 1 mm..100 mm, values, as 3, 4, 5 mm, or a column, as bolts.csv.d";
+pub(crate) const NO_RANGE: &str = "no range and no table: wanted is from..to, as 1 mm..100 mm, or > 0 mm, values, as 3, 4, 5 mm, or a column, as bolts.csv.d";
 
 /// Returns the class of a parameter and its example, as the language writes it.
 ///

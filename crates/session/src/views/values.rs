@@ -386,12 +386,15 @@ impl<'a> Maker<'a> {
         if let Some(&(least, most)) = self.state.structure.ranges.get(&slot) {
             return Some((least as f64, most as f64));
         }
-        let (Allowed::Range { least, most, .. }, owner) = self.asked(thing)? else { return None };
+        let (Allowed::Range { least: Some(least), most: Some(most) }, owner) = self.asked(thing)?
+        else {
+            return None;
+        };
         let end = |term: &'a Term| match self.evaluator.evaluate(term, owner) {
             Ok(Answer::Number(x, _)) => Some(x),
             _ => None,
         };
-        Some((end(least)?, end(most)?))
+        Some((end(&least.value)?, end(&most.value)?))
     }
 
     /// Opens a thing's parts and what it answers, in order.

@@ -577,3 +577,37 @@ fn a_decimal_comma_that_made_a_place_is_said_anew_as_a_number() {
     desk.session.define_parameter(desk.id, &new).expect("nothing speaks of it");
     assert!(desk.text().contains("inner: Length = 8.4"), "{}", desk.text());
 }
+
+#[test]
+fn a_range_that_is_open_at_an_end_is_typed_asked_about_and_kept() {
+    let mut desk = Desk::of("use geometry\nunit mm\n");
+    desk.session.record(desk.id, "Hole").expect("a new program");
+    for (name, example, range, written) in [
+        ("d", "8", "> 0", "d: Length in > 0 = 8"),
+        ("least", "2", "0.5..", "least: Length in 0.5.. = 2"),
+        ("most", "9", "<= 100 mm", "most: Length in ..100 mm = 9"),
+        ("below", "9", "< 100", "below: Length in < 100 = 9"),
+        ("holes", "3", ">= 1", "holes: Integer in 1.. = 3"),
+    ] {
+        let new = NewParameter {
+            name: name.into(),
+            class: if name == "holes" { "Integer".into() } else { "Length".into() },
+            example: example.into(),
+            range: range.into(),
+            ..NewParameter::default()
+        };
+        desk.session.define_parameter(desk.id, &new).expect("it is new");
+        assert!(desk.text().contains(written), "{written}\n{}", desk.text());
+    }
+    desk.session.stop_recording(desk.id).expect("it is recorded");
+    assert_eq!(desk.wrong(), [], "{}", desk.text());
+    let text = "use geometry\nunit mm\nprogram Hole(d: Length in > 0 mm = 8 mm \"How wide?\") {\n    circle = Circle(center: (0, 0), radius: d / 2)\n}\nh: Hole\n";
+    let mut desk = Desk::of(text);
+    let prompt = desk.session.begin(desk.id, "Hole").expect("it is a tool");
+    assert!(prompt.words.contains("more than 0 mm"), "{}", prompt.words);
+    let refused = desk.session.enter(desk.id, "0").expect_err("it is the end");
+    assert!(refused.message.contains("more than 0 mm are allowed"), "{}", refused.message);
+    desk.session.give_up(desk.id);
+    desk.set("h.d", 0.0).expect_err("it is not allowed");
+    desk.set("h.d", 0.5).expect("it is allowed");
+}

@@ -364,17 +364,27 @@ fn without_doubled(text: &str) -> String {
 }
 
 impl RangeExpr {
-    /// Returns the first value.
+    /// Returns the first value, or after `>` the one before it; nothing where there is no least one: `..9`, `< 9`.
     pub fn start(&self) -> Option<Expr> {
-        child(&self.syntax)
+        child(&self.syntax).filter(|_| !self.has_no_start())
     }
-    /// Returns true if the value after `..<` is not part of it.
+    /// Returns true if the value after `..<` or `<` is not part of it.
     pub fn is_open(&self) -> bool {
         word(&self.syntax, SyntaxKind::Less).is_some()
     }
-    /// Returns the last value, or after `..<` the one behind it.
+    /// Returns true if the value after `>` is not part of it.
+    pub fn is_above(&self) -> bool {
+        word(&self.syntax, SyntaxKind::Greater).is_some()
+    }
+    /// Returns the last value, or after `..<` the one behind it; nothing where there is no largest one: `0..`, `> 0`.
     pub fn end(&self) -> Option<Expr> {
-        children(&self.syntax).nth(1)
+        children(&self.syntax).nth(usize::from(!self.has_no_start()))
+    }
+    fn has_no_start(&self) -> bool {
+        let first = self.syntax.children_with_tokens().find(|e| !e.kind().is_trivia());
+        first.is_some_and(|first| {
+            matches!(first.kind(), SyntaxKind::DotDot | SyntaxKind::Less | SyntaxKind::LessEq)
+        })
     }
 }
 impl IsExpr {

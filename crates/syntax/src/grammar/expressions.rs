@@ -54,9 +54,35 @@ pub(super) fn comparison(p: &mut Parser<'_>) {
     operators(p, Power::Compare);
 }
 
-/// An expression whose outermost operator may not compare: the range of a domain.
-pub(super) fn range(p: &mut Parser<'_>) {
-    operators(p, Power::Range);
+/// The values of a domain: an expression whose outermost operator may not compare, or a range that is open at an end.
+pub(super) fn domain(p: &mut Parser<'_>) {
+    let start = p.checkpoint();
+    match p.current() {
+        Less | LessEq | Greater | GreaterEq => p.bump(),
+        DotDot => {
+            p.bump();
+            p.eat(Less);
+        }
+        _ => {
+            operators(p, Power::Add);
+            if !p.at(DotDot) {
+                return;
+            }
+            p.bump();
+            p.eat(Less);
+            if p.at(Eq) && p.is_adjacent(0) {
+                mistakes::calls::range_with_equals(p);
+            }
+            if matches!(p.current(), Eq | Comma | RParen | Semicolon | RBrace | LBrace | Eof)
+                || p.line_ended(0)
+            {
+                p.start_at(start, RangeExpr);
+                p.finish();
+                return;
+            }
+        }
+    }
+    binary(p, start, Power::Add, RangeExpr);
 }
 
 /// A sum of products, the count of a list.

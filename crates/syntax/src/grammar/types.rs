@@ -156,12 +156,12 @@ fn dotted_rest(p: &mut Parser<'_>) {
     }
 }
 
-/// `in 0..9`
+/// `in 0..9`, `in 0.5..`, `in ..9`, `in > 0`
 pub(super) fn domain(p: &mut Parser<'_>) {
     if p.at_word(0, "in") {
         p.start(Domain);
         p.bump_keyword();
-        expressions::range(p);
+        expressions::domain(p);
         if mistakes::range_in_words(p) {
             p.bump();
             p.bump();

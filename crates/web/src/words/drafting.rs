@@ -40,7 +40,7 @@ pub const RANGE_HINT: &str = "all";
 /// Opens what is seldom said of a parameter.
 pub const FURTHER: &str = "Class and allowed values";
 /// How the values that are allowed are written.
-pub const RANGE_HELP: &str = "A range, 1 mm..100 mm, a table, 3, 4, 5 mm, or a column of a file beside the document, bolts.csv.d";
+pub const RANGE_HELP: &str = "A range, 1 mm..100 mm or > 0 mm or 5 mm.., a table, 3, 4, 5 mm, or a column of a file beside the document, bolts.csv.d";
 /// Something older becomes a parameter.
 pub const AS_PARAMETER: &str = "A parameter";
 /// Something older is copied into the program.
