@@ -9,9 +9,11 @@
 mod blocks;
 mod dimension;
 mod doubles;
+mod hatch;
 mod splines;
 
 use crate::bounds::bounds;
+use crate::curve::runs;
 use crate::element::{
     Anchoring, Color, Corner, Drawing, Element, Lie, Line, Placement, Point, Shape, Tag, Vertical,
 };
@@ -122,7 +124,8 @@ pub fn write_in_blocks(
     dxf.header(drawing);
     dxf.section("CLASSES");
     dxf.end();
-    let mut elements: Vec<&Element> = drawing.elements.iter().collect();
+    let bared = doubles::bared(&drawing.elements, group);
+    let mut elements: Vec<&Element> = bared.as_ref().unwrap_or(&drawing.elements).iter().collect();
     elements.sort_by_key(|e| e.layer);
     let elements = doubles::without_doubles(elements, group);
     let mut blocks = blocks::gathered(&elements, group);
@@ -479,6 +482,12 @@ impl Writer {
     }
     /// Writes a closed ring, its arcs as arcs.
     fn ring(&mut self, element: &Element, ring: &[Corner]) {
+        if ring.iter().any(|corner| corner.poles.is_some()) {
+            for shape in runs(ring) {
+                self.element(&Element { shape, ..element.clone() });
+            }
+            return;
+        }
         self.begin("LWPOLYLINE", "AcDbPolyline", element);
         self.pair(90, ring.len());
         self.pair(70, 1);
@@ -491,28 +500,6 @@ impl Writer {
             self.real(20, y);
             self.real(42, self.sign * corner.bulge);
         }
-    }
-    /// Fills rings.
-    fn hatch(&mut self, element: &Element, rings: &[Vec<Corner>]) {
-        self.begin("HATCH", "AcDbHatch", element);
-        self.at(10, Point::default());
-        self.pair(210, "0.0\n220\n0.0\n230\n1.0");
-        self.pair(2, "SOLID");
-        self.pair(70, 1);
-        self.pair(71, 0);
-        self.pair(91, rings.len());
-        for (i, ring) in rings.iter().enumerate() {
-            // a polyline, the first one outside of the others
-            self.pair(92, if i == 0 { 3 } else { 2 });
-            self.pair(72, 1);
-            self.pair(73, 1);
-            self.pair(93, ring.len());
-            self.corners(ring);
-            self.pair(97, 0);
-        }
-        self.pair(75, 0);
-        self.pair(76, 1);
-        self.pair(98, 0);
     }
     fn circle(&mut self, center: Point, radius: f64, element: &Element) {
         self.begin("CIRCLE", "AcDbCircle", element);
@@ -662,7 +649,7 @@ mod tests {
     }
     #[test]
     fn a_region_is_a_hatch_with_rings_whose_arcs_stay_arcs() {
-        let at = |x, y, bulge| Corner { at: Point { x, y }, bulge };
+        let at = |x, y, bulge| Corner::new(Point { x, y }, bulge);
         let ring = vec![at(0.0, 0.0, 0.0), at(4.0, 0.0, 1.0), at(4.0, 2.0, 0.0)];
         let mut element = Element::new(Shape::Region(vec![ring]));
         let open = Drawing { elements: vec![element.clone()], vertical: Vertical::Down };
@@ -674,6 +661,32 @@ mod tests {
         let filled = Drawing { elements: vec![element], vertical: Vertical::Up };
         let text = write(&filled, &DxfOptions::default());
         assert!(text.contains("\nHATCH\n") && text.contains("8\nSECTION_A\n"), "{text}");
+    }
+    #[test]
+    fn a_region_with_a_curve_is_a_hatch_edge_by_edge() {
+        let p = |x, y| Point { x, y };
+        let curve = Shape::Spline(vec![p(0.0, 0.0), p(1.0, 2.0), p(3.0, 2.0), p(4.0, 0.0)]);
+        let lid = Shape::Arc { center: p(2.0, 0.0), radius: 2.0, start: 0.0, sweep: -1.0 };
+        let [_, end] = crate::curve::ends(&lid).expect("it has ends");
+        let lines = [curve, lid, Shape::Segment(end, p(0.0, 0.0))];
+        let ring = crate::curve::ring_along(&lines).expect("they follow one another");
+        assert!(crate::curve::covers(&[ring.clone()], p(2.0, 1.0)));
+        assert!(!crate::curve::covers(&[ring.clone()], p(2.0, 1.6)));
+        let mut element = Element::new(Shape::Region(vec![ring]));
+        element.style.fill = Some(Color::Faint);
+        let text = write(
+            &Drawing { elements: vec![element], vertical: Vertical::Up },
+            &DxfOptions::default(),
+        );
+        // a spline, the two halves of an arc that runs to the right, a segment
+        assert!(
+            text.contains("92\n1\n93\n4\n72\n4\n94\n3\n73\n0\n74\n0\n95\n8\n96\n4\n"),
+            "{text}"
+        );
+        let arcs: Vec<&str> = text.split("\n72\n2\n10\n").skip(1).collect();
+        assert_eq!(arcs.len(), 2, "{text}");
+        assert!(arcs.iter().all(|arc| arc.contains("\n73\n0")), "{text}");
+        assert!(text.contains("\nSPLINE\n") && text.contains("\nARC\n"), "{text}");
     }
     #[test]
     fn bezier_curves_are_a_spline_of_degree_three() {

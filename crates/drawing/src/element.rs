@@ -220,6 +220,15 @@ pub struct Corner {
     /// The tangent of a quarter of the angle that the arc to the next corner turns; 0 for a segment, positive where
     /// it turns from the x axis towards the y axis.
     pub bulge: f64,
+    /// The two poles between the ends of the cubic Bézier curve to the next corner, where it is one and no arc.
+    pub poles: Option<[Point; 2]>,
+}
+
+impl Corner {
+    /// Makes a corner that a segment or an arc leaves.
+    pub fn new(at: Point, bulge: f64) -> Self {
+        Self { at, bulge, poles: None }
+    }
 }
 
 /// What an element is. Curves are exact.
@@ -271,7 +280,7 @@ pub enum Shape {
     Spline(Vec<Point>),
     /// A rational B-spline.
     Nurbs(Nurbs),
-    /// Closed rings of segments and arcs; what an odd number of them surrounds is inside.
+    /// Closed rings of segments, arcs and Bézier curves; what an odd number of them surrounds is inside.
     Region(Vec<Vec<Corner>>),
     /// A text in one or more lines.
     Text {
@@ -323,6 +332,10 @@ impl Shape {
                     visit(&mut corner.at.x);
                     visit(&mut corner.at.y);
                     visit(&mut corner.bulge);
+                    for pole in corner.poles.iter_mut().flatten() {
+                        visit(&mut pole.x);
+                        visit(&mut pole.y);
+                    }
                 }
             }
             Self::Text { at, text: _, anchoring, placement, turn } => {

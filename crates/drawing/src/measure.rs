@@ -180,6 +180,7 @@ fn strokes(shape: &Shape) -> Vec<Stroke<'_>> {
                 Shape::Arc { center, radius, start, sweep } => {
                     Some(Stroke::Arc { center, radius, start, sweep })
                 }
+                Shape::Spline(poles) => spline::pieces(&poles).next().map(Stroke::Cubic),
                 _ => None,
             };
             all.filter_map(own).collect()

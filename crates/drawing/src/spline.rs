@@ -12,6 +12,13 @@ pub fn pieces(poles: &[Point]) -> impl Iterator<Item = Piece> + '_ {
     (0..n).map(|i| [0, 1, 2, 3].map(|k| poles[3 * i + k]))
 }
 
+/// Returns the knots of a chain as a B-spline: each between two of its curves stands three times.
+pub(crate) fn knots(poles: &[Point]) -> Vec<f64> {
+    let n = pieces(poles).count();
+    let times = |knot| if knot == 0 || knot == n { 4 } else { 3 };
+    (0..=n).flat_map(|knot| vec![knot as f64; times(knot)]).collect()
+}
+
 /// Returns the point of a curve at a parameter from 0 to 1.
 pub fn at(piece: Piece, t: f64) -> Point {
     let s = 1.0 - t;

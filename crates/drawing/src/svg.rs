@@ -278,6 +278,10 @@ fn ring_data(ring: &[Corner], vertical: Vertical) -> String {
             Shape::Arc { radius, sweep, .. } => {
                 arc_data((radius, radius, 0.0), sweep, &end, vertical)
             }
+            Shape::Spline(poles) => {
+                let [p, q] = [poles[1], poles[2]].map(|p| placed(p, vertical));
+                format!("C{p} {q} {end}")
+            }
             _ => format!("L{end}"),
         };
     }
@@ -452,7 +456,7 @@ mod tests {
     }
     #[test]
     fn a_region_has_holes_and_arcs() {
-        let at = |x, y, bulge| Corner { at: p(x, y), bulge };
+        let at = |x, y, bulge| Corner::new(p(x, y), bulge);
         let outer = vec![at(0.0, 0.0, 0.0), at(4.0, 0.0, 1.0), at(4.0, 2.0, 0.0)];
         let hole = vec![at(1.0, 0.5, 0.0), at(2.0, 0.5, 0.0), at(2.0, 1.0, 0.0)];
         let out = drawn(Element::new(Shape::Region(vec![outer, hole])), Vertical::Up);

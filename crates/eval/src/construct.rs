@@ -5,6 +5,7 @@ use crate::evaluator::{Evaluator, Given, Result};
 use crate::fault::Fault;
 use crate::replay::{Binary, Unary};
 use base::Name;
+use drawing::{Shape, curve};
 use expr::dimension::Dimension;
 use geometry::{Bend, Combination, Construction, Figure, Made, Side, Source, Surface, edges_from};
 use kernel::builtin::Making;
@@ -140,6 +141,17 @@ impl<'a> Evaluator<'a> {
         contour: ClassId,
         nearest: ThingId,
     ) -> Result<Answer<'a>> {
+        let corners = self.bends(ring, contour, nearest)?;
+        self.make(contour, &[(None, corners)], nearest)
+    }
+
+    /// Makes the corners of a contour.
+    fn bends(
+        &self,
+        ring: &geometry::Ring,
+        contour: ClassId,
+        nearest: ThingId,
+    ) -> Result<Answer<'a>> {
         let number = |x| Answer::Number(x, Dimension::LENGTH);
         let corner = |b: &Bend| {
             let [x, y] = b.at.map(number);
@@ -147,8 +159,7 @@ impl<'a> Evaluator<'a> {
         };
         let bend = self.element_of(contour, "corners")?;
         let corners = ring.iter().map(|b| self.as_class(corner(b), bend, nearest));
-        let corners = Answer::List(corners.collect::<Result<_>>()?);
-        self.make(contour, &[(None, corners)], nearest)
+        Ok(Answer::List(corners.collect::<Result<_>>()?))
     }
 
     /// Makes a contour of edges, in whichever order and whichever way they are drawn.
@@ -158,29 +169,83 @@ impl<'a> Evaluator<'a> {
         class: ClassId,
         nearest: ThingId,
     ) -> Result<Answer<'a>> {
-        let mut sides = Vec::new();
-        for edges in of {
-            self.read_sides(edges, nearest, &mut sides)?;
+        let mut edges = Vec::new();
+        for of in of {
+            self.read_edges(of, &mut edges)?;
         }
-        let edges = sides.len() as u64;
-        self.burn_several(1 + edges.saturating_mul(edges) / 16)?;
+        let each = edges.iter().map(|edge| self.as_side(edge, nearest));
+        let sides = each.collect::<Result<Vec<_>>>()?;
+        let n = sides.len() as u64;
+        self.burn_several(1 + n.saturating_mul(n) / 16)?;
+        if sides.iter().any(Option::is_none) {
+            return self.made_of_curves(&edges, &sides, class, nearest);
+        }
+        let sides: Vec<Side> = sides.into_iter().flatten().collect();
         let ring = self.joined(&sides).map_err(|why| self.no_such(class, &why.words()))?;
         self.made_ring(&ring, class, nearest)
     }
 
-    /// Reads edges: lines and arcs, or sets of them.
-    fn read_sides(&self, of: &Answer<'a>, nearest: ThingId, into: &mut Vec<Side>) -> Result<()> {
-        if matches!(of, Answer::List(_) | Answer::Context(_)) {
-            let items = self.items(of)?;
-            return items
-                .iter()
-                .try_for_each(|one| self.deeper(|| self.read_sides(one, nearest, into)));
+    /// Makes a contour of edges of which some are ellipses or splines: these are kept, in order, as they are.
+    fn made_of_curves(
+        &self,
+        edges: &[Answer<'a>],
+        sides: &[Option<Side>],
+        class: ClassId,
+        nearest: ThingId,
+    ) -> Result<Answer<'a>> {
+        let curved = self.document.class_named("CurvedContour");
+        let curved = curved.ok_or_else(|| Fault::wrong("there is no class CurvedContour"))?;
+        if self.is_recording() {
+            return Err(Fault::wrong("a contour of curves is not noted"));
         }
-        let side = self.as_side(of, nearest)?.ok_or_else(|| {
-            let kind = self.kind(of);
-            Fault::wrong(format!("{kind} where a line or an arc is wanted"))
-        })?;
-        into.push(side);
+        let lines = edges.iter().map(|edge| self.line_of(edge, nearest));
+        let lines = lines.collect::<Result<Vec<Shape>>>()?;
+        let side = |(line, side): (&Shape, &Option<Side>)| {
+            let ends = curve::ends(line).unwrap_or_default().map(|p| [p.x, p.y]);
+            side.unwrap_or(Side { from: ends[0], to: ends[1], bulge: 0.0 })
+        };
+        let sides: Vec<Side> = lines.iter().zip(sides).map(side).collect();
+        let order = match (&sides[..], curve::ring_along(&lines)) {
+            // one that comes back to where it began
+            ([only], Some(ring)) if closes(only, &ring) => vec![(0, false)],
+            _ => geometry::order(&sides).map_err(|why| self.no_such(class, &why.words()))?,
+        };
+        let corner = |&(i, is_back): &(usize, bool)| {
+            let Side { from, to, bulge } = sides[i];
+            let (at, bulge) = if is_back { (to, 0.0 - bulge) } else { (from, bulge) };
+            Bend { at, bulge }
+        };
+        let bends = self.bends(&order.iter().map(corner).collect(), curved, nearest)?;
+        let edges = order.iter().map(|&(i, _)| edges[i].clone()).collect();
+        self.make(curved, &[(None, bends), (None, Answer::List(edges))], nearest)
+    }
+
+    /// Returns the one line that is the picture of a curve.
+    pub(crate) fn line_of(&self, of: &Answer<'a>, nearest: ThingId) -> Result<Shape> {
+        let picture = match of {
+            Answer::Picture(_) => of.clone(),
+            _ => self.send(of, &self.tables.picture, Vec::new(), None, nearest)?,
+        };
+        let Answer::Picture(elements) = picture else { return Err(Fault::wrong("no picture")) };
+        let mut lines = elements.iter().filter(|e| curve::ends(&e.shape).is_some());
+        match (lines.next(), lines.next()) {
+            (Some(line), None) => Ok(line.shape.clone()),
+            _ => {
+                let kind = self.kind(of);
+                Err(Fault::wrong(format!("{kind} where a line, an arc or a curve is wanted")))
+            }
+        }
+    }
+
+    /// Reads edges, or sets of them.
+    fn read_edges(&self, of: &Answer<'a>, into: &mut Vec<Answer<'a>>) -> Result<()> {
+        let is_list =
+            |t: ThingId| matches!(self.class_kind(t), ClassKind::List(_) | ClassKind::Set(_));
+        if matches!(of, Answer::List(_) | Answer::Context(_)) || of.thing().is_some_and(is_list) {
+            let items = self.items(of)?;
+            return items.iter().try_for_each(|one| self.deeper(|| self.read_edges(one, into)));
+        }
+        into.push(of.clone());
         Ok(())
     }
 
@@ -290,11 +355,16 @@ impl<'a> Evaluator<'a> {
         let has = |name: &str| class.is_some_and(|c| self.layout(c).index.contains_key(name));
         let part = |name| self.part_of(of, name, nearest);
         if has("corners") {
+            self.is_of_arcs(of)?;
             return Ok(vec![Surface { outer: self.ring(&part("corners")?)?, holes: Vec::new() }]);
         }
         if has("outer") && has("holes") {
-            let outer = self.ring(&self.part_of(&part("outer")?, "corners", nearest)?)?;
-            let hole = |hole: &Answer<'a>| self.ring(&self.part_of(hole, "corners", nearest)?);
+            let ring = |contour: &Answer<'a>| {
+                self.is_of_arcs(contour)?;
+                self.ring(&self.part_of(contour, "corners", nearest)?)
+            };
+            let outer = ring(&part("outer")?)?;
+            let hole = |hole: &Answer<'a>| ring(hole);
             let holes = self.items(&part("holes")?)?.iter().map(hole).collect::<Result<_>>()?;
             return Ok(vec![Surface { outer, holes }]);
         }
@@ -307,6 +377,16 @@ impl<'a> Evaluator<'a> {
         }
         let kind = self.kind(of);
         Err(Fault::wrong(format!("{kind} where a contour, a surface or a region is wanted")))
+    }
+
+    /// Refuses a contour that has ellipses or splines among its edges.
+    fn is_of_arcs(&self, contour: &Answer<'a>) -> Result<()> {
+        match self.is_of(contour, "CurvedContour") {
+            false => Ok(()),
+            true => Err(Fault::no_answer(
+                "contours of lines and arcs alone are combined and offset; this one has an ellipse or a spline",
+            )),
+        }
     }
 
     /// Returns what a circle covers, within two half turns to the left; nothing where it has no radius.
@@ -400,4 +480,14 @@ impl<'a> Evaluator<'a> {
         }
         Ok(at)
     }
+}
+
+/// Whether a line that is a ring of its own ends where it begins.
+fn closes(line: &Side, ring: &[drawing::Corner]) -> bool {
+    let reach = |of: fn(&drawing::Corner) -> f64| {
+        let all = || ring.iter().map(of);
+        all().fold(f64::NEG_INFINITY, f64::max) - all().fold(f64::INFINITY, f64::min)
+    };
+    let extent = reach(|c| c.at.x).max(reach(|c| c.at.y));
+    ring.len() > 1 && extent > 0.0 && geometry::meets(line.from, line.to, extent)
 }

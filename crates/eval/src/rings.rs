@@ -179,7 +179,7 @@ pub(crate) fn rings(elements: &[Element]) -> Vec<(Element, Vec<usize>)> {
 /// Returns what sides surround, each of them with the corner that it runs from, and the places of their elements.
 fn surface(elements: &[Element], sides: &[Side], ring: &[(usize, usize)]) -> (Element, Vec<usize>) {
     let pieces = ring.iter().map(|&(side, corner)| sides[side].run_from(corner).0);
-    let corners = pieces.map(|piece| Corner { at: piece.from, bulge: piece.bulge });
+    let corners = pieces.map(|piece| Corner::new(piece.from, piece.bulge));
     let places: Vec<usize> =
         ring.iter().flat_map(|&(side, _)| &sides[side].places).copied().collect();
     let mut surface = Element {

@@ -375,6 +375,7 @@ fn fingerprint(element: &Element) -> u64 {
         Shape::Region(rings) => rings.iter().flatten().for_each(|corner| {
             point(corner.at);
             point(Point { x: corner.bulge, y: 0.0 });
+            corner.poles.into_iter().flatten().for_each(&mut point);
         }),
         Shape::Arc { center, start, sweep, .. } => {
             point(*center);

@@ -80,10 +80,22 @@ impl<'a> Evaluator<'a> {
             Function::Nurbs => self.nurbs(arguments)?,
             Function::Region => {
                 let ring = |ring: &Answer<'a>| {
-                    self.items(ring)?.iter().map(|corner| self.bent(corner)).collect::<Result<_>>()
+                    if let Answer::Picture(elements) = ring {
+                        return Ok(rings_in(elements));
+                    }
+                    let items = self.items(ring)?;
+                    let is_corner = |first: &Answer<'a>| self.bent(first).is_ok();
+                    match items.first().is_none_or(is_corner) {
+                        true => {
+                            let corners = items.iter().map(|corner| self.bent(corner));
+                            Ok(vec![corners.collect::<Result<_>>()?])
+                        }
+                        false => Ok(vec![self.ring_of_lines(&items, nearest)?]),
+                    }
                 };
                 let rings = self.rings(arguments)?;
-                Shape::Region(rings.iter().map(ring).collect::<Result<_>>()?)
+                let rings = rings.iter().map(ring).collect::<Result<Vec<Vec<_>>>>()?;
+                Shape::Region(rings.concat())
             }
             Function::Rectangle => {
                 let (a, c) = (place(0)?, place(1)?);
@@ -205,12 +217,26 @@ impl<'a> Evaluator<'a> {
     fn rings(&self, arguments: &[Answer<'a>]) -> Result<Vec<Answer<'a>>> {
         if let [one] = arguments {
             let items = self.items(one)?;
-            let is_ring = |of: &Answer<'a>| matches!(of, Answer::List(_)) && self.bent(of).is_err();
+            let is_ring = |of: &Answer<'a>| match of {
+                Answer::List(_) => self.bent(of).is_err(),
+                Answer::Picture(elements) => !rings_in(elements).is_empty(),
+                _ => false,
+            };
             if items.first().is_some_and(is_ring) {
                 return Ok(items.to_vec());
             }
         }
         Ok(arguments.to_vec())
+    }
+
+    /// Reads a ring as the lines that follow one another along it.
+    fn ring_of_lines(&self, lines: &[Answer<'a>], nearest: ThingId) -> Result<Vec<Corner>> {
+        if self.is_recording() {
+            return Err(Fault::wrong("a ring of curves is not noted"));
+        }
+        let lines = lines.iter().map(|line| self.line_of(line, nearest));
+        let lines = lines.collect::<Result<Vec<Shape>>>()?;
+        curve::ring_along(&lines).ok_or_else(|| Fault::wrong("no ring goes along these"))
     }
 
     /// Reads a corner of a ring: a place, which may have a part `bulge`, or `(place, bulge)`.
@@ -226,10 +252,10 @@ impl<'a> Evaluator<'a> {
                 }
                 false => 0.0,
             };
-            return Ok(Corner { at, bulge });
+            return Ok(Corner::new(at, bulge));
         }
         match &self.items(corner)?[..] {
-            [at, bulge] => Ok(Corner { at: self.place(at)?, bulge: self.operand(bulge)?.0 }),
+            [at, bulge] => Ok(Corner::new(self.place(at)?, self.operand(bulge)?.0)),
             _ => Err(Fault::wrong("a corner of a ring is a place, or (place, bulge)")),
         }
     }
@@ -466,6 +492,15 @@ impl<'a> Evaluator<'a> {
             other => Err(Fault::wrong(format!("{} where a colour is wanted", self.kind(other)))),
         }
     }
+}
+
+/// Returns the rings of the regions in a picture.
+fn rings_in(elements: &[Element]) -> Vec<Vec<Corner>> {
+    let rings = |e: &Element| match &e.shape {
+        Shape::Region(rings) => rings.clone(),
+        _ => Vec::new(),
+    };
+    elements.iter().flat_map(rings).collect()
 }
 
 /// Says which point of a text lies at its place.

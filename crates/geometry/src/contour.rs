@@ -96,6 +96,19 @@ pub fn meets(p: [f64; 2], q: [f64; 2], extent: f64) -> bool {
 /// # Errors
 /// They are open somewhere, branch, or are several rings.
 pub fn contour(sides: &[Side]) -> Result<Ring, NoContour> {
+    let bend = |(i, is_back): (usize, bool)| {
+        let side = if is_back { sides[i].reversed() } else { sides[i] };
+        Bend { at: side.from, bulge: side.bulge }
+    };
+    Ok(order(sides)?.into_iter().map(bend).collect())
+}
+
+/// Puts edges in the order in which one ring runs through them; returns of each its place among them, counted from 0,
+/// and whether it is run through backwards.
+///
+/// # Errors
+/// They are open somewhere, branch, or are several rings.
+pub fn order(sides: &[Side]) -> Result<Vec<(usize, bool)>, NoContour> {
     // what has no length leads nowhere
     let mut is_used: Vec<bool> = sides.iter().map(|side| side.from == side.to).collect();
     let begin = is_used.iter().position(|is_used| !is_used).ok_or(NoContour::Empty)?;
@@ -105,7 +118,7 @@ pub fn contour(sides: &[Side]) -> Result<Ring, NoContour> {
     }
     let extent = extent(sides);
     let meets = |p: [f64; 2], q: [f64; 2]| meets(p, q, extent);
-    let mut ring = vec![Bend { at: first.from, bulge: first.bulge }];
+    let mut ring = vec![(begin, false)];
     is_used[begin] = true;
     let (mut last, mut at) = (begin, first.to);
     loop {
@@ -115,10 +128,10 @@ pub fn contour(sides: &[Side]) -> Result<Ring, NoContour> {
         match (next.next(), next.next()) {
             (Some(only), None) if !meets(at, first.from) => {
                 let side = sides[only];
-                let side = if meets(side.from, at) { side } else { side.reversed() };
-                ring.push(Bend { at: side.from, bulge: side.bulge });
+                let is_back = !meets(side.from, at);
+                ring.push((only, is_back));
                 is_used[only] = true;
-                (last, at) = (only, side.to);
+                (last, at) = (only, if is_back { side.from } else { side.to });
             }
             (Some(_), _) => return Err(NoContour::Branches(last + 1)),
             (None, _) => break,

@@ -49,7 +49,7 @@ pub use algebra::{Algebra, Plain};
 pub use build::{Built, NoConstruction, build, construct};
 pub use construction::{Construction, Made};
 pub use contour::{
-    NoContour, Side, Source, contour, edges_from, edges_of, extent, meets, sides_of,
+    NoContour, Side, Source, contour, edges_from, edges_of, extent, meets, order, sides_of,
 };
 pub use figure::Figure;
 pub use region::{Bend, Combination, NoRegion, Ring, Surface, combine, offset};

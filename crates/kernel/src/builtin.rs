@@ -219,7 +219,7 @@ table! {
     Spline "spline" Any [many("place", Kind::Any)] Picture "The smooth curve through places, or through a list of them: the natural cubic spline.";
     Bezier "bezier" Any [many("pole", Kind::Any)] Picture "Cubic Bézier curves, each from where the one before ends: a place, then three poles for each.";
     Nurbs "nurbs" Any [one("poles", Kind::Any), one("weights", Kind::Any), one("degree", Kind::Plain), one("knots", Kind::Any)] Picture "A rational B-spline: its poles, how strongly each draws the curve, its degree and its knots.";
-    Region "region" Any [many("ring", Kind::Any)] Picture "What closed rings surround, a hole in each other one: a ring is a list of corners, each a place or a place and how the arc to the next bends.";
+    Region "region" Any [many("ring", Kind::Any)] Picture "What closed rings surround, a hole in each other one: a ring is a list of corners, each a place or a place and how the arc to the next bends; or a list of the lines along it.";
     Rectangle "rectangle" Any [one("corner", Kind::Place), one("opposite", Kind::Place)] Picture "An upright box between two opposite corners.";
     Label "label" Any [one("at", Kind::Place), one("text", Kind::Text)] Picture "Words of one height on the screen, whatever the zoom.";
     Text "text" Any [one("at", Kind::Place), one("text", Kind::Text), one("size", Kind::Length)] Picture "Words whose height is a length on the sheet.";

@@ -319,7 +319,7 @@ fn ellipse(entity: &Entity<'_>, scale: f64) -> Option<Figure> {
 }
 
 fn corner(vertex: &Entity<'_>, scale: f64) -> Option<Corner> {
-    Some(Corner { at: vertex.point(10, scale)?, bulge: vertex.number(42).unwrap_or(0.0) })
+    Some(Corner::new(vertex.point(10, scale)?, vertex.number(42).unwrap_or(0.0)))
 }
 
 fn light_corners(entity: &Entity<'_>, scale: f64) -> Vec<Corner> {
@@ -327,7 +327,7 @@ fn light_corners(entity: &Entity<'_>, scale: f64) -> Vec<Corner> {
     for &(code, value) in &entity.values {
         let number = value.trim().parse::<f64>().unwrap_or_default();
         match (code, corners.last_mut()) {
-            (10, _) => corners.push(Corner { at: Point { x: scale * number, y: 0.0 }, bulge: 0.0 }),
+            (10, _) => corners.push(Corner::new(Point { x: scale * number, y: 0.0 }, 0.0)),
             (20, Some(last)) => last.at.y = scale * number,
             (42, Some(last)) => last.bulge = number,
             _ => {}

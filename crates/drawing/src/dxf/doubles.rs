@@ -5,6 +5,7 @@
 
 use super::layer_of;
 use crate::element::{Corner, Element, Line, Point, Shape, Tag};
+use crate::{curve, spline};
 use base::number::{cos, sin};
 use std::f64::consts::TAU;
 
@@ -50,7 +51,54 @@ pub(super) fn without_doubles<'e>(
     all.filter(|(element, way)| !is_double(element, way)).map(|(element, _)| element).collect()
 }
 
+/// Returns the elements with rings bared that have Bézier curves, where all of their line is drawn beside them in the
+/// same way: an ellipse says more than the curves that stand for it. Nothing where there is no such ring.
+pub(super) fn bared(
+    elements: &[Element],
+    group: &dyn Fn(Tag) -> Option<String>,
+) -> Option<Vec<Element>> {
+    let is_curved = |e: &Element| match &e.shape {
+        Shape::Region(rings) => rings.iter().flatten().any(|corner| corner.poles.is_some()),
+        _ => false,
+    };
+    if !elements.iter().any(is_curved) {
+        return None;
+    }
+    let way = |e: &Element| (group(e.tag), layer_of(e), e.style.line);
+    let mut drawn: Vec<(Way, Edge)> = Vec::new();
+    for element in elements.iter().filter(|e| e.style.dimension.is_none()) {
+        let corners = curve::corners_along(&element.shape).unwrap_or_default();
+        drawn.extend(corners.windows(2).map(|pair| (way(element), Edge::of(pair[0], pair[1]))));
+    }
+    drawn.sort_by(|(_, a), (_, b)| a.middle.x.total_cmp(&b.middle.x));
+    let is_beside = |own: &Edge, own_way: &Way| {
+        let reach = NEAR * own.extent();
+        let from = drawn.partition_point(|(_, e)| e.middle.x < own.middle.x - reach);
+        let near = drawn[from..].iter().take_while(|(_, e)| e.middle.x <= own.middle.x + reach);
+        { near }.any(|(way, edge)| way == own_way && edge.is_one_with(own, reach))
+    };
+    let bare = |element: &Element| {
+        let mut bare = element.clone();
+        if let (true, Shape::Region(rings)) = (is_curved(element), &element.shape) {
+            let own_way = way(element);
+            let mut edges = rings.iter().flat_map(|ring| of_ring(ring));
+            if edges.all(|edge| is_beside(&edge, &own_way)) {
+                bare.style.line = Line::None;
+            }
+        }
+        bare
+    };
+    Some(elements.iter().map(bare).collect())
+}
+
 impl Edge {
+    fn of(from: Corner, to: Corner) -> Self {
+        let middle = match from.poles {
+            Some([p, q]) => spline::at([from.at, p, q, to.at], 0.5),
+            None => half_way(&from, to.at),
+        };
+        Self { ends: [from.at, to.at], middle }
+    }
     fn extent(&self) -> f64 {
         let [p, q] = self.ends;
         distance(p, q).max(distance(p, self.middle))
@@ -81,10 +129,7 @@ fn of_shape(shape: &Shape) -> Option<Edge> {
 /// Returns the edges of a ring.
 fn of_ring(ring: &[Corner]) -> Vec<Edge> {
     let next = ring.iter().cycle().skip(1);
-    ring.iter()
-        .zip(next)
-        .map(|(a, b)| Edge { ends: [a.at, b.at], middle: half_way(a, b.at) })
-        .collect()
+    ring.iter().zip(next).map(|(a, b)| Edge::of(*a, *b)).collect()
 }
 
 /// Returns what lies half-way along an edge that leaves a corner.
@@ -111,7 +156,7 @@ mod tests {
     #[test]
     fn what_is_an_edge_of_a_ring_is_drawn_once() {
         let at = |x, y| Point { x, y };
-        let corner = |x, y, bulge| Corner { at: at(x, y), bulge };
+        let corner = |x, y, bulge| Corner::new(at(x, y), bulge);
         // a half disc, and a hole of two half turns
         let ring = vec![corner(-5.0, 0.0, 0.0), corner(5.0, 0.0, 1.0)];
         let hole = vec![corner(1.0, 2.0, 1.0), corner(-1.0, 2.0, 1.0)];
@@ -134,10 +179,30 @@ mod tests {
     }
 
     #[test]
+    fn an_ellipse_around_a_surface_is_drawn_once_and_as_an_ellipse() {
+        let at = |x, y| Point { x, y };
+        let ellipse = Shape::Ellipse {
+            center: at(0.0, 0.0),
+            major: at(6.0, 0.0),
+            ratio: 0.5,
+            start: 0.0,
+            sweep: TAU / 2.0,
+        };
+        let lines = [ellipse, Shape::Segment(at(6.0, 0.0), at(-6.0, 0.0))];
+        let ring = curve::ring_along(&lines).expect("they follow one another");
+        let mut all: Vec<Element> = lines.into_iter().map(Element::new).collect();
+        all.push(Element::new(Shape::Region(vec![ring])));
+        let bare = bared(&all, &|_| None).expect("there is such a ring");
+        assert_eq!((bare[2].style.line, &bare[..2]), (Line::None, &all[..2]));
+        // what is not all there takes nothing away
+        assert_eq!(bared(&all[1..], &|_| None).expect("there is")[1], all[2]);
+        assert_eq!(bared(&all[..2], &|_| None), None);
+    }
+
+    #[test]
     fn what_is_no_ring_on_the_sheet_takes_no_edge_away() {
         let at = |x, y| Point { x, y };
-        let ring =
-            [(0.0, 0.0), (4.0, 0.0), (4.0, 3.0)].map(|(x, y)| Corner { at: at(x, y), bulge: 0.0 });
+        let ring = [(0.0, 0.0), (4.0, 0.0), (4.0, 3.0)].map(|(x, y)| Corner::new(at(x, y), 0.0));
         let mut region = Element::new(Shape::Region(vec![ring.into()]));
         let side = Element::new(Shape::Segment(at(0.0, 0.0), at(4.0, 0.0)));
         let left = |region: &Element| without_doubles(vec![region, &side], &|_| None).len();

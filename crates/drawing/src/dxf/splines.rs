@@ -6,16 +6,13 @@ use crate::nurbs::Nurbs;
 use crate::spline;
 
 impl Writer {
-    /// Writes Bézier curves as a B-spline: each of its knots between two of them stands three times.
+    /// Writes Bézier curves as a B-spline.
     pub(super) fn spline(&mut self, element: &Element, poles: &[Point]) {
         let pieces = spline::pieces(poles).count();
         if pieces == 0 {
             return;
         }
-        let times = |knot| if knot == 0 || knot == pieces { 4 } else { 3 };
-        let knots: Vec<f64> =
-            (0..=pieces).flat_map(|knot| vec![knot as f64; times(knot)]).collect();
-        self.b_spline(element, (3, &knots), &poles[..=3 * pieces], &[]);
+        self.b_spline(element, (3, &spline::knots(poles)), &poles[..=3 * pieces], &[]);
     }
     /// Writes a rational B-spline as one, unless its weights are all alike.
     pub(super) fn nurbs(&mut self, element: &Element, curve: &Nurbs) {

@@ -83,6 +83,12 @@ fn region_edge(out: &mut Vec<f64>, edge: &Shape, is_first: bool) {
             }
             out.extend([12.0, center.x, center.y, *radius, *start, *sweep]);
         }
+        Shape::Spline(poles) => {
+            let begin = if is_first { 0 } else { 3 };
+            let from = out.len();
+            curves(out, poles);
+            out.drain(from..from + begin);
+        }
         _ => {}
     }
 }

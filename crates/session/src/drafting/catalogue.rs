@@ -222,7 +222,7 @@ impl Slot {
             _ => (&document.classes[class], false),
         };
         let kind = match found.kind {
-            ClassKind::Composite if is_list && *found.name == *"Curve" => SlotKind::Edges,
+            ClassKind::Composite if is_list && *found.name == *"Edge" => SlotKind::Edges,
             ClassKind::Composite if is_list && *found.name == *"Point" => SlotKind::Places,
             ClassKind::Composite if *found.name == *"Point" => SlotKind::Point,
             ClassKind::Composite => SlotKind::Curve,
@@ -271,7 +271,7 @@ impl Slot {
             (_, "Curve") => "line, circle or arc".into(),
             (_, "Round") => "circle or arc".into(),
             (SlotKind::Set, _) => "figure".into(),
-            (SlotKind::Edges, _) => "line or arc".into(),
+            (SlotKind::Edges, _) => "line, arc or curve".into(),
             (_, "Planar") => "contour, surface, region or circle".into(),
             (_, "Outlined") => "contour, surface or region".into(),
             (_, class) => class.to_lowercase(),

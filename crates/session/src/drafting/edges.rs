@@ -9,7 +9,7 @@ use crate::state::State;
 use crate::view::{Pointer, Refusal};
 use crate::words;
 use geometry::{NoContour, Side, Source, contour, edges_of, extent, meets};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use syntax::ast::{AstNode, Expr};
 
 /// Returns edges with those that go on from their ends, as far as a single one does.
@@ -57,10 +57,12 @@ pub(crate) fn waits(state: &State, home: &Home, picked: &[String]) -> bool {
     let all = edges(state, home);
     let side = |text: &String| {
         let found = all.iter().find(|found| found.text == *text)?;
-        match found.curve.source()? {
-            Source::Line(from, to) => Some(Side { from, to, bulge: 0.0 }),
-            Source::Arc(side) => Some(side),
-            Source::Axis(..) | Source::Circle(..) => None,
+        match found.curve.source() {
+            Some(Source::Line(from, to)) => Some(Side { from, to, bulge: 0.0 }),
+            Some(Source::Arc(side)) => Some(side),
+            Some(Source::Axis(..) | Source::Circle(..)) => None,
+            // how it runs between its ends plays no part
+            None => found.curve.ends().map(|[from, to]| Side { from, to, bulge: 0.0 }),
         }
     };
     // what is typed may be any number of them
@@ -112,10 +114,12 @@ pub(crate) fn written(state: &State, home: &Home, picked: &[String]) -> String {
     format!("[{}]", said.join(", "))
 }
 
-/// Lists the lines and arcs that a contour can be made of.
+/// Lists the lines, arcs and curves that a contour can be made of, each once.
 pub(crate) fn edges(state: &State, home: &Home) -> Vec<Found> {
     let all = scene::scene(state, home).into_iter();
-    all.filter(|found| found.side.is_none() && found.curve.ends().is_some()).collect()
+    let mut known = BTreeSet::new();
+    let edges = all.filter(|found| found.side.is_none() && found.curve.ends().is_some());
+    edges.filter(|found| known.insert(found.text.clone())).collect()
 }
 
 /// Names the edge of a contour or region under a pointer, or its corner, by what it comes from; nothing where no such

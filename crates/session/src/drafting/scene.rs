@@ -237,7 +237,7 @@ pub(crate) fn elements_of<'a>(
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(crate) struct Curve {
     figure: Figure<f64>,
-    /// From where to where an arc runs, to the left.
+    /// From where to where an arc runs, to the left; of a chord, what it stands for, where that may be an edge.
     arc: Option<[[f64; 2]; 2]>,
     /// Whether a straight goes on beyond its points.
     is_endless: bool,
@@ -271,10 +271,10 @@ impl Curve {
         }
     }
 
-    /// Returns where it begins and ends, where it is a segment or an arc.
+    /// Returns where it begins and ends, where it is a segment, an arc or a part of another curve.
     pub(crate) fn ends(&self) -> Option<[[f64; 2]; 2]> {
         match (self.figure, self.arc) {
-            _ if self.is_chord => None,
+            (_, ends) if self.is_chord => ends,
             (Figure::Straight { from, to }, _) if !self.is_endless => Some([from, to]),
             (_, ends) => ends,
         }
@@ -770,7 +770,10 @@ impl<'a> Scene<'a> {
         if !planar.is_some_and(|planar| document.is_a(class, planar)) {
             return;
         }
-        for side in self.evaluator.outline_of(answer).unwrap_or_default() {
+        let Ok(sides) = self.evaluator.outline_of(answer) else {
+            return self.drawn_outline((text, wholes), of);
+        };
+        for side in sides {
             self.found.push(Found {
                 text: text.into(),
                 class,

@@ -430,20 +430,24 @@ fn value_words<'a>(state: &'a State, evaluator: &Evaluator<'a>, answer: &Answer<
     if let Some(places) = places_of(state, evaluator, answer) {
         return counted(places, "place");
     }
+    let document = &state.lowered.document;
+    let area = || {
+        let area = evaluator.of_part(answer, "area").ok();
+        area.and_then(|area| values::in_words(document, &area)).unwrap_or_default()
+    };
+    let outlined = document.class_named("Outlined").zip(evaluator.class_of(answer));
+    let is_outlined = outlined.is_some_and(|(outlined, class)| document.is_a(class, outlined));
     match answer {
-        Answer::Number(..) => values::in_words(&state.lowered.document, answer).unwrap_or_default(),
+        Answer::Number(..) => values::in_words(document, answer).unwrap_or_default(),
         Answer::List(items) => match items.iter().all(|item| matches!(item, Answer::Context(_))) {
             true => counted(items.len(), "turn"),
             false => counted(items.len(), "figure"),
         },
         Answer::Context(context) => counted(context.result().count(), "figure"),
         other => match evaluator.outline_of(other).map_or(0, |edges| edges.len()) {
+            0 if is_outlined => format!("area {}", area()),
             0 => evaluator.text_of(other),
-            edges => {
-                let area = evaluator.of_part(answer, "area").ok();
-                let area = area.and_then(|area| values::in_words(&state.lowered.document, &area));
-                format!("{}, area {}", counted(edges, "edge"), area.unwrap_or_default())
-            }
+            edges => format!("{}, area {}", counted(edges, "edge"), area()),
         },
     }
 }

@@ -313,17 +313,53 @@ fn a_spline_is_picked_by_its_curve_and_at_its_places() {
     begin(&mut desk, "Circle");
     pick(&mut desk, 20.0, 15.0);
     assert_eq!(text(enter(&mut desk, "3")), "Circle(center: spline.places[1], radius: 3)");
-    // what it is picked by is no edge of a contour
+    // it is an edge of a contour, which is open without more
     begin(&mut desk, "Contour.along(edges)");
-    assert!(desk.session.point(desk.id, &on_it).is_err(), "it is neither a line nor an arc");
+    desk.session.point(desk.id, &on_it).expect("it is an edge");
+    let open = desk.session.enter(desk.id, "").expect_err("it is open");
+    assert!(open.message.contains("it is open"), "{}", open.message);
     desk.session.give_up(desk.id);
     // a band takes it where all of it lies within
     let half = desk.session.begin_each(desk.id, ((-5.0, -5.0), (30.0, 30.0))).expect("a circle");
     assert!(desk.text().contains("in [circle] {"), "{half:?}");
     desk.undo();
-    let of_two =
-        desk.session.begin_each(desk.id, ((-5.0, -5.0), (70.0, 30.0))).expect_err("two kinds");
-    assert!(of_two.message.contains("1 Spline"), "{}", of_two.message);
+    // a spline and a circle are what a contour may run along, and are turned and mirrored alike
+    desk.session.begin_each(desk.id, ((-5.0, -5.0), (70.0, 30.0))).expect("both are edges");
+    assert!(desk.text().contains("in [spline, circle] {"), "{}", desk.text());
+    desk.undo();
+    assert_eq!(desk.wrong(), []);
+}
+
+#[test]
+fn a_contour_goes_along_a_spline_and_is_picked_by_it() {
+    let mut desk = wave();
+    begin(&mut desk, "Line");
+    enter(&mut desk, "width, 0");
+    text(enter(&mut desk, "0,0"));
+    begin(&mut desk, "Surface.filled(edges)");
+    // one pick follows, whichever it is
+    let on_it = Pointer { at: (10.5, 9.5), reach: 3.0, ..Pointer::default() };
+    desk.session.point(desk.id, &on_it).expect("it is an edge");
+    assert!(
+        desk.text().contains("surface = Surface.filled(edges: [spline, line])"),
+        "{}",
+        desk.text()
+    );
+    assert_eq!(desk.wrong(), [], "{}", desk.text());
+    let drawn = desk.session.picture(desk.id).drawing.elements;
+    assert!(
+        drawn.iter().any(|e| e.style.fill.is_some() && e.shape != drawing::Shape::Region(vec![]))
+    );
+    // it is copied as a whole, and no region is made of it
+    begin(&mut desk, "Point:mirrored");
+    desk.session.point(desk.id, &on_it).expect("it can be mirrored");
+    let said = text(enter(&mut desk, "Axis.vertical(x: -9 mm)"));
+    assert!(said.contains("surface") || said.contains("spline"), "{said}");
+    begin(&mut desk, "Region.offset(of,by)");
+    enter(&mut desk, "surface");
+    let refused = desk.session.enter(desk.id, "3").expect_err("it has a spline");
+    assert!(refused.message.contains("lines and arcs alone"), "{}", refused.message);
+    desk.session.give_up(desk.id);
     assert_eq!(desk.wrong(), []);
 }
 

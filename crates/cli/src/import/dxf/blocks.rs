@@ -132,7 +132,7 @@ impl Placing {
                 return Err("HATCH with arcs in a block that is stretched");
             }
             Figure::Surface(rings) => {
-                let corner = |c: &Corner| Corner { at: self.place(c.at), bulge: sign * c.bulge };
+                let corner = |c: &Corner| Corner::new(self.place(c.at), sign * c.bulge);
                 Figure::Surface(rings.iter().map(|r| r.iter().map(corner).collect()).collect())
             }
             // words are read as they were, along where their line goes

@@ -63,7 +63,7 @@ fn polyline(values: &mut Values<'_>) -> Option<Vec<Corner>> {
     for _ in 0..count {
         let at = values.point(10)?;
         let bulge = if bends { values.here(42).unwrap_or(0.0) } else { 0.0 };
-        ring.push(Corner { at, bulge });
+        ring.push(Corner::new(at, bulge));
     }
     Some(ring)
 }
@@ -77,7 +77,7 @@ fn edges(values: &mut Values<'_>) -> Option<Vec<Corner>> {
             1 => {
                 let from = values.point(10)?;
                 values.point(11)?;
-                ring.push(Corner { at: from, bulge: 0.0 });
+                ring.push(Corner::new(from, 0.0));
             }
             2 => {
                 let center = values.point(10)?;
@@ -96,7 +96,7 @@ fn edges(values: &mut Values<'_>) -> Option<Vec<Corner>> {
                         x: center.x + radius * cos(angle),
                         y: center.y + radius * sin(angle),
                     };
-                    ring.push(Corner { at, bulge: sign * tan(0.25 * part) });
+                    ring.push(Corner::new(at, sign * tan(0.25 * part)));
                 }
             }
             _ => return None,

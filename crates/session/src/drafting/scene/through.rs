@@ -3,9 +3,10 @@
 use super::{Curve, Found, Scene};
 use crate::drafting::compound;
 use base::number::{cos, sin};
-use drawing::{Point, Shape, spline};
+use drawing::{Point, Shape, curve, spline};
 use eval::Answer;
 use kernel::ClassId;
+use std::f64::consts::TAU;
 
 /// A curve between two places is picked as so many chords.
 const CHORDS: u32 = 16;
@@ -13,6 +14,33 @@ const CHORDS: u32 = 16;
 const CHORDS_AROUND: u32 = 96;
 
 impl<'a> Scene<'a> {
+    /// Adds the edges of what has ellipses or splines among them: each stands for the whole.
+    pub(super) fn drawn_outline(
+        &mut self,
+        at: (&str, &[String]),
+        (class, of): (ClassId, &Answer<'a>),
+    ) {
+        for element in self.evaluator.elements(of) {
+            let Shape::Region(rings) = &element.shape else { continue };
+            for edge in rings.iter().flat_map(|ring| curve::edges(ring)) {
+                chords_of(&edge).into_iter().for_each(|chord| self.chord(at, class, chord));
+            }
+        }
+    }
+
+    fn chord(&mut self, (text, wholes): (&str, &[String]), class: ClassId, curve: Curve) {
+        self.found.push(Found {
+            text: text.into(),
+            class,
+            curve,
+            wholes: wholes.to_vec(),
+            side_of: None,
+            side: None,
+            is_place: false,
+            is_result: self.is_result,
+        });
+    }
+
     /// Adds the chords of such a curve, each as the whole, and its places.
     pub(super) fn through_places(
         &mut self,
@@ -24,26 +52,11 @@ impl<'a> Scene<'a> {
         if !is_of_places && !compound::is_freeform(document, class) {
             return;
         }
+        let is_edge = document.class_named("Edge").is_some_and(|edge| document.is_a(class, edge));
         for element in self.evaluator.elements(of) {
-            let chords: Vec<Curve> = match &element.shape {
-                Shape::Spline(poles) => chords(poles).collect(),
-                Shape::Nurbs(curve) => chords(&curve.cubics()).collect(),
-                Shape::Ellipse { center, major, ratio, start, sweep } => {
-                    around((*center, *major, *ratio), (*start, *sweep)).collect()
-                }
-                _ => continue,
-            };
-            for curve in chords {
-                self.found.push(Found {
-                    text: text.into(),
-                    class,
-                    curve,
-                    wholes: wholes.to_vec(),
-                    side_of: None,
-                    side: None,
-                    is_place: false,
-                    is_result: self.is_result,
-                });
+            let ends = ends_of(&element.shape).filter(|_| is_edge);
+            for chord in chords_of(&element.shape) {
+                self.chord((text, wholes), class, Curve { arc: ends, ..chord });
             }
         }
         let parts = document.layout(class);
@@ -66,6 +79,35 @@ impl<'a> Scene<'a> {
                 self.place(format!("{text}.{part}[{i}]"), point);
             }
         }
+    }
+}
+
+/// Returns where a curve begins and ends; what goes all the way round ends exactly where it begins.
+fn ends_of(shape: &Shape) -> Option<[[f64; 2]; 2]> {
+    let [from, to] = curve::ends(shape)?.map(|p| [p.x, p.y]);
+    let is_whole = matches!(shape, Shape::Ellipse { sweep, .. } if sweep.abs() >= TAU);
+    Some(if is_whole { [from, from] } else { [from, to] })
+}
+
+/// Returns the chords of a curve that is no figure, and of an edge.
+fn chords_of(shape: &Shape) -> Vec<Curve> {
+    match shape {
+        Shape::Spline(poles) => chords(poles).collect(),
+        Shape::Nurbs(curve) => chords(&curve.cubics()).collect(),
+        Shape::Ellipse { center, major, ratio, start, sweep } => {
+            around((*center, *major, *ratio), (*start, *sweep)).collect()
+        }
+        Shape::Arc { center, radius, start, sweep } => {
+            around((*center, Point { x: *radius, y: 0.0 }, 1.0), (*start, *sweep)).collect()
+        }
+        Shape::Segment(p, q) => {
+            vec![Curve { is_chord: true, ..Curve::segment([p.x, p.y], [q.x, q.y]) }]
+        }
+        Shape::Dot(_)
+        | Shape::Polyline { .. }
+        | Shape::Circle { .. }
+        | Shape::Region(_)
+        | Shape::Text { .. } => Vec::new(),
     }
 }
 
