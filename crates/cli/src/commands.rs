@@ -461,24 +461,37 @@ pub(crate) enum Dimensions {
 }
 
 /// A document as SVG, and as DXF.
-fn drawn(opened: &Opened, dimensions: Dimensions) -> [String; 2] {
+fn drawn(opened: &Opened, dimensions: Dimensions, language: Language) -> String {
     let (session, id) = (&opened.session, opened.id);
     let said = match dimensions {
         Dimensions::Shown => session.annotations(id),
         Dimensions::LeftOut => Vec::new(),
     };
-    if said.is_empty() {
-        return [session.svg(id), session.dxf(id)];
-    }
-    let picture = session.picture(id);
     let with_said = |picture: &mut PictureView, pixels| {
         annotations::draw(picture, &said, &Moved::default(), pixels);
     };
-    let (mut shown, mut dxf) = (picture.clone(), picture);
-    let pixels = session::roomy(&shown);
-    with_said(&mut shown, pixels);
-    annotations::draw_for_dxf(&mut dxf, with_said);
-    [session::svg_at(&shown, pixels), session.dxf_of(id, &dxf)]
+    match language {
+        Language::Svg if said.is_empty() => session.svg(id),
+        Language::Dxf if said.is_empty() => session.dxf(id),
+        Language::Svg => {
+            let mut picture = session.picture(id);
+            let pixels = session::roomy(&picture);
+            with_said(&mut picture, pixels);
+            session::svg_at(&picture, pixels)
+        }
+        Language::Dxf => {
+            let mut picture = session.picture(id);
+            annotations::draw_for_dxf(&mut picture, with_said);
+            session.dxf_of(id, &picture)
+        }
+    }
+}
+
+/// What a drawing is written in.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Language {
+    Svg,
+    Dxf,
 }
 
 /// Draws a document as SVG, into a file or onto standard output; as DXF into a file of that kind.
@@ -492,7 +505,14 @@ pub(crate) fn draw(
     form: Form,
 ) -> Result<Report, OpenError> {
     let opened = open(path)?;
-    let [svg, dxf] = drawn(&opened, dimensions);
+    let is_dxf = output.and_then(Path::extension).is_some_and(|e| e.eq_ignore_ascii_case("dxf"));
+    let written = drawn(&opened, dimensions, if is_dxf { Language::Dxf } else { Language::Svg });
+    // what nobody asks for is not made: a large drawing takes its time
+    let svg = match form {
+        Form::Words => String::new(),
+        Form::Json if is_dxf => drawn(&opened, dimensions, Language::Svg),
+        Form::Json => written.clone(),
+    };
     let undrawn = opened.session.undrawn(opened.id);
     let is_whole = undrawn.is_empty();
     let unpictured = opened.session.unpictured(opened.id);
@@ -500,15 +520,13 @@ pub(crate) fn draw(
     let missing = unpictured.map_or(String::new(), |said| format!("{said}\n"));
     let why: String =
         undrawn.iter().map(|why| format!("something is not drawn: {why}\n")).collect();
-    let is_dxf = output.and_then(Path::extension).is_some_and(|e| e.eq_ignore_ascii_case("dxf"));
-    let svg = if is_dxf { dxf } else { svg };
     let Some(output) = output else {
         // what is printed is to be an SVG or nothing
-        let words = if is_whole { svg } else { why };
+        let words = if is_whole { written } else { why };
         let aside = if form == Form::Words { missing } else { String::new() };
         return Ok(Report { aside, ..report(form, is_whole, words, &json) });
     };
-    std::fs::write(output, &svg)
+    std::fs::write(output, &written)
         .map_err(|source| OpenError::Unreadable { path: output.to_path_buf(), source })?;
     Ok(report(form, is_whole, format!("{}\n{why}{missing}", output.display()), &json))
 }
