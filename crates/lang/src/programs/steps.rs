@@ -346,7 +346,7 @@ impl Lowerer<'_> {
 
     /// Lowers both branches of an `if`. What they make is visible after it.
     fn branches(&mut self, scope: &mut Scope, class: ClassId, choice: &ast::If) -> Says {
-        if let Some(condition) = choice.turned_round() {
+        if let Some(condition) = choice.turned_round().or_else(|| choice.turned_twice()) {
             let span = self.first_line(scope.file, choice.span());
             let message = "this `if` is open: its condition is turned round";
             let d = Diagnostic::warning("open-block", Place { file: scope.file, span }, message);

@@ -2,8 +2,9 @@
 //! with the same values or under others.
 //!
 //! While the other branch is drawn with the same values, its condition is turned round in the text, so that it
-//! is the one that runs. What the example's values were comes back when the `if` is ended. Until then both branches stand
-//! in the text: by one that is empty, or a condition that is turned round, an `if` that was broken off is known.
+//! is the one that runs; under other values it is turned round twice. What the example's values were comes back when the
+//! `if` is ended. Until then both branches stand in the text: by one that is empty, or a condition that is turned round, an
+//! `if` that was broken off is known.
 
 use super::blocks::{self, Block, Kind};
 use super::outcome::{self, Worth};
@@ -53,11 +54,17 @@ impl Choice {
         if self.is_then { "then" } else { "else" }
     }
 
-    /// The first branch is drawn again, where values that took the other one were taken back.
+    /// The first branch is drawn again, where values that took the other one, or the step that began it, were taken
+    /// back; the other one, where they came again.
     pub(crate) fn agree(&mut self, state: &State, outside: &Home, it: &If) {
-        let is_left = || worth(state, outside, &self.condition) == Some(!self.is_then);
-        if self.is_second && it.turned_round().is_none() && is_left() {
-            (self.is_then, self.is_second) = (!self.is_then, false);
+        let is_other = || worth(state, outside, &self.condition) == Some(!self.is_then);
+        let is_second = match (it.turned_round(), it.turned_twice()) {
+            (Some(_), _) => true,
+            (None, Some(_)) => self.is_second != is_other(),
+            (None, None) => false,
+        };
+        if self.is_second != is_second {
+            (self.is_then, self.is_second) = (!self.is_then, is_second);
         }
     }
 
@@ -72,7 +79,7 @@ impl Choice {
             asks: false,
             example: None,
         };
-        if let Some(condition) = it.turned_round() {
+        if let Some(condition) = it.turned_round().or_else(|| it.turned_twice()) {
             return Some(choice(condition, true));
         }
         let bodies = Bodies::of(it)?;
@@ -248,13 +255,12 @@ pub(crate) fn second(open: &mut Open, host: &dyn Host, is_same: bool) -> Result<
             "    ".repeat(address.split('.').filter(|s| !matches!(*s, "then" | "else")).count());
         edited.insert_str(end, &format!(" else {{\n{indent}}}"));
     }
-    if is_same && !is_other {
-        let condition = it.condition().ok_or_else(gone)?.span();
-        edited.replace_range(
-            condition.start as usize..condition.end as usize,
-            &format!("not (({}))", choice.condition),
-        );
-    }
+    let condition = it.condition().ok_or_else(gone)?.span();
+    let turned = match is_other {
+        false => format!("not (({}))", choice.condition),
+        true => format!("not (not (({})))", choice.condition),
+    };
+    edited.replace_range(condition.start as usize..condition.end as usize, &turned);
     let change = match edited == open.state.text {
         true => Change::default(),
         false => {

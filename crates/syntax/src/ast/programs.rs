@@ -134,6 +134,13 @@ impl If {
         let condition = self.condition()?.syntax().text().to_string();
         Self::inside_turned(condition.trim()).map(str::to_string)
     }
+    /// Returns the condition that is turned round twice, `not (not ((…)))`: how an `if` is written while its other branch
+    /// is demonstrated under other values.
+    pub fn turned_twice(&self) -> Option<String> {
+        let condition = self.condition()?.syntax().text().to_string();
+        let inner = condition.trim().strip_prefix("not (")?.strip_suffix(')')?;
+        Self::inside_turned(inner).map(str::to_string)
+    }
     /// Returns what stands in the parentheses of a condition `not ((…))`. `not ((a) or (b))` is none.
     pub fn inside_turned(condition: &str) -> Option<&str> {
         let inner = condition.strip_prefix("not ((")?.strip_suffix("))")?;
