@@ -317,38 +317,44 @@ fn Rule(lab: Lab, row: StructureRow) -> impl IntoView {
 
 /// Which rows of the values the inspector shows, by their paths within what is selected: those of a thing and what
 /// it shares with others, outermost first; of the document what is given.
-fn shown_values(
-    rows: &[ValueRow],
-    selected: Option<&str>,
-    within: &[ValueWithin],
+fn shown_values<'a>(
+    rows: &'a [ValueRow],
+    selected: Option<&'a str>,
+    within: &'a [ValueWithin],
 ) -> Vec<Inspected> {
     let depth = |name: &str| name.matches('.').count();
-    let name = |row: &ValueRow| match selected {
+    let name = |row: &'a ValueRow| match selected {
         Some(path) => {
             let shared = within.iter().find(|w| w.row == row.path && !w.path.is_empty());
             let rest = [&row.path, &row.shortest].into_iter().find(|p| covers(path, p))?;
             let rest = rest.get(path.len()..).unwrap_or_default().trim_start_matches('.');
-            let own = if rest.is_empty() { row.path.clone() } else { String::from(rest) };
-            Some(shared.map_or(own, |w| w.path.clone()))
+            let own = if rest.is_empty() { row.path.as_str() } else { rest };
+            Some(shared.map_or(own, |w| &w.path))
         }
         None => {
             let is_given = row.given && depth(&row.shortest) <= 1;
             // what the document itself computes and has a word for
             let is_told = row.is_virtual && depth(&row.shortest) == 0 && !row.doc.is_empty();
             let is_shown = (is_given || is_told) && !row.is_layout && row.number.is_some();
-            is_shown.then(|| row.path.clone())
+            is_shown.then_some(row.path.as_str())
         }
     };
     let shared =
-        |row: &ValueRow| { within.iter().find(|w| w.row == row.path) }.map(|w| w.path.clone());
-    let mut found: Vec<Inspected> = { rows.iter().enumerate() }
-        .filter_map(|(at, row)| Some((at, name(row).or_else(|| shared(row))?)))
-        .collect();
+        |row: &ValueRow| { within.iter().find(|w| w.row == row.path) }.map(|w| w.path.as_str());
+    let ranked = |(at, row): (usize, &'a ValueRow)| {
+        let name = name(row).or_else(|| shared(row))?;
+        Some((depth(name), at, name))
+    };
+    let mut found: Vec<(usize, usize, &str)> = rows.iter().enumerate().filter_map(ranked).collect();
     let is_own = |at: usize| selected.is_some_and(|path| rows[at].path == path);
-    if found.iter().any(|(at, _)| !rows[*at].is_layout) {
-        found.retain(|(at, _)| is_own(*at) || !rows[*at].is_layout);
+    if found.iter().any(|(_, at, _)| !rows[*at].is_layout) {
+        found.retain(|(_, at, _)| is_own(*at) || !rows[*at].is_layout);
     }
-    found.sort_by_key(|(at, name)| (depth(name), *at));
-    found.truncate(MOST);
-    found
+    // a document may give tens of thousands, of which the first are shown
+    if found.len() > MOST {
+        found.select_nth_unstable(MOST);
+        found.truncate(MOST);
+    }
+    found.sort_unstable();
+    found.into_iter().map(|(_, at, name)| (at, String::from(name))).collect()
 }
