@@ -17,11 +17,14 @@ const STEPS: usize = 60;
 /// How often a hand does the same.
 const TIMES: usize = 4;
 
-/// The document: lines to drag and to join, and a program to go on with.
+/// The document: lines to drag and to join, two that give way within limits, and a program to go on with.
 fn document() -> String {
     let mut text = format!("use {LIBRARY}\n");
     text += "a: Line { p1 = (40, 0)  p2 = (60, 0) }\nb: Line { p1 = (70, 0)  p2 = (90, 0) }\n";
     text += "constraint a.length = b.length\nrehearsed: Rehearsed\n";
+    text +=
+        "c: Line { p1 = (40, -40)  p2 = (60, -40) }\nd: Line { p1 = (70, -40)  p2 = (90, -40) }\n";
+    text += "constraint c.length * d.length = 400\nconstraint c.length <= 22\n";
     text += "program Rehearsed(size: Length = 4) {\n    floor = Axis.horizontal(y: 0)\n";
     text += "    c0 = Circle(center: Point(0, 10), radius: size)\n";
     for i in 1..STEPS {
@@ -50,11 +53,17 @@ impl Session {
         let [end, begin]: [Path; 2] =
             ["a.p2", "b.p1"].map(|path| parse_path(path).unwrap_or_default());
         let at = |x: f64, y: f64| Pointer { at: (x, y), reach: 2.0, ..Pointer::default() };
-        for i in 0..TIMES {
-            self.press_all(id, std::slice::from_ref(&end))?;
-            self.drag(id, (55.0 + i as f64, 5.0));
-            self.release(id)?;
-            self.picture(id);
+        // what follows one way, and what gives way by little, with limits that begin and cease to hold it
+        for (dragged, y) in [("a.p2", 5.0), ("c.p2", -35.0)] {
+            let dragged = parse_path(dragged).unwrap_or_default();
+            for i in 0..TIMES {
+                self.press_all(id, std::slice::from_ref(&dragged))?;
+                for step in 0..TIMES {
+                    self.drag(id, (55.0 + (i + 2 * step) as f64, y));
+                }
+                self.release(id)?;
+                self.picture(id);
+            }
         }
         self.apply(id, &Command::Merge(vec![end, begin]))?;
         self.picture(id);
