@@ -104,7 +104,7 @@ impl<'l> Lowerer<'l> {
     /// Notes what a loop gave, if it did no more than that.
     pub(crate) fn note_loop(&mut self, member: usize, members: usize, before: SoFar) {
         let now = self.so_far();
-        let members = members + now.unrolled - before.unrolled;
+        let members = members.saturating_add(now.unrolled - before.unrolled);
         if before.with_givens(now.givens).with_unrolled(now.unrolled) != now {
             return;
         }

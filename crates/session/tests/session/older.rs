@@ -116,7 +116,7 @@ fn a_parameter_has_a_class_and_a_range() {
     let wrong = define("few", "20", "Integer", "1-12").expect_err("no range");
     assert_eq!(
         wrong,
-        "`1-12` is no range and no table: wanted is from..to, as 1 mm..100 mm, values, as 3, 4, 5 mm, or a column, as bolts.csv.d"
+        "`1-12` is no range and no table: wanted is from..to, as 1 mm..100 mm, or > 0 mm, values, as 3, 4, 5 mm, or a column, as bolts.csv.d"
     );
     define("round", "2", "Circle", "").expect_err("a number is no circle");
     let text = desk.text();
