@@ -78,25 +78,7 @@ impl<'a> Evaluator<'a> {
                 Shape::Spline(poles)
             }
             Function::Nurbs => self.nurbs(arguments)?,
-            Function::Region => {
-                let ring = |ring: &Answer<'a>| {
-                    if let Answer::Picture(elements) = ring {
-                        return Ok(rings_in(elements));
-                    }
-                    let items = self.items(ring)?;
-                    let is_corner = |first: &Answer<'a>| self.bent(first).is_ok();
-                    match items.first().is_none_or(is_corner) {
-                        true => {
-                            let corners = items.iter().map(|corner| self.bent(corner));
-                            Ok(vec![corners.collect::<Result<_>>()?])
-                        }
-                        false => Ok(vec![self.ring_of_lines(&items, nearest)?]),
-                    }
-                };
-                let rings = self.rings(arguments)?;
-                let rings = rings.iter().map(ring).collect::<Result<Vec<Vec<_>>>>()?;
-                Shape::Region(rings.concat())
-            }
+            Function::Region => self.region_of(arguments, nearest)?,
             Function::Rectangle => {
                 let (a, c) = (place(0)?, place(1)?);
                 let (b, d) = (Point { x: c.x, y: a.y }, Point { x: a.x, y: c.y });
@@ -142,6 +124,27 @@ impl<'a> Evaluator<'a> {
         };
         let element = Element { tag: Tag(self.structure.merged[nearest].0), ..Element::new(shape) };
         Ok(Answer::Picture(Rc::new(vec![element])))
+    }
+
+    /// Fills rings: of corners, of lines that meet, or of what is drawn.
+    fn region_of(&self, arguments: &[Answer<'a>], nearest: ThingId) -> Result<Shape> {
+        let ring = |ring: &Answer<'a>| {
+            if let Answer::Picture(elements) = ring {
+                return Ok(rings_in(elements));
+            }
+            let items = self.items(ring)?;
+            let is_corner = |first: &Answer<'a>| self.bent(first).is_ok();
+            match items.first().is_none_or(is_corner) {
+                true => {
+                    let corners = items.iter().map(|corner| self.bent(corner));
+                    Ok(vec![corners.collect::<Result<_>>()?])
+                }
+                false => Ok(vec![self.ring_of_lines(&items, nearest)?]),
+            }
+        };
+        let rings = self.rings(arguments)?;
+        let rings = rings.iter().map(ring).collect::<Result<Vec<Vec<_>>>>()?;
+        Ok(Shape::Region(rings.concat()))
     }
 
     fn corners(&self, arguments: &[Answer<'a>], closed: bool) -> Result<Shape> {

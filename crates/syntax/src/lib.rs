@@ -44,7 +44,7 @@ pub use edit::TextEdit;
 pub use format::format;
 pub use kind::{SyntaxElement, SyntaxKind, SyntaxNode, SyntaxToken};
 pub use reparse::{Changed, Reparsed, reparse};
-pub use rowan::WalkEvent;
+pub use rowan::{NodeOrToken, WalkEvent};
 pub use tree::{
     Parse, dump, parse, parse_expression, parse_statements, span_of, span_of_token, token_from,
 };

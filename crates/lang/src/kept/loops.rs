@@ -14,8 +14,8 @@ use base::{Id, Name};
 use kernel::{ClassId, ClassKind, Count};
 use std::collections::BTreeSet;
 use std::rc::Rc;
-use syntax::SyntaxKind;
 use syntax::ast::{self, AstNode, Expr, Member};
+use syntax::{NodeOrToken, SyntaxKind};
 
 /// What the turns of a loop depend on beside the loop itself and the classes.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -170,7 +170,7 @@ impl<'l> Lowerer<'l> {
 
 /// Returns the words of a loop.
 fn words_of(member: &Member) -> Vec<Name> {
-    let tokens = member.syntax().descendants_with_tokens().filter_map(|e| e.into_token());
+    let tokens = member.syntax().descendants_with_tokens().filter_map(NodeOrToken::into_token);
     tokens.filter(|t| t.kind() == SyntaxKind::Ident).map(|t| Name::from(t.text())).collect()
 }
 
