@@ -30,6 +30,7 @@ use std::collections::BTreeSet;
 use syntax::SyntaxKind;
 use syntax::ast::Member;
 
+mod among;
 pub(crate) mod between;
 
 /// The most things that offers are made for.
@@ -38,6 +39,7 @@ const MOST: usize = 8;
 pub(crate) const REVERSED: &str = "reversed";
 
 /// A selected thing, or a figure that is computed.
+#[derive(Clone)]
 struct Selected {
     path: Path,
     /// Nothing for what is computed: it can be spoken of, and not be merged.
@@ -66,6 +68,7 @@ pub(crate) fn offers(state: &State, paths: &[Path]) -> Vec<Offer> {
     offers.extend(offerer.levels());
     offers.extend(offerer.alone(&offers));
     offers.extend(offerer.pairs());
+    offers.extend(offerer.among());
     offers.extend(offerer.equals());
     offers.extend(offerer.middles());
     offers.extend(offerer.dimensions());

@@ -41,6 +41,37 @@ fn take(desk: &mut Desk, paths: &[&str], label: &str, value: Option<&str>) {
 }
 
 #[test]
+fn a_slot_took_twelve_clicks_to_be_tangent() {
+    let mut desk = Desk::of(
+        "use geometry\na: Line { p1 = (0, 0)  p2 = (100, 0) }\nb: Line { p1 = (100, 42)  p2 = (0, 40) }\n\
+         c: Arc { center = (101, 20)  start = a.p2  end = b.p1 }\n\
+         d: Arc { center = (0, 19)  start = b.p2  end = a.p1 }\n",
+    );
+    let all = ["a", "b", "c", "d"];
+    let of = |desk: &Desk| offers(desk, &all).into_iter().find(|offer| offer.label == "tangent");
+    let offer = of(&desk).expect("all four corners");
+    assert_eq!(offer.members.lines().count(), 4, "{}", offer.members);
+    take(&mut desk, &["a", "b", "c", "d"], "tangent", None);
+    assert_eq!(of(&desk), None);
+    // what is said of one corner already, is not said again
+    desk.apply(&Command::Undo).expect("back");
+    take(&mut desk, &["a", "c"], "tangent", None);
+    let offer = of(&desk).expect("the other corners");
+    assert_eq!(offer.members.lines().count(), 3, "{}", offer.members);
+}
+
+#[test]
+fn three_lines_are_made_parallel_at_once() {
+    let lines = "use geometry\na: Line { p1 = (0, 0)  p2 = (100, 10) }\nb: Line { p1 = (0, 50)  p2 = (90, 80) }\n\
+                 c: Line { p1 = (0, 90)  p2 = (90, 85) }\n";
+    let mut desk = Desk::of(lines);
+    take(&mut desk, &["a", "b", "c"], "parallel", None);
+    // lines that meet would come to lie in one
+    let chain = Desk::of(&format!("{lines}merge a.p2 = b.p1\n"));
+    assert!(!labels(&chain, &["a", "b", "c"]).contains(&"parallel".into()));
+}
+
+#[test]
 fn a_selection_is_offered_what_fits_it() {
     let desk = Desk::of(FIGURE);
     let has = |paths: &[&str], wanted: &[&str]| {
