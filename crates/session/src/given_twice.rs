@@ -65,6 +65,7 @@ pub(crate) fn forgotten(
     let is_gone = |node: &SyntaxNode| gone.contains(node);
     let mut bodies: Vec<SyntaxNode> = Vec::new();
     let mut edits = Vec::new();
+    let mut rest: Vec<SyntaxNode> = Vec::new();
     for node in &gone {
         match node.parent().filter(|body| body.kind() == SyntaxKind::Body) {
             Some(body) if body.children().all(|member| is_gone(&member)) => {
@@ -73,9 +74,10 @@ pub(crate) fn forgotten(
                     bodies.push(body);
                 }
             }
-            _ => edits.push(syntax::edit::delete_member(node)),
+            _ => rest.push(node.clone()),
         }
     }
+    edits.extend(syntax::edit::delete_members(&rest));
     edits
 }
 

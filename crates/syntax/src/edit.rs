@@ -267,6 +267,32 @@ pub fn delete_member(node: &SyntaxNode) -> TextEdit {
     }
 }
 
+/// Takes several members away, in the order of the text. Neighbours go as one.
+pub fn delete_members(nodes: &[SyntaxNode]) -> Vec<TextEdit> {
+    let mut edits: Vec<TextEdit> = Vec::new();
+    // where what stands before the neighbours ends
+    let mut begin = 0;
+    for (n, node) in nodes.iter().enumerate() {
+        let edit = delete_member(node);
+        let neighbour = n.checked_sub(1).map(|n| &nodes[n]);
+        let follows = neighbour.is_some() && node.prev_sibling().as_ref() == neighbour;
+        match edits.last_mut().filter(|last| follows && edit.span.start <= last.span.end) {
+            Some(last) => {
+                let takes_space_before = edit.span.start < last.span.end;
+                let start = if takes_space_before { begin } else { last.span.start };
+                *last = TextEdit::new(start.min(last.span.start), edit.span.end, &edit.insert);
+            }
+            None => {
+                let before =
+                    node.first_token().and_then(|t| solid(t.prev_token(), Direction::Prev));
+                begin = before.map_or(edit.span.start, |t| span_of_token(&t).end);
+                edits.push(edit);
+            }
+        }
+    }
+    edits
+}
+
 /// Returns the edit that says something new in the place of what another takes away.
 ///
 /// The layout around stays; `;` stands where something else follows on the line.

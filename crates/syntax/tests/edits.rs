@@ -4,7 +4,8 @@ use base::FileId;
 use proptest::prelude::*;
 use syntax::ast::{AstNode, Member};
 use syntax::edit::{
-    Spot, apply, delete_member, delete_name, give_value, insert_member, rename, replace,
+    Spot, apply, delete_member, delete_members, delete_name, give_value, insert_member, rename,
+    replace,
 };
 use syntax::{SyntaxNode, parse};
 
@@ -33,6 +34,26 @@ fn check_before(text: &str, head: &str, member: &str, expected: &str) {
     assert_eq!(apply(text, &[insert_member(&Spot::Before(find(text, head)), member)]), expected);
 }
 
+#[test]
+fn neighbours_go_without_the_space_between_them() {
+    let check = |text: &str, heads: &[&str], expected: &str| {
+        let nodes: Vec<SyntaxNode> = {
+            let root = parse(FileId(0), text).syntax();
+            let begins = |n: &SyntaxNode, head: &str| {
+                text[syntax::ast::span_without_doc(n).start as usize..].starts_with(head)
+            };
+            let one = |head: &&str| root.descendants().skip(1).find(|n| begins(n, head));
+            heads.iter().map(|head| one(head).expect("a node begins so")).collect()
+        };
+        assert_eq!(apply(text, &delete_members(&nodes)), expected);
+    };
+    check("t: A { x = 1  y = 2  z = 3 }", &["y", "z"], "t: A { x = 1 }");
+    check("t: A { w = 0  x = 1  y = 2  z = 3 }", &["x", "y", "z"], "t: A { w = 0 }");
+    check("t: A { w = 0  x = 1  y = 2  z = 3 }", &["w", "x", "z"], "t: A { y = 2 }");
+    check("t: A { x = 1  y = 2  z = 3 }", &["x", "y"], "t: A { z = 3 }");
+    check("t: A {\n    x = 1\n    y = 2\n    z = 3\n}", &["y", "z"], "t: A {\n    x = 1\n}");
+    check("t: A {\n    x = 1\n    y = 2 }", &["x", "y"], "t: A { }");
+}
 #[test]
 fn a_body_is_opened_where_there_is_none() {
     check_end(
