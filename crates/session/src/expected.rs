@@ -185,7 +185,7 @@ impl<'s> Unasked<'s> {
         let is_lone = |&unit: &ThingId| self.before.structure.slot_of(unit).is_some();
         let are_several = self.units.len() + self.more > 1 && self.units.iter().all(is_lone);
         are_several.then(|| {
-            let message = format!("{}: lock what shall stay", self.in_words());
+            let message = format!("lock what shall stay: {}", self.in_words());
             ModeView { constraint: String::new(), message, span: None }
         })
     }

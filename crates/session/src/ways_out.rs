@@ -18,7 +18,7 @@ use crate::view::{Choice, Question};
 use crate::write_back::settle_places;
 use crate::{views, words};
 use base::Name;
-use kernel::{Command, Path, Step, ThingId};
+use kernel::{BinaryOperator, Command, ConstraintInstance, Path, Step, Term, ThingId};
 use plan::Plans;
 use solve::Level;
 use std::collections::BTreeSet;
@@ -84,12 +84,16 @@ fn contradiction(open: &Open, host: &dyn Host, command: &Command) -> Option<Ques
             others.push(name.clone());
         }
     }
+    let others = by_likelihood(&open.state, &others, &measures_of(&trial.state, &new));
     let mut choices = Vec::new();
     if let Some(command) = only_read(open, host, members) {
         let label = "reference dimension: it only reads".into();
         choices.push(Choice { label, command });
     }
-    for other in others.iter().take(MOST_REPLACED) {
+    // without a law of its class a thing is none of that class any more
+    let own = others.iter().filter(|(_, law)| *law == Law::OfDocument).count();
+    let replaced = if own > 0 { own } else { others.len() };
+    for (other, _) in others.iter().take(replaced.min(MOST_REPLACED)) {
         let Some(path) = parse_path(other) else { continue };
         let mut replaced = copy(open, host);
         let gone = apply::apply(&mut replaced, host, &Command::Delete(path));
@@ -115,11 +119,64 @@ fn contradiction(open: &Open, host: &dyn Host, command: &Command) -> Option<Ques
     let message = match others.is_empty() {
         true => "This cannot hold with what stands fixed.".into(),
         false => {
-            let others: Vec<String> = others.iter().map(|o| in_words(&open.state, o)).collect();
+            let others: Vec<String> =
+                others.iter().map(|(o, _)| in_words(&open.state, o)).collect();
             format!("This cannot hold together with {}.", words::listed(&others))
         }
     };
     Some(Question { message, choices })
+}
+
+/// Who says a constraint.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Law {
+    /// The document, of its own things.
+    OfDocument,
+    /// A class, of each of its things.
+    OfClass,
+}
+
+/// Orders constraints by which of them a person most likely wants replaced, and tells who says them: what the document
+/// says, first what measures the same, then other dimensions, the latest first; last what classes say.
+fn by_likelihood(state: &State, names: &[String], measures: &[Name]) -> Vec<(String, Law)> {
+    let mut ranked: Vec<_> = { sources(state).zip(state.structure.constraints.iter()) }
+        .filter_map(|(source, instance)| {
+            let name = words::source_name(state, source).filter(|name| names.contains(name))?;
+            let is_own = instance.owner == kernel::DOCUMENT;
+            let law = if is_own { Law::OfDocument } else { Law::OfClass };
+            let measured = measured(state, *instance);
+            let kind = match measured {
+                Some(measure) if measures.contains(&measure) => 0,
+                Some(_) => 1,
+                None => 2,
+            };
+            Some(((law, kind, std::cmp::Reverse(instance.index)), name))
+        })
+        .collect();
+    ranked.sort();
+    ranked.into_iter().map(|((law, ..), name)| (name, law)).collect()
+}
+
+/// What constraints by these names measure.
+fn measures_of(state: &State, names: &[String]) -> Vec<Name> {
+    let all = sources(state).zip(state.structure.constraints.iter());
+    let is_meant = |source| words::source_name(state, source).is_some_and(|n| names.contains(&n));
+    let meant = all.filter(|&(source, _)| is_meant(source));
+    meant.filter_map(|(_, &instance)| measured(state, instance)).collect()
+}
+
+/// What a constraint gives as a number: the length of a line, say.
+fn measured(state: &State, instance: ConstraintInstance) -> Option<Name> {
+    let class = &state.lowered.document.classes[instance.class];
+    match &*class.constraints[instance.index as usize].rule {
+        Term::Binary(BinaryOperator::Equal, left, right) => match (&**left, &**right) {
+            // two places of which nothing is measured are level, upright, or one
+            (Term::Send { .. }, Term::Send { arguments, .. }) if arguments.is_empty() => None,
+            (Term::Send { name, .. }, _) => Some(name.clone()),
+            _ => None,
+        },
+        _ => None,
+    }
 }
 
 /// Asks of what is said of one thing's parts alone whether it is meant of its whole class, where the document

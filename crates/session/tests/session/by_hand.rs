@@ -144,6 +144,29 @@ fn what_contradicts_is_asked_about_with_ways_out_that_hold() {
 }
 
 #[test]
+fn a_length_too_much_offered_to_break_the_arcs_and_not_the_other_length() {
+    let mut desk = Desk::of(
+        "use geometry\na: Line { p1 = (0, 0)  p2 = (240, 0) }\nb: Line { p1 = (240, 80)  p2 = (0, 80) }\n\
+         c: Arc { center = (240, 40)  start = a.p2  end = b.p1 }\n\
+         d: Arc { center = (0, 40)  start = b.p2  end = a.p1 }\n\
+         constraint a.p1.y = a.p2.y\nconstraint b.p1.y = b.p2.y\n\
+         constraint a.tangent(to: c)\nconstraint a.tangent(to: d)\n\
+         constraint b.tangent(to: c)\nconstraint b.tangent(to: d)\n\
+         constraint c.radius = 40\nconstraint a.length = 6 * c.radius\n",
+    );
+    let offers = desk.session.offers(desk.id, &[at("b")]);
+    let offer = offers.iter().find(|offer| offer.label.starts_with("length")).expect("offered");
+    let command = offer.command(Some("250"));
+    let asked = desk.session.over_constrained(desk.id, &command).expect("it cannot hold");
+    let labels: Vec<&str> = asked.choices.iter().map(|c| c.label.as_str()).collect();
+    assert!(labels[1].contains("length of a = 6"), "{labels:?}");
+    assert!(labels.iter().all(|label| !label.contains("round")), "{labels:?}");
+    desk.apply(&asked.choices[1].command).expect("it was tried");
+    assert!((desk.number("a.length") - 250.0).abs() < 1e-6, "{}", desk.text());
+    assert!((desk.number("c.radius") - 40.0).abs() < 1e-6, "{}", desk.text());
+}
+
+#[test]
 fn a_dimension_beside_a_contradiction_is_asked_of_only_where_it_is_one_more() {
     let mut desk = Desk::of(
         "use geometry\na: Line { p1 = (0, 0)  p2 = (100, 0) }\nb: Line { p1 = (0, 50)  p2 = (30, 90) }\n\

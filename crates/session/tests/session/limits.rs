@@ -258,7 +258,7 @@ fn a_number_that_was_set_says_which_others_moved_where_there_was_a_choice() {
     let change = desk.set("gross", 238.0).expect("something yields");
     let told: Vec<&str> = change.modes.iter().map(|mode| &*mode.message).collect();
     let moved = "net moved from 100 to 100.028, tax moved from 19 % to 137.933 %";
-    assert_eq!(told, [format!("{moved}: lock what shall stay")]);
+    assert_eq!(told, [format!("lock what shall stay: {moved}")]);
     assert!(desk.set("net", 50.0).expect("it is given").modes.is_empty());
     let mut desk = Desk::of(&format!("{PRICE}anchor tax\n"));
     assert!(desk.set("gross", 238.0).expect("the net price yields").modes.is_empty());
