@@ -17,6 +17,7 @@ pub mod numbers;
 pub mod parameter;
 pub mod prompt;
 pub mod recorder;
+pub mod seeking;
 pub mod steps;
 pub mod tools;
 
@@ -48,6 +49,8 @@ pub struct Drafting {
     pub banding: RwSignal<bool>,
     /// Whether the next click says until where a program is visited.
     pub seeking: RwSignal<bool>,
+    /// What the keyboard has found meanwhile.
+    pub sought: RwSignal<Option<String>>,
     /// The step that is lit.
     pub lit: RwSignal<Option<String>>,
     /// The parameter that is about to be defined, or said anew.
@@ -70,6 +73,7 @@ impl Default for Drafting {
             memory: RwSignal::new(None),
             banding: RwSignal::new(false),
             seeking: RwSignal::new(false),
+            sought: RwSignal::new(None),
             lit: RwSignal::new(None),
             parameter: RwSignal::new(NewParameter::default()),
             turned: RwSignal::new(0),
@@ -649,21 +653,6 @@ impl Lab {
         self.drafting.lit.set(None);
         self.show_waiting();
         is_there
-    }
-
-    /// The next click says until where the program is visited; or it does not any more.
-    fn seek(self) {
-        let seeks = !self.drafting.seeking.get_untracked();
-        self.drafting.seeking.set(seeks);
-        self.notice.set(seeks.then(|| Notice::Said(words::VISIT_PICK.into())));
-    }
-
-    /// The visit goes on until what is under the pointer is drawn.
-    pub fn visit_picked(self, pointer: &Pointer) {
-        // where nothing lies another click is waited for
-        if self.visit(&Go::UntilPicked(pointer.clone())) {
-            self.drafting.seeking.set(false);
-        }
     }
 
     fn replace_step(self, step: &str) {

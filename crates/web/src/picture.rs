@@ -620,7 +620,8 @@ fn key(lab: Lab, hand: hand::Hand, size: (f64, f64), e: &KeyboardEvent) {
     if e.ctrl_key() || e.meta_key() || e.alt_key() {
         return;
     }
-    if lab.tool_key(&e.key(), e.shift_key(), size) {
+    let is_taken = lab.seek_key(&e.key(), e.shift_key());
+    if is_taken || lab.tool_key(&e.key(), e.shift_key(), size) {
         e.prevent_default();
         e.stop_propagation();
         return;

@@ -2,7 +2,7 @@
 
 use browser::Visit;
 use browser::drafting::{asked, calculate, define, enter, fill, has, pick, press, set, submit};
-use browser::hands::{state, text_of};
+use browser::hands::{chord, state, text_of};
 
 #[tokio::test]
 async fn the_circle_that_is_nearest_to_the_picks_is_drawn() {
@@ -152,6 +152,20 @@ async fn a_wrong_step_is_found_by_what_it_drew_and_replaced() {
     visit.until("document.querySelector('.steps .next')?.dataset.step === 'turns.circle'").await;
     // its rows tell that turn
     let told = "document.querySelector(\"[data-step='turns'] .step\").innerText";
+    visit.until(&format!("{told}.includes('turn 2 of 3')")).await;
+    // without a pointer the arrow keys go through what is drawn
+    press(&visit, "[data-visit='end']").await;
+    press(&visit, "[data-visit='picked']").await;
+    visit.until("document.activeElement?.id === 'picture'").await;
+    for _ in 0..12 {
+        chord(&visit, &[], '\u{E014}').await;
+        let told = "return document.body.innerText.includes('turns[1].circle: Enter')";
+        if visit.script(told).await == true {
+            break;
+        }
+    }
+    chord(&visit, &[], '\u{E007}').await;
+    visit.until("document.querySelector('.steps .next')?.dataset.step === 'turns.circle'").await;
     visit.until(&format!("{told}.includes('turn 2 of 3')")).await;
     // the inner circle shall have a quarter of the radius
     press(&visit, "[data-step='turns.circle2'] [data-step-replace]").await;

@@ -130,6 +130,8 @@ pub enum Go {
     To(String),
     /// Before the step that drew what lies under a pointer, in the turn that drew it.
     UntilPicked(Pointer),
+    /// Before the step that drew what has a name, in the turn that drew it: `column[2].ring`.
+    UntilDrawn(String),
 }
 
 /// A measure that is taken by pointing.

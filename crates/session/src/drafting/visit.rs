@@ -12,6 +12,7 @@ use crate::view::{Pointer, Refusal};
 use crate::words;
 use base::Name;
 use eval::{Answer, Evaluator, Standing};
+use std::collections::BTreeSet;
 use syntax::ast::Value;
 
 /// The home in front of a step: the first turn of the loops around it.
@@ -150,6 +151,10 @@ pub(crate) fn go(open: &mut Open, go: &Go) -> Result<(), Refusal> {
             home_of(&source, (&program, &example), address, &turns).ok_or_else(none)?
         }
         Go::UntilPicked(pointer) => until_picked(open, (&program, &example), pointer)?,
+        Go::UntilDrawn(name) => {
+            let none = || words::refuse(format!("{program} draws no {name}"));
+            until_drawn((&program, &example), name, &source).ok_or_else(none)?
+        }
     };
     enter(open, to);
     Ok(())
@@ -218,9 +223,38 @@ fn until_picked(
     let all = scene::scene(&open.state, &whole);
     let none = || words::refuse("nothing that the program drew lies here".into());
     let found = scene::nearest(all.iter(), pointer).ok_or_else(none)?;
-    let (address, turns) =
-        place_of(&text::Source::now(&open.state), program, &found.text).ok_or_else(none)?;
-    home_of(&text::Source::now(&open.state), (program, example), &address, &turns).ok_or_else(none)
+    until_drawn((program, example), &found.text, &text::Source::now(&open.state)).ok_or_else(none)
+}
+
+fn until_drawn(
+    (program, example): (&Name, &Name),
+    drawn: &str,
+    source: &text::Source,
+) -> Option<Home> {
+    let (address, turns) = place_of(source, program, drawn)?;
+    home_of(source, (program, example), &address, &turns)
+}
+
+/// The home of all of the program that is recorded.
+fn whole(open: &Open) -> Option<Home> {
+    let recording = open.recording.as_ref()?;
+    let (program, example) = (recording.program.clone(), recording.example.clone());
+    Some(Home::Program { program, example, way: Vec::new(), before: None })
+}
+
+/// Names what the program that is recorded draws, in order, guides among it: each of its turns by itself.
+pub(crate) fn drawn(open: &Open) -> Vec<String> {
+    let Some(whole) = whole(open) else { return Vec::new() };
+    let all = scene::scene(&open.state, &whole).into_iter();
+    let mut known = BTreeSet::new();
+    let figures = all.filter(|found| !found.is_place && found.side_of.is_none());
+    figures.map(|found| found.text).filter(|text| known.insert(text.clone())).collect()
+}
+
+/// Returns how one of these is drawn.
+pub(crate) fn drawing(open: &Open, drawn: &str) -> drawing::Drawing {
+    let drawing = whole(open).map(|whole| scene::drawing_of(&open.state, &whole, drawn));
+    drawing.unwrap_or_default()
 }
 
 /// The address of the step that made what a path leads to, and the turns on the way: `column[2].ring.center`.

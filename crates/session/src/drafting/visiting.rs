@@ -126,6 +126,17 @@ impl Session {
         visit::is_inside(open).then(|| visit::drawn_so_far(&open.state, &home(open)))
     }
 
+    /// Names what the program that is recorded draws, in order, each of its turns by itself; nothing where none is
+    /// recorded. [`Go::UntilDrawn`](super::view::Go::UntilDrawn) takes such a name.
+    pub fn drawn_names(&self, id: DocumentId) -> Vec<String> {
+        visit::drawn(self.document(id))
+    }
+
+    /// Returns how one of these is drawn; nothing for any other name.
+    pub fn drawn_by_name(&self, id: DocumentId, name: &str) -> drawing::Drawing {
+        visit::drawing(self.document(id), name)
+    }
+
     /// Returns what of what is recorded can be picked now and is no part of the drawing: what was drawn for construction
     /// alone, and the figures among the parameters.
     pub fn guides(&self, id: DocumentId) -> drawing::Drawing {

@@ -850,6 +850,16 @@ fn a_wrong_step_is_found_by_what_it_drew_and_replaced() {
     desk.session.visit(desk.id, &Go::UntilPicked(pointer(-20.0, 124.85))).expect("it lies there");
     let view = desk.session.steps(desk.id, None).expect("it is recorded");
     assert_eq!(view.at.as_deref(), Some("column.circle"));
+    // without a pointer it is one of what the program draws, by its name
+    desk.session.visit(desk.id, &Go::End).expect("there is one");
+    let names = desk.session.drawn_names(desk.id);
+    assert!(names.contains(&"column[2].circle".to_string()), "{names:?}");
+    assert!(!desk.session.drawn_by_name(desk.id, "column[2].circle").elements.is_empty());
+    desk.session.visit(desk.id, &Go::UntilDrawn("column[2].circle".into())).expect("it is drawn");
+    let view = desk.session.steps(desk.id, None).expect("it is recorded");
+    assert_eq!(view.at.as_deref(), Some("column.circle"));
+    let none = desk.session.visit(desk.id, &Go::UntilDrawn("nothing".into())).expect_err("none");
+    assert_eq!(none.message, "Rings draws no nothing");
     // the rows tell the third turn, and say so
     let told = |desk: &Desk, path: &str| {
         let rows = desk.session.steps(desk.id, None).expect("it is recorded").rows;

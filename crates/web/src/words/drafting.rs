@@ -119,4 +119,10 @@ pub fn of_set(name: &str, is_in: bool) -> String {
     if is_in { format!("Leave {name} out") } else { format!("Take {name} in") }
 }
 /// What is waited for where a program is visited until something is drawn.
-pub const VISIT_PICK: &str = "Pick what the program drew: it is visited until that is drawn.";
+pub const VISIT_PICK: &str =
+    "Pick what the program drew, or go to it by the arrow keys: it is visited until that is drawn.";
+
+/// What the keyboard has found that the program drew.
+pub fn visit_until(name: &str) -> String {
+    format!("{name}: Enter visits the program until it is drawn.")
+}
