@@ -40,8 +40,19 @@ pub(crate) fn annotations(open: &Open) -> Vec<Annotation> {
     if on.len() > MOST {
         return Vec::new();
     }
-    // what is typed in a pane is of the class: the text stands elsewhere
-    let numbers = if prototype.is_none() { numbers(state) } else { BTreeMap::new() };
+    let pane = open.pane.as_ref().filter(|_| prototype.is_some());
+    let numbers = match pane {
+        None => numbers(state),
+        // what is typed in a pane is of the class, and said of the prototype
+        Some(pane) => {
+            let said = by_end(state, classing::constraints_of(state, &pane.class));
+            let of_pane = |said: EqualsNumber| EqualsNumber {
+                left: format!("{}.{}", pane.name, said.left),
+                ..said
+            };
+            said.into_iter().map(|(end, said)| (end, of_pane(said))).collect()
+        }
+    };
     let (own, of_parts): (Vec<_>, Vec<_>) = on.into_iter().partition(|(_, of)| of.owner == owner);
     let said = |one| annotation(state, &evaluator, (owner, &numbers), one);
     let told = relations::signs(state, &evaluator, is_part);
@@ -70,8 +81,11 @@ fn on<'a>(
 
 /// The constraints of the text that give something a number, by where they end.
 fn numbers(state: &State) -> BTreeMap<u32, EqualsNumber> {
-    let constraints = state.members(SyntaxKind::Constraint);
-    let said = constraints.filter_map(|member| match member {
+    by_end(state, state.members(SyntaxKind::Constraint))
+}
+
+fn by_end(state: &State, members: impl Iterator<Item = Member>) -> BTreeMap<u32, EqualsNumber> {
+    let said = members.filter_map(|member| match member {
         Member::Constraint(constraint) => {
             let end = u32::from(constraint.syntax().text_range().end());
             Some((end, classing::equals_number(state, &constraint)?))

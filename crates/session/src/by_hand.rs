@@ -214,7 +214,14 @@ impl Session {
             Deed::Add => {
                 let command = offer.command(value);
                 let is_dimension = offer.value.is_some();
-                let anew = is_dimension.then(|| ways_out::said_anew(open, &beside, &command));
+                let anew = is_dimension.then(|| match &open.pane {
+                    None => ways_out::said_anew(open, &beside, &command),
+                    Some(pane) => {
+                        let beside = Beside::of(&*self.host, &self.documents, pane.of);
+                        let (home, of) = (self.document(pane.of), (&pane.class, &pane.name));
+                        ways_out::said_anew_of_class(home, &beside, of, &command)
+                    }
+                });
                 Ok(turned(anew.flatten().unwrap_or(command)))
             }
             Deed::Rule(reference) => {

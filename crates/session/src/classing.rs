@@ -217,6 +217,20 @@ pub(crate) struct EqualsNumber {
     pub(crate) span: Span,
 }
 
+/// The constraints in the body of a class that a text declares.
+pub(crate) fn constraints_of(state: &State, class: &Name) -> impl Iterator<Item = Member> {
+    let is_it = |member: &Member| match member {
+        Member::Class(declared) => declared.name().is_some_and(|name| name.text() == &**class),
+        _ => false,
+    };
+    let classes: Vec<Member> = state.members(SyntaxKind::Class).filter(is_it).collect();
+    let bodies = classes.into_iter().filter_map(|member| match member {
+        Member::Class(declared) => declared.body(),
+        _ => None,
+    });
+    bodies.flat_map(|body| body.members())
+}
+
 /// Reads a constraint that says of something which number it is.
 pub(crate) fn equals_number(state: &State, constraint: &Constraint) -> Option<EqualsNumber> {
     let rule = constraint.rule()?;

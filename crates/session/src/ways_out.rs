@@ -235,14 +235,42 @@ fn sources(state: &State) -> impl Iterator<Item = plan::Source> {
 /// Returns the command that gives a dimension another value, where a constraint of the document gives it a number
 /// already and the new one holds; nothing where it would be a new one, or contradict others.
 pub(crate) fn said_anew(open: &Open, host: &dyn Host, command: &Command) -> Option<Command> {
+    let (left, value) = equation(command).filter(|_| open.pane.is_none())?;
+    let rule = format!("{left} = {value}");
+    let own = open.state.members(SyntaxKind::Constraint);
+    // a constraint that is switched off, or yields, says nothing: another one does
+    let is_said = |state: &State| offers::holds(state, host, &[&rule]);
+    with_number(open, host, own, (left, value), is_said)
+}
+
+/// The same in the pane of a class, of what its body says. The document is the one that declares it.
+pub(crate) fn said_anew_of_class(
+    home: &Open,
+    host: &dyn Host,
+    (class, name): (&Name, &Name),
+    command: &Command,
+) -> Option<Command> {
+    let (left, value) = equation(command)?;
+    let left = left.strip_prefix(&**name)?.strip_prefix('.')?;
+    with_number(home, host, classing::constraints_of(&home.state, class), (left, value), |_| true)
+}
+
+/// What a command says is equal to what.
+fn equation(command: &Command) -> Option<(&str, &str)> {
     let Command::Edit { target, members } = command else { return None };
-    let rule = members.strip_prefix("constraint ")?;
-    let (left, value) = rule.split_once(" = ")?;
-    if !target.is_empty() || open.pane.is_some() || members.contains('\n') {
-        return None;
-    }
+    let is_one = target.is_empty() && !members.contains('\n');
+    members.strip_prefix("constraint ").filter(|_| is_one)?.split_once(" = ")
+}
+
+/// Returns the command by which one of some constraints says another number; nothing where that would not hold.
+fn with_number(
+    open: &Open,
+    host: &dyn Host,
+    constraints: impl Iterator<Item = Member>,
+    (left, value): (&str, &str),
+    is_said: impl Fn(&State) -> bool,
+) -> Option<Command> {
     let text = &open.state.text;
-    let constraints = open.state.members(SyntaxKind::Constraint);
     let said = constraints.filter_map(|member| match member {
         Member::Constraint(constraint) => {
             classing::equals_number(&open.state, &constraint).filter(|said| said.left == left)
@@ -257,9 +285,7 @@ pub(crate) fn said_anew(open: &Open, host: &dyn Host, command: &Command) -> Opti
         // what is drawn is given where it lies then
         let (state, mut planner) = settle_places(&open.state, state, planner, host);
         let is_right = !state.has_errors() && state.status(&mut planner).satisfied;
-        // a constraint that is switched off, or yields, says nothing: another one does
-        let is_said = is_right && offers::holds(&state, host, &[rule]);
-        is_said.then(|| Command::Text(state.text.clone()))
+        (is_right && is_said(&state)).then(|| Command::Text(state.text.clone()))
     })
 }
 

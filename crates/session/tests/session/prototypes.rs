@@ -75,6 +75,26 @@ fn lines_drawn_in_the_pane_are_parts_of_every_one() {
 }
 
 #[test]
+fn a_dimension_in_the_pane_of_a_class_could_not_be_typed_anew() {
+    let (mut desk, shown) = pane();
+    let long = "constraint strut.line.length = 120";
+    let long = Command::Edit { target: Path::default(), members: long.into() };
+    desk.session.apply(shown, &long).expect("it can be said");
+    let said = desk.session.annotations(shown);
+    let offer = said.first().and_then(|one| one.typed.clone()).expect("it takes another number");
+    assert_eq!(offer.value.as_deref(), Some("120"));
+    let command = desk.session.said(shown, &offer, Some("80")).expect("it fits");
+    desk.session.apply(shown, &command).expect("it holds");
+    let text = desk.text();
+    assert!(text.contains("    constraint line.length = 80\n"), "{text}");
+    assert!(!text.contains("120"), "{text}");
+    for thing in ["a", "b"] {
+        assert!((desk.number(&format!("{thing}.line.length")) - 80.0).abs() < 1e-6, "{text}");
+    }
+    assert_eq!(desk.wrong(), [], "{text}");
+}
+
+#[test]
 fn what_is_said_typed_and_deleted_in_the_pane_is_of_the_class() {
     let (mut desk, shown) = pane();
     let level = Command::Edit {
