@@ -7,7 +7,7 @@
 mod relations;
 
 use crate::by_hand::class_at;
-use crate::classing::{self, EqualsNumber};
+use crate::classing::{self, EqualsNumber, ReadValue};
 use crate::document::Open;
 use crate::offers::{REVERSED, words_of};
 use crate::session::thing_at;
@@ -42,10 +42,11 @@ pub(crate) fn annotations(open: &Open) -> Vec<Annotation> {
     }
     let pane = open.pane.as_ref().filter(|_| prototype.is_some());
     let numbers = match pane {
-        None => numbers(state),
+        None => by_end(state, state.members(SyntaxKind::Constraint), classing::equation),
         // what is typed in a pane is of the class, and said of the prototype
         Some(pane) => {
-            let said = by_end(state, classing::constraints_of(state, &pane.class));
+            let said =
+                by_end(state, classing::constraints_of(state, &pane.class), classing::equation);
             let of_pane = |said: EqualsNumber| EqualsNumber {
                 left: format!("{}.{}", pane.name, said.left),
                 ..said
@@ -81,14 +82,19 @@ fn on<'a>(
 
 /// The constraints of the text that give something a number, by where they end.
 fn numbers(state: &State) -> BTreeMap<u32, EqualsNumber> {
-    by_end(state, state.members(SyntaxKind::Constraint))
+    by_end(state, state.members(SyntaxKind::Constraint), classing::equals_number)
 }
 
-fn by_end(state: &State, members: impl Iterator<Item = Member>) -> BTreeMap<u32, EqualsNumber> {
+/// Those of some constraints that give something a value, by where they end.
+fn by_end(
+    state: &State,
+    members: impl Iterator<Item = Member>,
+    read: ReadValue,
+) -> BTreeMap<u32, EqualsNumber> {
     let said = members.filter_map(|member| match member {
         Member::Constraint(constraint) => {
             let end = u32::from(constraint.syntax().text_range().end());
-            Some((end, classing::equals_number(state, &constraint)?))
+            Some((end, read(state, &constraint)?))
         }
         _ => None,
     });
@@ -140,9 +146,12 @@ fn annotation<'a>(
     let (measure, number) = reading.measure.unzip();
     let typed = measure.clone().and_then(|label| {
         let said = numbers.get(&state.lowered.own_span(written.origin)?.end)?;
+        // of an expression the left is what is measured, else that is the value
+        let is_measured = said.is_number || said.left.contains(&format!(".{label}"));
+        let said = is_measured.then_some(said)?;
         let (members, value) =
             (format!("constraint {} = {{}}", said.left), Some(said.value.clone()));
-        Some(Offer { label, members, value, ..Offer::default() })
+        Some(Offer { label, members, value, stands: true, ..Offer::default() })
     });
     let path = match instance.owner == owner {
         true => words::constraint_path(state, instance),

@@ -214,12 +214,14 @@ impl Session {
             Deed::Add => {
                 let command = offer.command(value);
                 let is_dimension = offer.value.is_some();
+                // who types anew what stands on the drawing sees the expression that goes
+                let read = if offer.stands { classing::equation } else { classing::equals_number };
                 let anew = is_dimension.then(|| match &open.pane {
-                    None => ways_out::said_anew(open, &beside, &command),
+                    None => ways_out::said_anew(open, &beside, read, &command),
                     Some(pane) => {
                         let beside = Beside::of(&*self.host, &self.documents, pane.of);
                         let (home, of) = (self.document(pane.of), (&pane.class, &pane.name));
-                        ways_out::said_anew_of_class(home, &beside, of, &command)
+                        ways_out::said_anew_of_class(home, &beside, of, read, &command)
                     }
                 });
                 Ok(turned(anew.flatten().unwrap_or(command)))

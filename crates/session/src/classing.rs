@@ -209,13 +209,18 @@ struct NumberSaid {
     span: Span,
 }
 
-/// What a constraint says that is an equation with a number alone on its right.
+/// What a constraint says that is an equation: as a rule with a number alone on its right.
 pub(crate) struct EqualsNumber {
     pub(crate) left: String,
     pub(crate) value: String,
     /// Where the number stands in the text.
     pub(crate) span: Span,
+    /// Whether it is a number alone.
+    pub(crate) is_number: bool,
 }
+
+/// How a constraint is read that gives something a value.
+pub(crate) type ReadValue = fn(&State, &Constraint) -> Option<EqualsNumber>;
 
 /// The constraints in the body of a class that a text declares.
 pub(crate) fn constraints_of(state: &State, class: &Name) -> impl Iterator<Item = Member> {
@@ -233,17 +238,22 @@ pub(crate) fn constraints_of(state: &State, class: &Name) -> impl Iterator<Item 
 
 /// Reads a constraint that says of something which number it is.
 pub(crate) fn equals_number(state: &State, constraint: &Constraint) -> Option<EqualsNumber> {
+    equation(state, constraint).filter(|said| said.is_number)
+}
+
+/// Reads a constraint that says of something what it is, by a number or an expression.
+pub(crate) fn equation(state: &State, constraint: &Constraint) -> Option<EqualsNumber> {
     let rule = constraint.rule()?;
     let start = u32::from(rule.syntax().text_range().start());
     let text = rule.syntax().text().to_string();
     let (left, right) = text.split_once(" = ")?;
     let value = right.trim();
-    let read = lang::read_literal(value, lang::Wanted::Anything, &state.lowered.document).ok()?;
-    let kernel::Literal::Number(_) = read else { return None };
+    let read = lang::read_literal(value, lang::Wanted::Anything, &state.lowered.document);
+    let is_number = matches!(read, Ok(kernel::Literal::Number(_)));
     let before = text.len() - right.trim_start().len();
     let at = start + u32::try_from(before).ok()?;
     let span = Span::new(at, at + u32::try_from(value.len()).ok()?);
-    Some(EqualsNumber { left: left.trim().into(), value: value.into(), span })
+    Some(EqualsNumber { left: left.trim().into(), value: value.into(), span, is_number })
 }
 
 /// The number on the right of a constraint's equation, where there is nothing else.

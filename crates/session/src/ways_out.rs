@@ -6,7 +6,7 @@
 
 use crate::apply;
 use crate::by_hand::class_at;
-use crate::classing;
+use crate::classing::{self, EqualsNumber, ReadValue};
 use crate::document::Open;
 use crate::host::Host;
 use crate::offers;
@@ -232,15 +232,21 @@ fn sources(state: &State) -> impl Iterator<Item = plan::Source> {
     (0u32..).take(state.structure.constraints.len()).map(plan::Source::Constraint)
 }
 
-/// Returns the command that gives a dimension another value, where a constraint of the document gives it a number
-/// already and the new one holds; nothing where it would be a new one, or contradict others.
-pub(crate) fn said_anew(open: &Open, host: &dyn Host, command: &Command) -> Option<Command> {
+/// Returns the command that gives a dimension another value, where a constraint of the document gives it one that is
+/// read so, and the new one holds; nothing where it would be a new one, or contradict others.
+pub(crate) fn said_anew(
+    open: &Open,
+    host: &dyn Host,
+    read: ReadValue,
+    command: &Command,
+) -> Option<Command> {
     let (left, value) = equation(command).filter(|_| open.pane.is_none())?;
     let rule = format!("{left} = {value}");
     let own = open.state.members(SyntaxKind::Constraint);
     // a constraint that is switched off, or yields, says nothing: another one does
     let is_said = |state: &State| offers::holds(state, host, &[&rule]);
-    with_number(open, host, own, (left, value), is_said)
+    let said = own.filter_map(|member| said_by(&open.state, member, read));
+    with_number(open, host, said.filter(|said| said.left == left), value, is_said)
 }
 
 /// The same in the pane of a class, of what its body says. The document is the one that declares it.
@@ -248,11 +254,14 @@ pub(crate) fn said_anew_of_class(
     home: &Open,
     host: &dyn Host,
     (class, name): (&Name, &Name),
+    read: ReadValue,
     command: &Command,
 ) -> Option<Command> {
     let (left, value) = equation(command)?;
     let left = left.strip_prefix(&**name)?.strip_prefix('.')?;
-    with_number(home, host, classing::constraints_of(&home.state, class), (left, value), |_| true)
+    let own = classing::constraints_of(&home.state, class);
+    let said = own.filter_map(|member| said_by(&home.state, member, read));
+    with_number(home, host, said.filter(|said| said.left == left), value, |_| true)
 }
 
 /// What a command says is equal to what.
@@ -262,21 +271,22 @@ fn equation(command: &Command) -> Option<(&str, &str)> {
     members.strip_prefix("constraint ").filter(|_| is_one)?.split_once(" = ")
 }
 
-/// Returns the command by which one of some constraints says another number; nothing where that would not hold.
+fn said_by(state: &State, member: Member, read: ReadValue) -> Option<EqualsNumber> {
+    match member {
+        Member::Constraint(constraint) => read(state, &constraint),
+        _ => None,
+    }
+}
+
+/// Returns the command by which one of some constraints says another value; nothing where that would not hold.
 fn with_number(
     open: &Open,
     host: &dyn Host,
-    constraints: impl Iterator<Item = Member>,
-    (left, value): (&str, &str),
+    said: impl Iterator<Item = EqualsNumber>,
+    value: &str,
     is_said: impl Fn(&State) -> bool,
 ) -> Option<Command> {
     let text = &open.state.text;
-    let said = constraints.filter_map(|member| match member {
-        Member::Constraint(constraint) => {
-            classing::equals_number(&open.state, &constraint).filter(|said| said.left == left)
-        }
-        _ => None,
-    });
     said.take(MOST_REPLACED).find_map(|said| {
         // the number alone, so that all that is said beside it stays
         let insert = value.trim().to_string();

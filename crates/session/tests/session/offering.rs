@@ -61,6 +61,24 @@ fn a_slot_took_twelve_clicks_to_be_tangent() {
 }
 
 #[test]
+fn a_dimension_by_an_expression_did_not_answer_a_double_click() {
+    let mut desk = Desk::of(
+        "use geometry\na: Line { p1 = (0, 0)  p2 = (100, 0) }\nb: Line { p1 = (0, 50)  p2 = (50, 50) }\n\
+         constraint a.length = 2 * b.length\n",
+    );
+    let said = desk.session.annotations(desk.id).pop().expect("it stands on the drawing");
+    let typed = said.typed.expect("it can be typed anew");
+    assert_eq!(typed.value.as_deref(), Some("2 * b.length"));
+    for value in ["3 * b.length", "120"] {
+        let command = desk.session.said(desk.id, &typed, Some(value)).expect("it fits");
+        desk.apply(&command).expect("it can be said");
+        let text = desk.text();
+        assert!(text.ends_with(&format!("constraint a.length = {value}\n")), "{text}");
+        assert!(desk.session.status(desk.id).satisfied, "{text}");
+    }
+}
+
+#[test]
 fn three_lines_are_made_parallel_at_once() {
     let lines = "use geometry\na: Line { p1 = (0, 0)  p2 = (100, 10) }\nb: Line { p1 = (0, 50)  p2 = (90, 80) }\n\
                  c: Line { p1 = (0, 90)  p2 = (90, 85) }\n";
@@ -823,6 +841,7 @@ fn a_named_number_stands_on_the_drawing_as_a_written_one_does() {
     twice.apply(&command).expect("it can be said");
     assert!(twice.text().contains("constraint a.length = 50\n"), "{}", twice.text());
     assert!(!twice.text().contains("= 45\n"), "{}", twice.text());
-    // what another number gives is not typed here
-    assert_eq!(all.iter().filter(|one| one.typed.is_some()).count(), 1);
+    // what another number gives is typed as the text has it, where it stands to the right
+    let typed = all.iter().map(|one| one.typed.as_ref().and_then(|typed| typed.value.as_deref()));
+    assert_eq!(typed.collect::<Vec<_>>(), [Some("w"), None, Some("6 cm")]);
 }
