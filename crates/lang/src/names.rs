@@ -236,6 +236,8 @@ impl Lowerer<'_> {
             });
         } else if is_label(word) {
             d = d.hint(format!("a label is followed by a colon: `{}: …`", word.text()));
+        } else if let Some(hint) = number_of_turn(word) {
+            d = d.hint(hint);
         } else if let Some(unit) = self.unit_below(place, word.text()) {
             d = d.meant(&unit);
         } else if let Some(power) = raised(word.text()).or_else(|| raised_below(word)) {
@@ -701,6 +703,19 @@ fn unit_above(word: &ast::Word) -> Option<String> {
         (Some(BinaryOp::Divide), Expr::Number(number)) => Some(number.unit()?.text().to_string()),
         _ => None,
     }
+}
+
+/// What a name stands for in other languages, in a loop of so many turns: the number of the turn.
+fn number_of_turn(word: &ast::Word) -> Option<String> {
+    const COUNTS: [&str; 10] =
+        ["i", "j", "k", "n", "turn", "index", "count", "iteration", "round", "step"];
+    let name = word.text();
+    if !COUNTS.contains(&name) {
+        return None;
+    }
+    let turns = word.token.parent_ancestors().find_map(ast::Repeat::cast)?.times()?;
+    let turns = turns.syntax().text();
+    Some(format!("a `repeat` counts no turns: `for {name} in 0..<{turns} {{ … }}` does"))
 }
 
 /// Says how `5/s` is written where a number is divided by what is a unit and no name.
