@@ -1,4 +1,5 @@
 //! The session, from outside: what a person does to a document, and what its text says then.
+mod among;
 mod boxes;
 mod by_hand;
 mod choosing;
