@@ -485,7 +485,7 @@ impl Form {
         let layout = self.layout(self.things[owner].class)?;
         layout.fields.get(self.things[thing].field as usize).map(|&f| document.field_name(f))
     }
-    fn paths(&self) -> Paths<'_> {
+    pub(crate) fn paths(&self) -> Paths<'_> {
         let Self { things, merged, unlike, layouts, references, .. } = self;
         Paths { things, merged, unlike: Unlikes::Made(unlike), layouts, references }
     }

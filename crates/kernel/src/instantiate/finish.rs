@@ -2,6 +2,7 @@
 
 use super::bind::bind;
 use super::body::Body;
+use super::copies::is_of_itself;
 use super::counting::Counting;
 use super::refer::refer;
 use super::{FaultKind, Maker};
@@ -168,7 +169,9 @@ fn give_slots(
         structure.slots[slot].is_layout &= layout.contains(&thing);
         structure.own_slots[first] = slot;
         structure.own_slots[thing] = slot;
-        if let Some(given) = body.givens[thing] {
+        let given = body.givens[thing]
+            .filter(|&given| !is_of_itself(body, &structure.layouts, givens, (thing, given)));
+        if let Some(given) = given {
             let known = structure.slots[slot].given.map(|known| (givers[slot], known));
             if known.is_none_or(|known| !counting.is_first(structure, known, (thing, given))) {
                 structure.slots[slot].given = Some(given);
