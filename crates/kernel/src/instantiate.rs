@@ -56,6 +56,8 @@ pub enum FaultKind {
     TooDeep,
     /// A path that leads nowhere.
     UnknownPart,
+    /// An element that a list is too short for.
+    NoElement,
     /// A merge of things that have no parts in common.
     VacuousMerge,
     /// A merge of primitive things of different kinds, or of lists of different lengths.
@@ -74,6 +76,7 @@ impl FaultKind {
             Self::TooManyThings => "too-many-things",
             Self::TooDeep => "too-deep",
             Self::UnknownPart => "unknown-part",
+            Self::NoElement => "index",
             Self::VacuousMerge => "vacuous-merge",
             Self::UnlikeMerge => "unlike-merge",
             Self::AbstractPart => "abstract-part",

@@ -565,6 +565,9 @@ impl Lowered {
                     FaultKind::EndlessParts => d.hint(
                         "a part that only names another thing is a path: `next: Path to Person`",
                     ),
+                    FaultKind::NoElement => d.hint(
+                        "how many it has is said where it is declared, `List of 3 Real`, or by a list of all: `= [1, 2, 3]`",
+                    ),
                     _ => d,
                 };
             };
@@ -573,8 +576,13 @@ impl Lowered {
         };
         // a ring of classes is told once, however many parts lead around it
         let mut endless: BTreeSet<String> = BTreeSet::new();
-        let is_new =
-            |f: &&Fault| f.kind != FaultKind::EndlessParts || endless.insert(f.message.clone());
+        // so is a list that is too short, whatever is asked of it there
+        let mut short: BTreeSet<Place> = BTreeSet::new();
+        let is_new = |f: &&Fault| match f.kind {
+            FaultKind::EndlessParts => endless.insert(f.message.clone()),
+            FaultKind::NoElement => short.insert(self.place(f.origin)),
+            _ => true,
+        };
         faults.iter().filter(is_new).map(diagnostic).collect()
     }
     /// Returns where a member stands; one that is read as it was before, where it stood.

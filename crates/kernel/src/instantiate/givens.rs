@@ -127,14 +127,22 @@ fn each_share<'d>(
         Some(Towards::Within(part)) => hand(ShareOf { part, binding: b }),
         Some(Towards::Itself) => each_share(maker, body, thing, further, hand),
         None => {
-            let path = Path(b.path.to_vec());
-            let message = if is_list {
-                format!("{path} leads nowhere in a list of {}", t.parts)
+            let (kind, message) = if is_list {
+                let elements = match t.parts {
+                    0 => "no elements".to_string(),
+                    1 => "1 element, [0] alone".to_string(),
+                    n => format!("{n} elements, [0] to [{}]", n - 1),
+                };
+                let step = Path(vec![step.clone()]);
+                let message = format!("the list has {elements}: there is no {step}");
+                (FaultKind::NoElement, message)
             } else {
-                format!("{} has no part {path}", maker.document.classes[class].name)
+                let path = Path(b.path.to_vec());
+                let class = &maker.document.classes[class].name;
+                (FaultKind::UnknownPart, format!("{class} has no part {path}"))
             };
             let origin = maker.givens[b.given.value].origin;
-            maker.fault(origin, FaultKind::UnknownPart, message);
+            maker.fault(origin, kind, message);
         }
     }
 }

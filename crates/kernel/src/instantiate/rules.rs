@@ -126,13 +126,18 @@ fn astray(maker: &mut Maker<'_>, body: &Body, thing: ThingId, paths: &[Path], or
             let class = body.things[astray.at].class;
             let step = Path(vec![path.0[astray.step].clone()]);
             let name = &maker.document.classes[class].name;
-            let message = match maker.document.classes[class].kind {
-                ClassKind::Reference(_) => {
-                    format!("{path} goes through a reference; say where that part is itself")
-                }
-                _ => format!("{name} has no part {step}, in {path}"),
+            let (kind, message) = match maker.document.classes[class].kind {
+                ClassKind::Reference(_) => (
+                    FaultKind::UnknownPart,
+                    format!("{path} goes through a reference; say where that part is itself"),
+                ),
+                ClassKind::List(_) if body.things[astray.at].parts == 0 => (
+                    FaultKind::NoElement,
+                    format!("the list has no elements: there is no {step}, in {path}"),
+                ),
+                _ => (FaultKind::UnknownPart, format!("{name} has no part {step}, in {path}")),
             };
-            maker.fault(origin, FaultKind::UnknownPart, message);
+            maker.fault(origin, kind, message);
         }
     }
 }
