@@ -13,8 +13,10 @@ impl Lab {
         self.drafting.seeking.set(seeks);
         self.drafting.sought.set(None);
         self.notice.set(seeks.then(|| Notice::Said(words::VISIT_PICK.into())));
-        if seeks {
-            keyboard::focus("#picture");
+        match seeks {
+            true => keyboard::focus("#picture"),
+            // what was found is lit no more
+            false => self.show_waiting(),
         }
     }
 
