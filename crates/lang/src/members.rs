@@ -13,6 +13,7 @@ use kernel::{
     ClassId, ClassKind, Count, Message, OriginId, Parameter, Part, Path, Primitive, Stay, Step,
 };
 use std::cell::OnceCell;
+use std::collections::BTreeSet;
 use std::rc::Rc;
 use syntax::SyntaxKind;
 use syntax::ast::{self, AstNode, Expr, Member, TypeShape, span_without_doc};
@@ -44,8 +45,8 @@ pub(crate) enum Pending {
     Note(usize),
     /// They end here: so many values, of the part of this index where the member declares one.
     Noted { member: usize, part: Option<u32>, givens: u32 },
-    /// Those of a loop end here, which made so many members where it was declared.
-    NotedLoop { member: usize, members: usize },
+    /// Those of a loop end here, which has these words and made so many members where it was declared.
+    NotedLoop { member: usize, members: usize, words: BTreeSet<Name> },
     /// The answer of a message.
     Answer { scope: Rc<Scope>, index: usize, definition: Rc<Definition> },
 }

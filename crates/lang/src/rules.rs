@@ -94,7 +94,9 @@ impl Lowerer<'_> {
         match pending {
             Pending::Kept(run) => self.keep_values(run),
             Pending::KeptLoop(kept) => self.keep_loop(&kept),
-            Pending::NotedLoop { member, members } => self.note_loop(member, members, among.noted),
+            Pending::NotedLoop { member, members, words } => {
+                self.note_loop((member, members), &words, among.noted);
+            }
             Pending::Note(member) => among.noted = self.begin_note(member),
             Pending::Noted { member, part, givens } => {
                 self.note(member, part, givens, among.noted);

@@ -94,23 +94,26 @@ impl<'l> Lowerer<'l> {
 
     /// Declares a loop that only gives values, and notes what it gives.
     pub(super) fn declare_loop_anew(&mut self, scope: &Scope, member: usize, node: Member) {
+        let words: BTreeSet<Name> = words_of(&node).into_iter().collect();
         self.pending.push(Pending::Note(member));
         let before = self.unrolled;
         self.declare_body(scope, vec![node]);
         let members = self.unrolled - before;
-        self.pending.push(Pending::NotedLoop { member, members });
+        self.pending.push(Pending::NotedLoop { member, members, words });
     }
 
     /// Notes what a loop gave, if it did no more than that.
-    pub(crate) fn note_loop(&mut self, member: usize, members: usize, before: SoFar) {
+    pub(crate) fn note_loop(
+        &mut self,
+        (member, members): (usize, usize),
+        words: &BTreeSet<Name>,
+        before: SoFar,
+    ) {
         let now = self.so_far();
         let members = members.saturating_add(now.unrolled - before.unrolled);
         if before.with_givens(now.givens).with_unrolled(now.unrolled) != now {
             return;
         }
-        let span = self.files[OWN].parse.outline().nth(member).map(|(_, span)| span);
-        let node = span.and_then(|span| self.files[OWN].parse.file().member_at(span));
-        let words: BTreeSet<Name> = node.iter().flat_map(words_of).collect();
         let Some(words) = self.named_by(words.iter()) else { return };
         self.added[member] = Some(Added {
             part: None,
@@ -138,6 +141,13 @@ impl<'l> Lowerer<'l> {
         words.map(|name| Some((name.clone(), self.named(name)?))).collect()
     }
 
+    /// Returns true for a part of the document whose body gives a list its elements.
+    fn gives_lists_in_body(&self, part: &Name) -> bool {
+        let root = self.document.root;
+        let mut from = self.given_in_bodies.range((root, part.clone(), Name::from(""))..);
+        from.next().is_some_and(|((class, of, _), _)| (*class, of) == (root, part))
+    }
+
     fn named(&self, name: &Name) -> Option<Option<Named>> {
         let root = self.document.root;
         let key = (root, name.clone());
@@ -145,7 +155,7 @@ impl<'l> Lowerer<'l> {
             || self.constants.contains(&key)
             || self.broken.contains(&key)
             || self.given_counts.contains_key(&key)
-            || self.given_in_bodies.keys().any(|(class, part, _)| (*class, part) == (root, name));
+            || self.gives_lists_in_body(name);
         if is_more {
             return None;
         }
