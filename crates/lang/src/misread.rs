@@ -46,6 +46,25 @@ impl Lowerer<'_> {
         }
     }
 
+    /// Warns of a whole number that is another one as a number of the computer.
+    pub(crate) fn warn_of_lost_digits(&mut self, scope: &Scope, number: &NumberExpr, value: f64) {
+        /// From here on not every whole number is one of the computer's: 2^53.
+        const LARGE: f64 = 9_007_199_254_740_992.0;
+        if value < LARGE || scope.file != OWN || self.silent > 0 {
+            return;
+        }
+        let Some(digits) = number.digits() else { return };
+        let written = digits.text().replace('_', "");
+        // the nearest of the computer's is whole, and is written in full here
+        let kept = format!("{value:.0}");
+        if written.bytes().all(|b| b.is_ascii_digit()) && written.trim_start_matches('0') != kept {
+            let place = Place { file: scope.file, span: number.span() };
+            let message = format!("{written} is kept as {kept}: beyond 2^53 digits are lost");
+            let d = Diagnostic::warning("lost-digits", place, message);
+            self.report(d.hint("up to 9007199254740992 every whole number is exact"));
+        }
+    }
+
     /// Warns of a value that a part of some class may be meant to have otherwise.
     pub(crate) fn warn_of_value(&mut self, scope: &Scope, class: &str, value: &Expr) {
         if scope.file != OWN || self.silent > 0 {

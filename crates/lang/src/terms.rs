@@ -219,6 +219,9 @@ impl Lowerer<'_> {
             return None;
         }
         let bare = dimension.is_none();
+        if bare {
+            self.warn_of_lost_digits(scope, n, value);
+        }
         let term = Term::Number { value, dimension: dimension.unwrap_or(Dimension::NONE), bare };
         Some((term, Kind::Number(dimension)))
     }
