@@ -476,6 +476,15 @@ async fn figure_7_6_is_recorded_by_the_keyboard_alone() {
     keys(&visit, &format!("circle.radius < minimum{enter}")).await;
     let turns = "document.querySelector(\"[data-step='turns']\").innerText";
     visit.until(&format!("{turns}.includes('6 turns')")).await;
+    // it is visited until something is drawn that the arrow keys go to
+    hands::press_by_keys(&visit, "at.dataset.visit === 'picked'", enter).await;
+    visit.until("document.activeElement.id === 'picture'").await;
+    keys(&visit, &key::DOWN.to_string()).await;
+    let found = "axis: Enter visits the program until it is drawn.";
+    visit.until(&format!("document.body.innerText.includes({found:?})")).await;
+    visit.picture("visited-by-keys").await;
+    keys(&visit, &enter.to_string()).await;
+    visit.until("document.querySelector('[aria-current=step]').innerText.includes('axis')").await;
     keys(&visit, &key::TAB.to_string()).await;
 }
 
