@@ -5,6 +5,7 @@ use crate::kinds::Kind;
 use crate::lower::Lowerer;
 use crate::members::is_constant;
 use crate::names::{LONGEST_WORD, raised};
+use crate::numbers::unit_meant;
 use crate::scope::Scope;
 use crate::terms::code_for;
 use base::{Diagnostic, Name, Place, Span};
@@ -301,11 +302,6 @@ impl Lowerer<'_> {
                 d.hint(format!("a text stands in quotes: `{quoted}`"))
                     .fix(format!("write {quoted}"), [(place, quoted)])
             }
-            (
-                Kind::Number(Some(Dimension::CHARGE)),
-                Kind::Number(Some(Dimension::TEMPERATURE)),
-                _,
-            ) => d.hint("`C` is a coulomb; temperatures are in kelvin: 20 °C is `293.15 K`"),
             (Kind::Number(_), Kind::Text, _) => {
                 d.hint(format!("put the value into a text: `\"{{{written}}}\"`"))
             }
@@ -330,6 +326,11 @@ impl Lowerer<'_> {
                 if wanted.is_none() && !found.is_none() =>
             {
                 d.hint(counted(&self.document, *found, value, &written))
+            }
+            (Kind::Number(Some(found)), Kind::Number(Some(wanted)), _)
+                if let Some(hint) = unit_meant(value, *found, *wanted) =>
+            {
+                d.hint(hint)
             }
             (Kind::Tuple(items), Kind::Thing(class), _) if self.wants_length(*class, items) => {
                 d.hint(self.plain_as_length(value))

@@ -1,6 +1,6 @@
 //! Numbers in text: units, what a person types into a value, and how a value is written.
 
-use crate::kinds::dimension_in_words;
+use crate::kinds::{dimension_in_words, with_article};
 use crate::lower::OWN;
 use base::number::{RULE_TOLERANCE, rounded, shortest};
 use base::{Diagnostic, Name, Place, Span};
@@ -8,7 +8,53 @@ use expr::dimension::Dimension;
 use expr::units;
 use kernel::quantity::{from_bare, from_si, is_of_the_sheet, spelling_for, to_bare, to_si};
 use kernel::{ClassId, ClassKind, Document, Literal, Primitive, Quantity, in_unit};
-use syntax::ast::{BinaryOp, Expr, UnaryOp};
+use syntax::ast::{AstNode, BinaryOp, Expr, UnaryOp};
+
+/// Says which unit was meant in a value that measures something else than is wanted: the letter of another quantity, or
+/// none behind the one number of a product, where its factor would have a name.
+pub(crate) fn unit_meant(value: &Expr, found: Dimension, wanted: Dimension) -> Option<String> {
+    match (found, wanted) {
+        (Dimension::CHARGE, Dimension::TEMPERATURE) => {
+            return Some(
+                "`C` is a coulomb; temperatures are in kelvin: 20 °C is `293.15 K`".into(),
+            );
+        }
+        (Dimension::CAPACITANCE, Dimension::TEMPERATURE) => {
+            return Some("`F` is a farad; temperatures are in kelvin: 68 °F is `293.15 K`".into());
+        }
+        _ => {}
+    }
+    let mut numbers = Vec::new();
+    factors(value, false, &mut numbers);
+    let [(number, is_divisor)] = &numbers[..] else { return None };
+    let missing = if *is_divisor { found.over(wanted) } else { wanted.over(found) };
+    let (factor, quantity) = (missing.named()?, wanted.named()?);
+    let unit = units::preferred(missing).map_or_else(|| missing.to_string(), str::to_string);
+    Some(format!(
+        "is {number} {}? `{number} {unit}` makes it {}",
+        with_article(factor),
+        with_article(quantity)
+    ))
+}
+
+/// Collects the numbers without a unit that a product multiplies or divides by, as they are written, each with whether
+/// it divides.
+fn factors(product: &Expr, is_divisor: bool, into: &mut Vec<(String, bool)>) {
+    match product {
+        Expr::Paren(inner) => {
+            inner.inner().iter().for_each(|inner| factors(inner, is_divisor, into));
+        }
+        Expr::Number(number) if number.unit().is_none() => {
+            into.push((number.syntax().text().to_string().trim().to_string(), is_divisor));
+        }
+        Expr::Binary(e) if matches!(e.op(), Some(BinaryOp::Multiply | BinaryOp::Divide)) => {
+            e.left().iter().for_each(|left| factors(left, is_divisor, into));
+            let turns = e.op() == Some(BinaryOp::Divide);
+            e.right().iter().for_each(|right| factors(right, is_divisor != turns, into));
+        }
+        _ => {}
+    }
+}
 
 /// Returns a limit of a way that began at `from` as text and unit: as few digits as say it to a
 /// thousandth, rounded towards the beginning, so that what is read lies on the way.
