@@ -428,8 +428,8 @@ impl Lowerer<'_> {
         if (left, right) == (&Kind::Picture, &Kind::Picture) {
             d = d.hint("`picture(a, b)` draws both");
         }
-        if let Some(number) = self.fraction_within(place, (left, right)) {
-            d = d.hint(format!("a unit belongs to the number before it alone: write `{number}`"));
+        if let Some(hint) = self.unit_meant_within(place, (left, right)) {
+            d = d.hint(hint);
         }
         let is_plain = |k: &Kind| *k == Kind::PLAIN;
         if matches!((left, right), (Kind::Number(_), Kind::Number(_)))
@@ -447,8 +447,8 @@ impl Lowerer<'_> {
         self.report(d);
     }
 
-    /// Returns what a side of a comparison that measures something else was meant to be: `1/4 in`.
-    fn fraction_within(&self, place: Place, kinds: (&Kind, &Kind)) -> Option<String> {
+    /// Says which unit was meant in a side of a comparison that measures something else: in `1/4 in`, in `m * 9.81`.
+    fn unit_meant_within(&self, place: Place, kinds: (&Kind, &Kind)) -> Option<String> {
         let (Kind::Number(Some(left)), Kind::Number(Some(right))) = kinds else { return None };
         let text = self.files[place.file].text.get(place.span.range())?;
         let Expr::Binary(compared) =
@@ -456,11 +456,13 @@ impl Lowerer<'_> {
         else {
             return None;
         };
-        let fraction = |side: Option<Expr>, wanted: Dimension| match side? {
-            Expr::Binary(quotient) => fraction_of_unit(&quotient, wanted),
-            _ => None,
+        let meant = |side: Option<Expr>, found: Dimension, wanted: Dimension| match side? {
+            Expr::Binary(quotient) if let Some(number) = fraction_of_unit(&quotient, wanted) => {
+                Some(format!("a unit belongs to the number before it alone: write `{number}`"))
+            }
+            side => unit_meant(&side, found, wanted),
         };
-        fraction(compared.right(), *left).or_else(|| fraction(compared.left(), *right))
+        meant(compared.right(), *right, *left).or_else(|| meant(compared.left(), *left, *right))
     }
 
     /// Reports a part that is called like a message; an element of a list stands in square brackets.

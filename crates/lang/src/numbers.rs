@@ -22,6 +22,7 @@ pub(crate) fn unit_meant(value: &Expr, found: Dimension, wanted: Dimension) -> O
         (Dimension::CAPACITANCE, Dimension::TEMPERATURE) => {
             return Some("`F` is a farad; temperatures are in kelvin: 68 °F is `293.15 K`".into());
         }
+        _ if found.is_none() || wanted.is_none() => return None,
         _ => {}
     }
     let mut numbers = Vec::new();
