@@ -670,8 +670,8 @@ mod tests {
         let [_, end] = crate::curve::ends(&lid).expect("it has ends");
         let lines = [curve, lid, Shape::Segment(end, p(0.0, 0.0))];
         let ring = crate::curve::ring_along(&lines).expect("they follow one another");
-        assert!(crate::curve::covers(&[ring.clone()], p(2.0, 1.0)));
-        assert!(!crate::curve::covers(&[ring.clone()], p(2.0, 1.6)));
+        assert!(crate::curve::covers(std::slice::from_ref(&ring), p(2.0, 1.0)));
+        assert!(!crate::curve::covers(std::slice::from_ref(&ring), p(2.0, 1.6)));
         let mut element = Element::new(Shape::Region(vec![ring]));
         element.style.fill = Some(Color::Faint);
         let text = write(
