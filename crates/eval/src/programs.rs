@@ -730,7 +730,7 @@ impl<'a> Run<'_, 'a> {
                 (None, _) => format!("operand {}", i + 1),
             };
             let value = self.evaluator.term(&argument.value, frame).ok()?;
-            Some((name, self.evaluator.in_words(&value)))
+            Some((name, self.evaluator.in_words_briefly(&value)))
         };
         arguments.iter().enumerate().filter_map(operand).collect()
     }

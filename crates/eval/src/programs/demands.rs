@@ -43,6 +43,19 @@ impl<'a> Evaluator<'a> {
         let values: Vec<String> = values.iter().map(|value| self.in_words(value)).collect();
         format!("{name} has to be one of {}", values.join(", "))
     }
+    /// Returns a value as people read it; of a figure of many parts what it is.
+    pub(super) fn in_words_briefly(&self, value: &Answer<'a>) -> String {
+        /// So many letters are read at a glance.
+        const LONGEST: usize = 80;
+        let words = self.in_words(value);
+        match value {
+            Answer::Made(made) if words.len() > LONGEST => {
+                format!("{}(…)", self.document.classes[made.class].name)
+            }
+            Answer::List(items) if words.len() > LONGEST => format!("[{} elements]", items.len()),
+            _ => words,
+        }
+    }
     /// Returns a value as people read it, every number with its unit.
     pub(super) fn in_words(&self, value: &Answer<'a>) -> String {
         match value {
