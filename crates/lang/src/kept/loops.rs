@@ -1,8 +1,8 @@
 //! Loops that only give values, at the top of the document's own text: what their turns gave is copied, as long as
 //! every word of them means what it meant.
 //!
-//! A loop is another's business than a plain part: its values speak of parts that other members declare. Beside the
-//! values it is noted what each word of it names there, of which class and of how many elements.
+//! Unlike a plain part, a loop gives values to parts that other members declare. So it is noted beside its values which
+//! part each of its words names, of which class and of how many elements.
 
 use super::Added;
 use crate::kept::SoFar;
@@ -11,7 +11,7 @@ use crate::lower::{Lowered, Lowerer, OWN};
 use crate::members::Pending;
 use crate::scope::Scope;
 use base::{Id, Name};
-use kernel::{ClassId, ClassKind, Count};
+use kernel::{ClassId, ClassKind, Count, Primitive};
 use std::collections::BTreeSet;
 use std::rc::Rc;
 use syntax::ast::{self, AstNode, Expr, Member};
@@ -171,6 +171,11 @@ impl<'l> Lowerer<'l> {
             && self.document.classes[class].elements.is_empty()
         {
             (class, lists) = (element, lists + 1);
+        }
+        // a whole number may say how often the loop runs: then its value counts
+        let counts = |p: Primitive| lists == 0 && p.is_whole();
+        if matches!(self.document.classes[class].kind, ClassKind::Primitive(p) if counts(p)) {
+            return None;
         }
         let is_declared = class.index() < self.declared_classes
             && !self.counts.from_outside.contains(&(index as u32));

@@ -78,12 +78,18 @@ fn what_is_kept_is_what_lowering_anew_gives() {
 }
 
 /// What stands in a document with loops that only give values: of each row one, mostly the first.
-const LOOPS: [&[&str]; 16] = [
+const LOOPS: [&[&str]; 18] = [
     &["many: List of 4 Widget", "many: List of 4 Widget { left = 9 }", "many: List of 5 Widget"],
     &["", "// a word", "unit mm", "x: Real = 3"],
     &["few: List of 4 Real", "few: List of 4 Real = [1, 2, 3, 4]", "few: List of 4 Integer"],
     &["table: List of 2 List of 2 Widget", "table: List of 3 List of 2 Widget"],
-    &["constant n: Integer = 3", "constant n: Integer = 2", "n: Real = 3"],
+    &[
+        "constant n: Integer = 3",
+        "constant n: Integer = 2",
+        "n: Real = 3",
+        "n: Integer = 3",
+        "n: Integer = 2",
+    ],
     &["for i in 0..3 { many[i].left = 2 * i }", "for i in 0..2 { many[i].left = 2 * i }"],
     &["", "x: Real = 3", "w: Widget"],
     &["for i in 0..<n { many[i].bottom = i }", "for i in 0..2 { many[i].bottom = n + i }"],
@@ -92,6 +98,19 @@ const LOOPS: [&[&str]; 16] = [
     &["for i in 0..1 { for a in table[i] { a.bottom = i } }", "for i in 0..9 { few[i] = 1 }"],
     &["for i in 0..3 { few[i] = i * 2 }", "for i in 0..3 { few[i] = many[i].left }"],
     &["for i in 1..3 { many[i] = copy of many[i - 1] }", ""],
+    &[
+        "m: Integer = 2",
+        "m: Bool = true",
+        "k, m: Integer = 1",
+        "x: Real = 1\nm: Integer in 0..9 = 3",
+        "m => 2",
+        "class m { }",
+    ],
+    &[
+        "for i in 0..m { few[i] = m }",
+        "for i in 0..<m { for j in 0..i { table[0][j].left = m } }",
+        "for few in 0..2 { many[few].left = few }",
+    ],
     &["", "merge many[0].left = many[1].left", "constraint few[0] = few[1]"],
     &["", "p: Pair", "left: Widget", "class More { a: Real }"],
     &["", "many[1].bottom = 5", "for a in many { a.more = 3 }"],
