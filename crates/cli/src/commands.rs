@@ -8,6 +8,7 @@
 //! those of `session::view`.
 
 use crate::documents::{self, OpenError, Opened, find, open, open_sparingly};
+use crate::family::Format;
 use crate::rows::{self, Row};
 use presentation::annotations::{self, Moved};
 use serde_json::{Value, json};
@@ -460,8 +461,8 @@ pub(crate) enum Dimensions {
     LeftOut,
 }
 
-/// A document as SVG, and as DXF.
-fn drawn(opened: &Opened, dimensions: Dimensions, language: Language) -> String {
+/// A document as it is drawn.
+fn drawn(opened: &Opened, dimensions: Dimensions, format: Format) -> String {
     let (session, id) = (&opened.session, opened.id);
     let said = match dimensions {
         Dimensions::Shown => session.annotations(id),
@@ -470,16 +471,16 @@ fn drawn(opened: &Opened, dimensions: Dimensions, language: Language) -> String 
     let with_said = |picture: &mut PictureView, pixels| {
         annotations::draw(picture, &said, &Moved::default(), pixels);
     };
-    match language {
-        Language::Svg if said.is_empty() => session.svg(id),
-        Language::Dxf if said.is_empty() => session.dxf(id),
-        Language::Svg => {
+    match format {
+        Format::Svg if said.is_empty() => session.svg(id),
+        Format::Dxf if said.is_empty() => session.dxf(id),
+        Format::Svg => {
             let mut picture = session.picture(id);
             let pixels = session::roomy(&picture);
             with_said(&mut picture, pixels);
             session::svg_at(&picture, pixels)
         }
-        Language::Dxf => {
+        Format::Dxf => {
             let mut picture = session.picture(id);
             annotations::draw_for_dxf(&mut picture, with_said);
             session.dxf_of(id, &picture)
@@ -487,30 +488,36 @@ fn drawn(opened: &Opened, dimensions: Dimensions, language: Language) -> String 
     }
 }
 
-/// What a drawing is written in.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Language {
-    Svg,
-    Dxf,
+/// Returns what a drawing is written as into a file, by the end of its name; SVG where that says nothing.
+fn format_of(output: &Path) -> Result<Format, OpenError> {
+    let end = output.extension().unwrap_or_default().to_string_lossy().to_lowercase();
+    match &*end {
+        "" | "svg" => Ok(Format::Svg),
+        "dxf" => Ok(Format::Dxf),
+        _ => Err(OpenError::Refused(format!(
+            "{}: a drawing is written as .svg or .dxf, not as .{end}",
+            output.display()
+        ))),
+    }
 }
 
 /// Draws a document as SVG, into a file or onto standard output; as DXF into a file of that kind.
 ///
 /// # Errors
-/// If the file cannot be read or written.
+/// If the file cannot be read or written, or is of another kind.
 pub(crate) fn draw(
     path: &Path,
     output: Option<&Path>,
     dimensions: Dimensions,
     form: Form,
 ) -> Result<Report, OpenError> {
+    let format = output.map_or(Ok(Format::Svg), format_of)?;
     let opened = open(path)?;
-    let is_dxf = output.and_then(Path::extension).is_some_and(|e| e.eq_ignore_ascii_case("dxf"));
-    let written = drawn(&opened, dimensions, if is_dxf { Language::Dxf } else { Language::Svg });
+    let written = drawn(&opened, dimensions, format);
     // what nobody asks for is not made: a large drawing takes its time
     let svg = match form {
         Form::Words => String::new(),
-        Form::Json if is_dxf => drawn(&opened, dimensions, Language::Svg),
+        Form::Json if format == Format::Dxf => drawn(&opened, dimensions, Format::Svg),
         Form::Json => written.clone(),
     };
     let undrawn = opened.session.undrawn(opened.id);

@@ -168,6 +168,17 @@ fn what_constraints_say_is_drawn_where_it_is_asked_for() {
 }
 
 #[test]
+fn a_drawing_is_written_as_what_its_file_is_called() {
+    let pdf = std::env::temp_dir().join("thinglab-draw.pdf");
+    let to = ["-o", pdf.to_str().expect("a plain path")];
+    let refused = asked("draw-pdf", "use geometry\np: Point\n", "draw", &to);
+    let told = String::from_utf8_lossy(&refused.stderr);
+    assert_eq!(refused.status.code(), Some(2), "{told}");
+    assert!(told.contains("a drawing is written as .svg or .dxf, not as .pdf"), "{told}");
+    assert!(!pdf.exists());
+}
+
+#[test]
 fn what_has_no_place_is_drawn_apart() {
     let svg = printed("draw-unplaced", DIVIDER, "draw", &[]);
     // what the words of the three things stand at
