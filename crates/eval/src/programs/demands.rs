@@ -57,16 +57,23 @@ impl<'a> Evaluator<'a> {
         }
     }
     /// Returns a value as people read it, every number with its unit.
-    pub(super) fn in_words(&self, value: &Answer<'a>) -> String {
+    pub fn in_words(&self, value: &Answer<'a>) -> String {
+        self.in_words_as(value, "")
+    }
+    /// The same of what is of a class: angles are in degrees.
+    fn in_words_as(&self, value: &Answer<'a>, class: &str) -> String {
         match value {
             Answer::Number(x, dimension) => {
-                let quantity = Quantity { dimension: *dimension, ..Quantity::default() };
+                let quantity = Quantity { dimension: *dimension, class, written: "" };
                 kernel::show_quantity(*x, quantity, self.document).with_unit()
             }
             Answer::Made(made) => {
+                let of = |field| &*self.document.classes[self.document.field_class(field)].name;
+                let classes = self.document.layout(made.class).into_iter().map(of);
+                let said = made.fields.iter().zip(classes);
+                let said = said.map(|(field, class)| self.in_words_as(field, class));
                 let name = &self.document.classes[made.class].name;
-                let say = |field: &Answer<'a>| self.in_words(field);
-                format!("{name}{}", Self::listed_as(&say, &made.fields, ['(', ')']))
+                format!("{name}({})", said.collect::<Vec<_>>().join(", "))
             }
             Answer::List(items) => Self::listed_as(&|item| self.in_words(item), items, ['[', ']']),
             other => self.text_of(other),

@@ -109,7 +109,7 @@ impl Dialogue {
                         .to_string()
                 }
                 SlotKind::Edges => match self.edges.len() {
-                    0 => "pick a line or an arc, or drag over all; what goes on from it is taken \
+                    0 => "pick a line, an arc or a curve, or drag over all; what goes on from it is taken \
                           along"
                         .to_string(),
                     1 => "1 edge; pick the next, Enter ends it".to_string(),

@@ -446,7 +446,7 @@ fn value_words<'a>(state: &'a State, evaluator: &Evaluator<'a>, answer: &Answer<
         Answer::Context(context) => counted(context.result().count(), "figure"),
         other => match evaluator.outline_of(other).map_or(0, |edges| edges.len()) {
             0 if is_outlined => format!("area {}", area()),
-            0 => evaluator.text_of(other),
+            0 => evaluator.in_words(other),
             edges => format!("{}, area {}", counted(edges, "edge"), area()),
         },
     }

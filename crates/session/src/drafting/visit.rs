@@ -214,14 +214,8 @@ fn until_picked(
     (program, example): (&Name, &Name),
     pointer: &Pointer,
 ) -> Result<Home, Refusal> {
-    let whole = Home::Program {
-        program: program.clone(),
-        example: example.clone(),
-        way: Vec::new(),
-        before: None,
-    };
-    let all = scene::scene(&open.state, &whole);
     let none = || words::refuse("nothing that the program drew lies here".into());
+    let all = scene::scene(&open.state, &whole(open).ok_or_else(none)?);
     let found = scene::nearest(all.iter(), pointer).ok_or_else(none)?;
     until_drawn((program, example), &found.text, &text::Source::now(&open.state)).ok_or_else(none)
 }

@@ -331,6 +331,16 @@ fn a_spline_is_picked_by_its_curve_and_at_its_places() {
 }
 
 #[test]
+fn the_angles_of_an_elliptic_arc_are_told_in_degrees() {
+    let mut desk = Desk::of("use drafting\nuse geometry\nprogram Cam() { }\ncam: Cam\n");
+    desk.session.record(desk.id, "Cam").expect("it is there");
+    draw(&mut desk, "EllipticArc", &["0,0", "60,0", "30", "-90 deg", "180 deg"]);
+    let rows = desk.session.steps(desk.id, None).expect("it is recorded").rows;
+    let told = "EllipticArc(Point(0, 0), Point(60, 0), 30, -90 deg, 180 deg)";
+    assert_eq!(rows[0].value.as_deref(), Some(told));
+}
+
+#[test]
 fn a_contour_goes_along_a_spline_and_is_picked_by_it() {
     let mut desk = wave();
     begin(&mut desk, "Line");
