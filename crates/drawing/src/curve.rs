@@ -188,8 +188,7 @@ fn surrounds(ring: &[Corner], p: Point) -> bool {
             let ends = [*from, *to].map(|c| Corner::new(c.at, 0.0));
             return inside ^ surrounds(&chords, p) ^ surrounds_by_chord(ends, p);
         }
-        let (a, b) = (from.at, to.at);
-        let left = (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
+        let left = left_of([*from, *to], p);
         let is_crossed = surrounds_by_chord([*from, *to], p);
         // what turns to the left lies to the right of its chord
         let is_under = match edge(*from, *to) {
@@ -205,8 +204,13 @@ fn surrounds(ring: &[Corner], p: Point) -> bool {
 /// Whether a chord lies between a point and what is far to its right.
 fn surrounds_by_chord([from, to]: [Corner; 2], p: Point) -> bool {
     let (a, b) = (from.at, to.at);
-    let left = (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
-    (a.y > p.y) != (b.y > p.y) && (left > 0.0) == (b.y > a.y)
+    (a.y > p.y) != (b.y > p.y) && (left_of([from, to], p) > 0.0) == (b.y > a.y)
+}
+
+/// Positive where a point lies to the left of a chord: twice the area between them.
+fn left_of([from, to]: [Corner; 2], p: Point) -> f64 {
+    let (a, b) = (from.at, to.at);
+    (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x)
 }
 
 /// Returns the longer half axis, the ratio and the parameters of an arc from any two half axes at a right angle: the

@@ -236,7 +236,9 @@ impl Lowerer<'_> {
             });
         } else if is_label(word) {
             d = d.hint(format!("a label is followed by a colon: `{}: …`", word.text()));
-        } else if let Some(hint) = number_of_turn(word) {
+        } else if let Some(hint) = number_of_turn(word)
+            && self.near_own(scope, word.text()).is_none()
+        {
             d = d.hint(hint);
         } else if let Some(unit) = self.unit_below(place, word.text()) {
             d = d.meant(&unit);
