@@ -44,6 +44,20 @@ pub fn rest_at(selector: &'static str) {
     });
 }
 
+/// With the next frame, does what gives somebody the keyboard, unless by then somebody else has taken it.
+pub fn unless_taken(then: impl FnOnce() + 'static) {
+    let before = holder();
+    request_animation_frame(move || {
+        let now = holder().filter(|now| now.tag_name() != "BODY");
+        let is_taken = now.is_some_and(|now| {
+            before.is_none_or(|before| !before.is_same_node(Some(&now)))
+        });
+        if !is_taken {
+            then();
+        }
+    });
+}
+
 /// The buttons of a list, and the heads of its shelves, in order: those that no shut shelf hides.
 fn buttons(list: &str) -> Vec<HtmlElement> {
     of_list(list, "")

@@ -149,8 +149,9 @@ impl Tree {
         self.take_keyboard(at);
     }
 
+    /// Gives a row the keyboard with the next frame, unless what was done meanwhile asks for it.
     fn focus(self, at: usize) {
-        request_animation_frame(move || {
+        keyboard::unless_taken(move || {
             self.scroll_to(at);
             if let Some(row) = document().get_element_by_id(&format!("row-{at}")) {
                 let row: web_sys::HtmlElement = JsCast::unchecked_into(row);
