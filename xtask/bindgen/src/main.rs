@@ -4,6 +4,7 @@
 //! of the module. `--rest` leaves the functions of a list to `PAGE_rest.wasm`; `--followed` has the module mark which
 //! of them are called, and writes to `PAGE.functions` where, and their keys.
 
+mod order;
 mod split;
 
 use std::collections::BTreeSet;
@@ -105,6 +106,12 @@ fn run(wish: &Wish) -> Result<(), String> {
             }
             fs::write(&module, followed.module).map_err(told)?;
             fs::write(beside(".functions"), list).map_err(told)?;
+        }
+    }
+    // who looks at a module's names or marks wants it as it was made
+    if !wish.is_named && !matches!(wish.then, Then::Followed) {
+        for module in files.iter().filter(|file| file.extension().is_some_and(|e| e == "wasm")) {
+            fs::write(module, order::ordered(&fs::read(module).map_err(told)?)?).map_err(told)?;
         }
     }
     let mut all = files.iter().chain(&wish.further);
