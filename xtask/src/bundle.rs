@@ -76,7 +76,7 @@ pub(crate) fn module(
     let wasm = compile(package, compiler, effort)?;
     let folder = if effort == Effort::Followed { "followed" } else { profile };
     let module = target().join("bindgen").join(folder).join(package);
-    let is_divided = package == "web" && matches!(effort, Effort::Full | Effort::Tests);
+    let is_divided = is_divided(package, effort);
     let compressed = COMPRESSED.map(|name| top().join("crates/web/assets").join(name));
     let is_stale =
         |(name, file): (&str, &PathBuf)| is_older(&module.join(format!("{name}.br")), file);
@@ -106,6 +106,11 @@ pub(crate) fn module(
         run("the page's module was not made", quiet(&mut bindgen))?;
     }
     Ok((module, wasm))
+}
+
+/// Whether a package's module comes in two parts.
+fn is_divided(package: &str, effort: Effort) -> bool {
+    package == "web" && matches!(effort, Effort::Full | Effort::Tests)
 }
 
 fn compile(package: &str, compiler: &WasmCompiler, effort: Effort) -> Result<Option<Made>, String> {
@@ -155,10 +160,14 @@ fn compile_command(package: &str, compiler: &WasmCompiler, effort: Effort) -> Co
     };
     command.args(["--package", package, "--bin", package, "--profile", effort.page_profile()]);
     command.args(["--target", "wasm32-unknown-unknown", "--target-dir"]).arg(target());
-    quiet(&mut command);
+    quiet(&mut command).arg("--");
     if matches!(effort, Effort::Full | Effort::Followed) {
         // what leads to a message (`#[cold]`) becomes a function of its own, which comes after a first drag
-        command.args(["--", "-Cllvm-args=-hot-cold-split -hotcoldsplit-max-params=12"]);
+        command.arg("-Cllvm-args=-hot-cold-split -hotcoldsplit-max-params=12");
+    }
+    if is_divided(package, effort) {
+        // by these is told which data come after it, too
+        command.arg("-Clink-arg=--emit-relocs");
     }
     command
 }

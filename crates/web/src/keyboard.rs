@@ -49,9 +49,8 @@ pub fn unless_taken(then: impl FnOnce() + 'static) {
     let before = holder();
     request_animation_frame(move || {
         let now = holder().filter(|now| now.tag_name() != "BODY");
-        let is_taken = now.is_some_and(|now| {
-            before.is_none_or(|before| !before.is_same_node(Some(&now)))
-        });
+        let is_taken =
+            now.is_some_and(|now| before.is_none_or(|before| !before.is_same_node(Some(&now))));
         if !is_taken {
             then();
         }

@@ -4,6 +4,7 @@
 //! of the module. `--rest` leaves the functions of a list to `PAGE_rest.wasm`; `--followed` has the module mark which
 //! of them are called, and writes to `PAGE.functions` where, and their keys.
 
+mod data;
 mod order;
 mod split;
 
@@ -80,6 +81,8 @@ fn run(wish: &Wish) -> Result<(), String> {
         .out_name(&name)
         .typescript(false)
         .remove_name_section(!keeps_names)
+        // by the linker's names one function is told from another
+        .demangle(matches!(wish.then, Then::AsItIs))
         .remove_producers_section(true)
         .omit_default_module_path(false)
         .web(true)
@@ -92,8 +95,10 @@ fn run(wish: &Wish) -> Result<(), String> {
     match &wish.then {
         Then::AsItIs => {}
         Then::Divided(rest) => {
-            let parts = split::split(&fs::read(&module).map_err(told)?, rest, wish.is_named)?;
-            fs::write(&module, parts.first).map_err(told)?;
+            let linked = fs::read(&wish.page).map_err(told)?;
+            let module = fs::read(&module).map_err(told)?;
+            let parts = split::split(&module, &linked, rest, wish.is_named)?;
+            fs::write(beside("_bg.wasm"), parts.first).map_err(told)?;
             files.push(beside("_rest.wasm"));
             fs::write(beside("_rest.wasm"), parts.rest).map_err(told)?;
         }

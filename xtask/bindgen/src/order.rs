@@ -6,7 +6,9 @@ use std::convert::Infallible;
 
 use wasm_encoder::reencode::{Error, Reencode, utils};
 use wasm_encoder::{CodeSection, FunctionSection, Module};
-use wasmparser::{CodeSectionReader, FunctionBody, FunctionSectionReader, Parser, Payload, TypeRef};
+use wasmparser::{
+    CodeSectionReader, FunctionBody, FunctionSectionReader, Parser, Payload, TypeRef,
+};
 
 /// Writes a module with its own functions in another order. What names them by index names the same ones then.
 ///
@@ -16,9 +18,7 @@ pub(crate) fn ordered(bytes: &[u8]) -> Result<Vec<u8>, String> {
     let told = |error: &dyn std::fmt::Display| error.to_string();
     let mut order = Order::of(bytes).map_err(|error| told(&error))?;
     let mut module = Module::new();
-    order
-        .parse_core_module(&mut module, Parser::new(0), bytes)
-        .map_err(|error| told(&error))?;
+    order.parse_core_module(&mut module, Parser::new(0), bytes).map_err(|error| told(&error))?;
     Ok(module.finish())
 }
 

@@ -1,19 +1,23 @@
 //! A module in two parts: the functions that a first drag runs, and the rest, which may come after it.
 //!
-//! The first part has everything but the bodies of the rest's functions. In their place stand stubs, which have the
-//! second part loaded when it is not there yet and call through the table. The second part imports the first one's
-//! memory, tables, globals and functions, and puts its own into the table when it is instantiated. Which functions are
-//! of the rest decides only what is sent when: any division is correct. `crates/web/rest.txt` lists them by [`key`], as an
+//! The first part has everything but the bodies of the rest's functions, and the data of which these alone speak
+//! ([`crate::data`]). In their place stand stubs, which have the second part loaded when it is not there yet and call
+//! through the table. The second part imports the first one's memory, tables, globals and functions; when it is
+//! instantiated it puts its own functions into the table and its data into the memory. Which functions are of the rest
+//! decides only what is sent when: any division is correct. `crates/web/rest.txt` lists them by [`keys_of`], as an
 //! instrumented page ([`follow`]) was seen not to call them; what is not listed is of the first part.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
+use std::ops::Range;
 
 use walrus::ir::Value;
 use walrus::{
-    ConstExpr, ElementItems, ElementKind, Export, ExportItem, FunctionBuilder, FunctionId,
-    FunctionKind, GlobalId, GlobalKind, ImportKind, ImportedFunction, LocalId, Module,
+    ConstExpr, DataKind, ElementItems, ElementKind, Export, ExportItem, FunctionBuilder,
+    FunctionId, FunctionKind, GlobalId, GlobalKind, ImportKind, ImportedFunction, LocalId, Module,
     ModuleConfig, TableId,
 };
+
+use crate::data;
 
 /// The name of the first part among the imports of the second.
 const FIRST: &str = "first";
@@ -29,9 +33,22 @@ pub(crate) struct Parts {
 /// What FNV-1a begins with, at 32 bits.
 const BASIS: u32 = 0x811c_9dc5;
 
-/// A function's key: the 32-bit FNV-1a hash of its name without the compiler's hashes of crates (`core[1f…]`), which
-/// differ from build to build.
-fn key(name: &str) -> u32 {
+/// The keys of a module's functions, in order: the 32-bit FNV-1a hash of a name as people read it, without the
+/// compiler's hashes of crates (`core[1f…]`), which differ from build to build; where a name comes again, which one it
+/// is stands behind it.
+fn keys_of(module: &Module) -> Vec<u32> {
+    let mut seen: BTreeMap<u32, u32> = BTreeMap::new();
+    let mut key = |function: &walrus::Function| {
+        let name = rustc_demangle::demangle(function.name.as_deref().unwrap_or_default());
+        let name = hash_of(&name.to_string());
+        let before = seen.entry(name).or_default();
+        *before += 1;
+        if *before == 1 { name } else { before.to_le_bytes().into_iter().fold(name, hashed) }
+    };
+    module.funcs.iter().map(&mut key).collect()
+}
+
+fn hash_of(name: &str) -> u32 {
     let mut hash = BASIS;
     let mut rest = name;
     while !rest.is_empty() {
@@ -62,22 +79,37 @@ pub(crate) fn keys(list: &str) -> BTreeSet<u32> {
 fn read(bytes: &[u8], is_named: bool) -> Result<Module, String> {
     let mut config = ModuleConfig::new();
     config.generate_name_section(is_named).generate_producers_section(false);
-    config.parse(bytes).map_err(|error| format!("{error:#}"))
+    let mut module = config.parse(bytes).map_err(|error| format!("{error:#}"))?;
+    for left_by_linker in ["linking", "reloc.CODE", "reloc.DATA"] {
+        module.customs.remove_raw(left_by_linker);
+    }
+    Ok(module)
 }
 
-/// Divides a module whose functions have names, which are dropped unless they are wanted.
+/// Divides a module whose functions have the linker's names; they keep them, as people read them, where `is_named`.
+/// From the module as it was `linked` it is told which data come with the rest.
 ///
 /// # Errors
 /// A module that is none, or that does not import what loads its second part.
-pub(crate) fn split(bytes: &[u8], rest: &BTreeSet<u32>, is_named: bool) -> Result<Parts, String> {
+pub(crate) fn split(
+    bytes: &[u8],
+    linked: &[u8],
+    rest: &BTreeSet<u32>,
+    is_named: bool,
+) -> Result<Parts, String> {
     let mut one = read(bytes, is_named)?;
     let mut two = read(bytes, is_named)?;
-    let is_of_rest = |function: &walrus::Function| {
-        let name = function.name.as_deref();
-        matches!(function.kind, FunctionKind::Local(_))
-            && name.is_some_and(|name| rest.contains(&key(name)))
+    let is_of_rest = |(function, key): (&walrus::Function, u32)| {
+        matches!(function.kind, FunctionKind::Local(_)) && rest.contains(&key)
     };
-    let rest: Vec<bool> = one.funcs.iter().map(is_of_rest).collect();
+    let rest: Vec<bool> = one.funcs.iter().zip(keys_of(&one)).map(is_of_rest).collect();
+    let names = one.funcs.iter().zip(&rest).filter(|&(_, &is_of_rest)| is_of_rest);
+    let names: BTreeSet<&str> = names.filter_map(|(f, _)| f.name.as_deref()).collect();
+    let late = data::late(linked, &names)?;
+    for function in one.funcs.iter_mut().chain(two.funcs.iter_mut()) {
+        let name = function.name.as_deref().map(rustc_demangle::demangle);
+        function.name = name.map(|name| name.to_string());
+    }
     let table = function_table(&one)?;
     let slots = one.tables.get(table).initial;
     let count = rest.iter().filter(|&&is_of_rest| is_of_rest).count() as u64;
@@ -91,7 +123,9 @@ pub(crate) fn split(bytes: &[u8], rest: &BTreeSet<u32>, is_named: bool) -> Resul
     let is_loaded = one.globals.add_local(walrus::ValType::I32, true, false, zero);
     let build = format!("of_{:08x}", bytes.iter().fold(BASIS, |hash, &byte| hashed(hash, byte)));
     stand_in(&mut one, &rest, slots, is_loaded)?;
+    let data = take(&mut one, &late);
     detach(&mut two, &rest, slots)?;
+    give(&mut two, data)?;
     share(&mut one, &mut two, is_loaded, &build)?;
     Ok(Parts { first: one.emit_wasm(), rest: two.emit_wasm() })
 }
@@ -140,6 +174,39 @@ fn stand_in(
         }
         body.const_(Value::I32(slot as i32)).call_indirect(kind, table);
         module.funcs.get_mut(id).kind = FunctionKind::Local(stub.local_func(arguments));
+    }
+    Ok(())
+}
+
+/// Takes ranges out of a module's data; gives what stood there, each with its address.
+fn take(module: &mut Module, ranges: &[Range<u32>]) -> Vec<(u32, Vec<u8>)> {
+    let mut taken = Vec::new();
+    for data in module.data.iter().map(walrus::Data::id).collect::<Vec<_>>() {
+        let data = module.data.get_mut(data);
+        let DataKind::Active { offset: ConstExpr::Value(Value::I32(begin)), .. } = data.kind else {
+            continue;
+        };
+        let begin = begin.cast_unsigned();
+        for range in ranges {
+            let place = |address: u32| address.checked_sub(begin).map(|place| place as usize);
+            let (Some(from), Some(to)) = (place(range.start), place(range.end)) else { continue };
+            // nothing compresses better than zeros
+            if let Some(bytes) = data.value.get_mut(from..to) {
+                taken.push((range.start, bytes.to_vec()));
+                bytes.fill(0);
+            }
+        }
+    }
+    taken
+}
+
+/// Gives a module data, each at its address.
+fn give(module: &mut Module, data: Vec<(u32, Vec<u8>)>) -> Result<(), String> {
+    let memory = module.get_memory_id().map_err(|error| error.to_string())?;
+    for (address, bytes) in data {
+        let offset = ConstExpr::Value(Value::I32(address.cast_signed()));
+        let data = module.data.add(DataKind::Active { memory, offset }, bytes);
+        module.memories.get_mut(memory).data_segments.insert(data);
     }
     Ok(())
 }
@@ -248,10 +315,10 @@ pub(crate) fn follow(bytes: &[u8]) -> Result<Followed, String> {
     let memory = module.get_memory_id().map_err(|error| error.to_string())?;
     let address = module.memories.get(memory).initial * PAGE;
     let mut keys = Vec::new();
-    for function in module.funcs.iter_mut() {
+    for (key, function) in keys_of(&module).into_iter().zip(module.funcs.iter_mut()) {
         let FunctionKind::Local(body) = &mut function.kind else { continue };
         let place = address + keys.len() as u64;
-        keys.push(key(function.name.as_deref().unwrap_or_default()));
+        keys.push(key);
         let mark = walrus::ir::MemArg { align: 1, offset: place };
         body.builder_mut()
             .func_body()
