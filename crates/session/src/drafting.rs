@@ -7,7 +7,8 @@
 //! Nothing is known of any construction: `catalogue` finds them in the classes in scope, `outcome` tries
 //! them in a copy of the text. So a construction that a library gains is a tool at once.
 //!
-//! Reading order: `catalogue`, `synonyms`, `compound`, `scene`, `edges`, `typed`, `outcome`, `dialogue`, `older`,
+//! Reading order: `catalogue`, `synonyms`, `compound`, `scene`, `edges`, `typed`, `outcome`, `crossing`, `dialogue`,
+//! `older`,
 //! `hands`, `recording`, `reading`, `parameters`, `becoming`, `blocks`, `operands`, `patterns`, `repeat`, `choice`,
 //! `demonstrating`, `measure`, `steps`, `visit`, `remove`, `erase`, `changing`, `visiting`, `text`.
 
@@ -17,6 +18,7 @@ mod catalogue;
 mod changing;
 mod choice;
 pub(crate) mod compound;
+mod crossing;
 mod demonstrating;
 mod dialogue;
 mod edges;

@@ -3,7 +3,7 @@
 use super::catalogue::{Call, Slot, SlotKind, Tool};
 use super::scene::{self, Found};
 use super::view::{Hover, Prompt, Wants};
-use super::{Home, becoming, edges, measure, older, outcome, text, typed};
+use super::{Home, becoming, crossing, edges, measure, older, outcome, text, typed};
 use crate::state::State;
 use crate::view::{Pointer, Refusal};
 use crate::words;
@@ -226,6 +226,13 @@ impl Dialogue {
             };
             return Ok(Operand::new(text, Some(pointer.at)));
         }
+        let wants_place = matches!(slot.kind, SlotKind::Point | SlotKind::Places);
+        if wants_place
+            && matches!(home, Home::Program { .. })
+            && let Some(crossing) = crossing::at(state, home, &all, pointer)
+        {
+            return Ok(Operand::new(crossing.text, Some(pointer.at)));
+        }
         if let Some(older) = older::find(state, home, self, pointer) {
             return Err(words::refuse(format!(
                 "{} is outside of the program that is recorded",
@@ -298,6 +305,10 @@ impl Dialogue {
                 let found = scene::scene(state, home);
                 let found = found.iter().find(|found| found.text == operand.text);
                 lit.elements.extend(found.and_then(|found| found.curve.arrow(pointer)));
+                // a place of the sheet is where the pointer is; one of two curves has no name
+                if lit.elements.is_empty() && operand.text != typed::place(pointer) {
+                    lit = outcome::drawing_of(state, home, &operand.text);
+                }
                 lit
             }
             _ => drawing::Drawing::default(),

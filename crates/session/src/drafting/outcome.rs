@@ -171,6 +171,15 @@ pub(crate) fn place(state: &State, home: &Home, text: &str) -> Option<Curve> {
     found.filter(Curve::is_point)
 }
 
+/// Returns how what an expression comes to in a home is drawn.
+pub(crate) fn drawing_of(state: &State, home: &Home, text: &str) -> drawing::Drawing {
+    let mut elements = Vec::new();
+    try_all(state, home, &[text.to_string()], &mut |_, evaluator, answer| {
+        elements = answer.map_or_else(|_| Vec::new(), |answer| elements_of(evaluator, &answer));
+    });
+    drawing::Drawing { elements, ..drawing::Drawing::default() }
+}
+
 /// What an expression comes to.
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) enum Worth {

@@ -567,6 +567,42 @@ fn a_ghost_shows_what_will_be_drawn() {
 }
 
 #[test]
+fn a_place_picked_where_two_guides_cross_follows_them() {
+    let mut desk = Desk::recording("Key", &[("width", "12"), ("bore", "40")]);
+    for (tool, at) in [
+        ("Axis.vertical(x)", "width / 2"),
+        ("Axis.vertical(x)", "-width / 2"),
+        ("Axis.horizontal(y)", "bore / 2 + 4"),
+    ] {
+        begin(&mut desk, tool);
+        made(enter(&mut desk, at));
+    }
+    begin(&mut desk, "Circle");
+    enter(&mut desk, "0,0");
+    made(enter(&mut desk, "bore / 2"));
+    begin(&mut desk, "Line");
+    let hover = desk.session.hover(desk.id, &pointer(6.0, 24.0), "");
+    assert_eq!(hover.finds.as_deref(), Some("Point.intersection(axis, axis3)"));
+    assert!(!hover.ghost.elements.is_empty(), "it is lit");
+    point(&mut desk, 6.0, 24.0);
+    let text = made(point(&mut desk, -6.0, 24.0));
+    let wanted = "Line(Point.intersection(axis, axis3), Point.intersection(axis2, axis3))";
+    assert_eq!(text, wanted);
+    // of two that a circle has with a line that which is picked
+    for (from, to) in [((6.0, 24.0), (6.0, 19.08)), ((-6.0, 19.08), (-6.0, -19.08))] {
+        point(&mut desk, from.0, from.1);
+        made(point(&mut desk, to.0, to.1));
+    }
+    assert_eq!(value(&desk, "key.line2"), "(6, 24) to (6, 19.0788)");
+    assert_eq!(value(&desk, "key.line3"), "(-6, 19.0788) to (-6, -19.0788)");
+    // beside what crosses, and with Shift, it is a place of the sheet
+    point(&mut desk, 6.0, 10.0);
+    let alone = Pointer { alone: true, ..pointer(6.0, -19.08) };
+    let text = made(desk.session.point(desk.id, &alone).expect("a place"));
+    assert_eq!(text, "Line(Point(6, 10), Point(6, -19.08))");
+}
+
+#[test]
 fn operands_that_are_given_wait_while_another_construction_supplies_the_next() {
     let mut desk = Desk::recording("Part", &[]);
     for (tool, at) in [("Axis.horizontal(y)", "0"), ("Axis.vertical(x)", "0")] {
