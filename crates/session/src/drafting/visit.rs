@@ -275,6 +275,17 @@ pub(crate) fn place_of(
     Some((address, turns))
 }
 
+/// The turns that a path leads through to what is made, of the loops around a step or the step itself: of
+/// `column[2].ring.center` that is 2 for `column.axis`.
+pub(crate) fn turns_on_the_way(path: &str, address: &str) -> Vec<u32> {
+    let names = address.split('.').filter(|s| text::is_name(s));
+    let index = |(part, own): (&str, &str)| {
+        let (name, index) = part.split_once('[').unwrap_or((part, ""));
+        (name == own).then(|| index.trim_end_matches(']').parse::<u32>().ok())
+    };
+    path.split('.').zip(names).map_while(index).flatten().collect()
+}
+
 /// Keeps what the example was of its own in the state before, where the program is visited and the example has got other
 /// values, by whatever hand.
 pub(crate) fn keep_own(open: &mut Open, before: &State) {

@@ -68,14 +68,26 @@ impl Session {
     }
 
     /// Returns what a step of the program of a thing says that can be changed by itself: its operands; of a loop what it
-    /// begins with, carries on and ends by.
-    pub fn step_operands(&self, id: DocumentId, example: &str, step: &str) -> Vec<StepOperand> {
+    /// begins with, carries on and ends by. Of the turns of loops it is said in those that are visited, else in those
+    /// that `selected` is made in, a path, else in the first.
+    pub fn step_operands(
+        &self,
+        id: DocumentId,
+        (example, step): (&str, &str),
+        selected: Option<&str>,
+    ) -> Vec<StepOperand> {
         let open = self.document(id);
         let state = &open.state;
         let Some(program) = steps::program_of(state, example) else { return Vec::new() };
         let home = home(open);
         let is_visited = matches!(&home, Home::Program { example: own, .. } if *own == *example);
-        let turns = if is_visited { visit::turns_in(&home, step) } else { Vec::new() };
+        let mut turns = if is_visited { visit::turns_in(&home, step) } else { Vec::new() };
+        if turns.is_empty()
+            && let Some((_, made)) =
+                selected.and_then(|path| path.split_once('.')).filter(|(of, _)| *of == example)
+        {
+            turns = visit::turns_on_the_way(made, step);
+        }
         changing::list(state, (&program, &example.into()), (step, &turns))
     }
 

@@ -904,7 +904,7 @@ fn a_wrong_step_is_found_by_what_it_drew_and_replaced() {
     assert_eq!(told(&desk, "column").as_deref(), Some("turn 3 of 6"));
     assert_eq!(told(&desk, "column.circle"), Some(third));
     let radius = |desk: &Desk| {
-        let operands = desk.session.step_operands(desk.id, "rings", "column.circle");
+        let operands = desk.session.step_operands(desk.id, ("rings", "column.circle"), None);
         let radius = operands.into_iter().find(|operand| operand.slot == "radius");
         radius.and_then(|radius| Some((radius.value?, radius.along?[0])))
     };
@@ -1321,7 +1321,7 @@ fn a_plate_is_perforated_by_a_loop_in_a_loop() {
         ("grid.row.circle", "centre (20, 12), radius 2.5"),
     ];
     assert_eq!(told, wanted.map(|(path, value)| (path.to_string(), value.to_string())));
-    let operands = desk.session.step_operands(desk.id, "plate", "grid.row.circle");
+    let operands = desk.session.step_operands(desk.id, ("plate", "grid.row.circle"), None);
     let radius = operands.into_iter().find(|operand| operand.slot == "radius").expect("it has one");
     assert_eq!(radius.along.expect("it is seen")[0], (20.0, 12.0));
     let drawn = desk.session.drawn_so_far(desk.id).expect("it is visited");

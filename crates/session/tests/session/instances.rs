@@ -278,7 +278,7 @@ rings: Rings
 ";
 
 fn operand(desk: &Desk, step: &str, slot: &str) -> StepOperand {
-    let all = desk.session.step_operands(desk.id, "rings", step);
+    let all = desk.session.step_operands(desk.id, ("rings", step), None);
     let found = all.iter().find(|operand| operand.slot == slot).cloned();
     found.unwrap_or_else(|| panic!("{slot} of {step}: {all:?}"))
 }
@@ -310,11 +310,37 @@ fn a_steps_numbers_stand_where_they_belong_and_are_changed() {
 }
 
 #[test]
+fn a_steps_number_stands_at_the_turn_that_is_selected_or_visited() {
+    let mut desk = Desk::of(RINGS);
+    let radius = |desk: &Desk, selected: Option<&str>| {
+        let all = desk.session.step_operands(desk.id, ("rings", "turns.ring"), selected);
+        let found = all.iter().find(|operand| operand.slot == "radius").cloned();
+        let found = found.expect("a ring has a radius");
+        let [from, to] = found.along.expect("it is a radius");
+        let away = base::number::hypot(to.0 - from.0, to.1 - from.1);
+        (found.value.unwrap_or_default(), (away * 1e6).round() / 1e6)
+    };
+    assert_eq!(radius(&desk, None), ("40".into(), 40.0));
+    // what is selected is made in the same turn, or is all of it
+    for selected in ["rings.turns[2].hole", "rings.turns[2].ring.center", "rings.turns[2]"] {
+        assert_eq!(radius(&desk, Some(selected)), ("10".into(), 10.0), "{selected}");
+    }
+    // of another thing, or outside of the loop, it says nothing
+    for selected in ["rings.mark", "other.turns[2].ring", "rings"] {
+        assert_eq!(radius(&desk, Some(selected)), ("40".into(), 40.0), "{selected}");
+    }
+    desk.session.record(desk.id, "Rings").expect("it is recorded again");
+    desk.session.visit(desk.id, &Go::UntilDrawn("turns[3].hole".into())).expect("it is drawn");
+    assert_eq!(radius(&desk, Some("rings.turns[2].hole")), ("5".into(), 5.0));
+}
+
+#[test]
 fn answers_and_conditions_of_a_loop_are_opened_again() {
     let mut desk = Desk::of(RINGS);
-    let slots: Vec<String> = { desk.session.step_operands(desk.id, "rings", "turns").into_iter() }
-        .map(|operand| format!("{}: {}", operand.slot, operand.says))
-        .collect();
+    let slots: Vec<String> =
+        { desk.session.step_operands(desk.id, ("rings", "turns"), None).into_iter() }
+            .map(|operand| format!("{}: {}", operand.slot, operand.says))
+            .collect();
     let wanted = [
         "under: floor",
         "size: radius",

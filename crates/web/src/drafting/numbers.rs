@@ -26,7 +26,11 @@ pub fn StepNumbers(
         // another turn may be visited
         lab.drafting.turned.track();
         let (example, step) = of.get()?;
-        let all = lab.ask_of_shown(|session, id| session.step_operands(id, &example, &step));
+        let selected = lab.selected.get();
+        let all = lab.ask_of_shown(|session, id| {
+            let selected = selected.as_deref();
+            session.step_operands(id, (&example, &step), selected)
+        });
         Some(all.unwrap_or_default().into_iter().filter(|o| o.at.is_some()).collect::<Vec<_>>())
     });
     let one = move |(nth, number): (usize, StepOperand)| {

@@ -337,7 +337,7 @@ fn Operands(lab: Lab, steps: StepsView, row: StepRow) -> impl IntoView {
         // another turn may be visited
         lab.drafting.turned.track();
         let ask = |(steps, step): &(StepsView, String)| {
-            lab.ask_of_shown(|s, id| s.step_operands(id, &steps.example, step))
+            lab.ask_of_shown(|s, id| s.step_operands(id, (&steps.example, step), None))
         };
         own.with_value(ask).unwrap_or_default()
     });
