@@ -495,7 +495,7 @@ impl Lowerer<'_> {
     /// Says which things are asked by an unknown name: `angle` of a `Straight`.
     pub(crate) fn asked_elsewhere(&self, scope: &Scope, word: &ast::Word) -> Option<String> {
         let asked = |class: &str, m: &Message| {
-            let receiver = class.to_lowercase();
+            let receiver = small_first(class);
             let article = if class.starts_with(['A', 'E', 'I', 'O', 'U']) { "an" } else { "a" };
             format!("{article} {class}: `{}`", written(&receiver, m))
         };

@@ -640,16 +640,16 @@ fn says_the_same(label: &str, other: &str) -> bool {
     label.starts_with(other) || stem.contains(' ') && label.starts_with(stem)
 }
 
-/// A name as words: `isParallelogram` is `parallelogram`, `EqualRadii` is `equal radii`.
+/// A name as words: `isParallelogram` is `parallelogram`, `EqualRadii` is `equal radii`, `RCFilter` is `rc filter`.
 pub(crate) fn words_of(name: &str) -> String {
+    let named = name.strip_prefix("is").filter(|rest| rest.starts_with(char::is_uppercase));
+    let letters: Vec<char> = named.unwrap_or(name).chars().collect();
     let mut words = String::new();
-    for c in name
-        .strip_prefix("is")
-        .filter(|rest| rest.starts_with(char::is_uppercase))
-        .unwrap_or(name)
-        .chars()
-    {
-        if c.is_uppercase() && !words.is_empty() {
+    for (i, c) in letters.iter().enumerate() {
+        let follows_capital = i > 0 && letters[i - 1].is_uppercase();
+        let goes_on = letters.get(i + 1).is_some_and(|c| c.is_lowercase());
+        // of capitals one after the other the last begins a word, where that goes on
+        if i > 0 && c.is_uppercase() && (!follows_capital || goes_on) {
             words.push(' ');
         }
         words.extend(c.to_lowercase());

@@ -6,6 +6,7 @@
 use super::parameters::{self, Asks};
 use super::view::ConstructionRow;
 use super::{Home, compound, outcome, synonyms, text};
+use crate::offers::words_of;
 use crate::recognise;
 use crate::state::State;
 use base::{Name, Span};
@@ -274,7 +275,7 @@ impl Slot {
             (SlotKind::Edges, _) => "line, arc or curve".into(),
             (_, "Planar") => "contour, surface, region or circle".into(),
             (_, "Outlined") => "contour, surface or region".into(),
-            (_, class) => class.to_lowercase(),
+            (_, class) => words_of(class),
         }
     }
 

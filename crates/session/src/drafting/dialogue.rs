@@ -103,7 +103,11 @@ impl Dialogue {
                 SlotKind::Point => {
                     "pick a point, or type `x,y`, `@dx,dy`, `length<angle`".to_string()
                 }
-                SlotKind::Curve => format!("pick a {}", slot.in_words()),
+                SlotKind::Curve => {
+                    let what = slot.in_words();
+                    let article = if what.starts_with(['a', 'e', 'i', 'o', 'u']) { "an" } else { "a" };
+                    format!("pick {article} {what}")
+                }
                 SlotKind::Set => {
                     "pick a figure, or drag over several; Tab takes its turn, or the whole loop"
                         .to_string()

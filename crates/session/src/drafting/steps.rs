@@ -7,6 +7,7 @@ use super::view::{ParameterRow, StepRow, StepsView};
 use super::{Home, blocks, compound, parameters, text, visit};
 use crate::document::Open;
 use crate::doubts;
+use crate::offers::words_of;
 use crate::state::State;
 use crate::view::Refusal;
 use crate::views::values;
@@ -348,14 +349,14 @@ fn in_words(step: &StepNode, formula: &str) -> String {
     let (head, list) = match value {
         Expr::Call(call) => {
             let name = call.name().map(|word| word.text().to_string()).filter(|n| is_class(n));
-            (name.map(|name| name.to_lowercase()), call.args())
+            (name.map(|name| words_of(&name)), call.args())
         }
         Expr::Field(field) => {
             let head = || {
                 let (of, word) = (said(field.receiver()?.syntax()), field.name()?);
                 let word = word.text();
                 Some(match field.receiver()? {
-                    Expr::Name(_) if is_class(&of) => format!("{} {word}", of.to_lowercase()),
+                    Expr::Name(_) if is_class(&of) => format!("{} {word}", words_of(&of)),
                     Expr::List(_) => format!("{word} of {}", of[1..of.len() - 1].trim()),
                     Expr::Name(_) | Expr::Field(_) | Expr::Index(_) => format!("{word} of {of}"),
                     _ => return None,

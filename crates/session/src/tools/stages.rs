@@ -6,6 +6,7 @@ use crate::document::Open;
 use crate::drag;
 use crate::host::Host;
 use crate::joining;
+use crate::offers::words_of;
 use crate::session::thing_at;
 use crate::state::State;
 use base::Name;
@@ -96,7 +97,7 @@ fn in_words(part: &Path, kind: Option<&Name>) -> String {
     let ordinal = number.and_then(|n| ORDINALS.get(n.checked_sub(1)?));
     // a letter says nothing
     let noun = match kind {
-        Some(kind) if stem.chars().count() == 1 => kind.to_lowercase(),
+        Some(kind) if stem.chars().count() == 1 => words_of(kind),
         _ => stem.to_string(),
     };
     match ordinal {

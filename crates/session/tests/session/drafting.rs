@@ -733,6 +733,26 @@ fn steps_are_told_in_words_with_their_values() {
 }
 
 #[test]
+fn a_class_of_two_words_is_told_as_two_words() {
+    let document = "use drafting
+program Part(rim: EllipticArc) {
+    arc = EllipticArc(Point(0, 0), 20, 10, 0 deg, 0 deg, 90 deg)
+    arc2 = ClockwiseArc.through(Point(0, 0), Point(5, 5), Point(10, 0))
+}
+part: Part
+";
+    let mut desk = Desk::of(document);
+    desk.session.record(desk.id, "Part").expect("it is recorded");
+    let view = desk.session.steps(desk.id, None).expect("it is recorded");
+    let words: Vec<&str> = view.rows.iter().map(|row| row.words.as_str()).collect();
+    assert!(words[0].starts_with("elliptic arc: "), "{words:?}");
+    assert!(words[1].starts_with("clockwise arc through: "), "{words:?}");
+    begin(&mut desk, "Part");
+    let prompt = desk.session.prompt(desk.id).expect("it asks");
+    assert!(prompt.words.contains("pick an elliptic arc"), "{}", prompt.words);
+}
+
+#[test]
 fn a_step_is_deleted_with_what_speaks_of_it_and_said_anew() {
     let mut desk = washer();
     assert_eq!(desk.session.step_dependents(desk.id, "Washer", "circle"), ["circle2"]);

@@ -53,7 +53,8 @@ fn unnamed_thing(p: &mut Parser<'_>) -> bool {
         && !matches!(p.after_bracket(1), Eq | FatArrow | Colon);
     if is_one {
         let at = p.pos();
-        let name = class.to_lowercase();
+        let (first, rest) = class.split_at(class.chars().next().map_or(0, char::len_utf8));
+        let name = first.to_lowercase() + rest;
         let said = (
             "expected-member",
             format!("found `{class}(…)`, wanted {MEMBER}"),
