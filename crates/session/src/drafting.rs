@@ -9,7 +9,7 @@
 //!
 //! Reading order: `catalogue`, `synonyms`, `compound`, `scene`, `edges`, `typed`, `outcome`, `crossing`, `dialogue`,
 //! `older`,
-//! `hands`, `recording`, `reading`, `parameters`, `becoming`, `blocks`, `operands`, `patterns`, `repeat`, `choice`,
+//! `hands`, `recording`, `reading`, `parameters`, `becoming`, `blocks`, `operands`, `patterns`, `repeat`, `choice`, `own_values`,
 //! `demonstrating`, `measure`, `steps`, `visit`, `remove`, `erase`, `changing`, `visiting`, `text`.
 
 mod becoming;
@@ -28,6 +28,7 @@ mod measure;
 mod older;
 mod operands;
 mod outcome;
+mod own_values;
 mod parameters;
 mod patterns;
 mod reading;

@@ -3,7 +3,7 @@
 use super::choice::Choice;
 use super::repeat::Loop;
 use super::view::{OpenBlock, OpenKind, Prompt, Wants};
-use super::{Around, Home, Recording, recording, text};
+use super::{Around, Home, Recording, choice, own_values, recording, text};
 use crate::document::Open;
 use crate::host::Host;
 use crate::state::State;
@@ -161,13 +161,16 @@ pub(crate) fn begin(
 /// in them.
 pub(crate) fn resume(open: &mut Open) {
     let (state, since) = (open.state.clone(), open.done.len());
+    let kept = choice::example_span(open, &state.text);
+    let kept = kept.map(|span| own_values::before(&state.text, span.start)).unwrap_or_default();
+    let mut kept = kept.into_iter().map(|(_, own)| own);
     let Some(recording) = &mut open.recording else { return };
     let source = text::Source::now(&state);
     let mut address = String::new();
     while let Some(body) = text::block(&source, &recording.program, &address) {
         let steps = text::steps_of(&body);
         let home = Home::of(Some(recording));
-        let opened = |step: &text::StepNode| broken_off(&state, &home, step);
+        let mut opened = |step: &text::StepNode| broken_off(&state, &home, (step, &mut kept));
         let found = steps.iter().enumerate().find_map(|(at, step)| Some((at, opened(step)?)));
         let Some((at, (around, kind))) = found else { return };
         address = text::joined(&address, &around.address);
@@ -177,7 +180,11 @@ pub(crate) fn resume(open: &mut Open) {
 }
 
 /// What is demonstrated by a step that is open in the text; nothing where it is whole.
-fn broken_off(state: &State, home: &Home, step: &text::StepNode) -> Option<(Around, Kind)> {
+fn broken_off(
+    state: &State,
+    home: &Home,
+    (step, kept): (&text::StepNode, &mut dyn Iterator<Item = String>),
+) -> Option<(Around, Kind)> {
     let segment = &step.segment;
     match &step.value {
         Some(Value::Repeat(it)) => {
@@ -187,7 +194,7 @@ fn broken_off(state: &State, home: &Home, step: &text::StepNode) -> Option<(Arou
             is_open.then(|| (around, Kind::Loop(Loop::default())))
         }
         Some(Value::If(it)) => {
-            let choice = Choice::broken_off(state, home, it)?;
+            let choice = Choice::broken_off(state, home, (it, kept))?;
             let address = format!("{segment}.{}", choice.branch());
             Some((Around { address, name: None, turn: None }, Kind::Choice(choice)))
         }

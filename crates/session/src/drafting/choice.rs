@@ -9,7 +9,7 @@
 use super::blocks::{self, Block, Kind};
 use super::outcome::{self, Worth};
 use super::view::{OpenKind, Prompt, Wants};
-use super::{Around, Home, recording, text};
+use super::{Around, Home, own_values, recording, text};
 use crate::document::Open;
 use crate::host::Host;
 use crate::state::State;
@@ -68,19 +68,32 @@ impl Choice {
         }
     }
 
-    /// What an `if` that was broken off is demonstrated by; nothing for one that is whole.
-    pub(crate) fn broken_off(state: &State, outside: &Home, it: &If) -> Option<Self> {
+    /// What an `if` that was broken off is demonstrated by; nothing for one that is whole. Where it was drawn under other
+    /// values, what the example was is the next of those that are kept.
+    pub(crate) fn broken_off(
+        state: &State,
+        outside: &Home,
+        (it, kept): (&If, &mut dyn Iterator<Item = String>),
+    ) -> Option<Self> {
         let written = it.condition()?.syntax().text().to_string();
         let takes_then = worth(state, outside, written.trim()).unwrap_or(true);
-        let choice = |condition: String, is_second| Self {
+        let choice = |condition: String, is_second, example| Self {
             condition,
             is_then: takes_then,
             is_second,
             asks: false,
-            example: None,
+            example,
         };
-        if let Some(condition) = it.turned_round().or_else(|| it.turned_twice()) {
-            return Some(choice(condition, true));
+        if let Some(condition) = it.turned_twice() {
+            return Some(choice(condition, true, kept.next()));
+        }
+        let own = || match outside {
+            Home::Program { example, .. } => span_of(example, &state.text),
+            Home::Document => None,
+        };
+        let own = own().map(|span| state.text[span].to_string());
+        if let Some(condition) = it.turned_round() {
+            return Some(choice(condition, true, own));
         }
         let bodies = Bodies::of(it)?;
         let is_second = match (bodies.then.is_empty(), bodies.other?.is_empty()) {
@@ -88,7 +101,7 @@ impl Choice {
             (true, true) => false,
             (is_then_empty, _) => is_then_empty == takes_then,
         };
-        Some(choice(written.trim().into(), is_second))
+        Some(choice(written.trim().into(), is_second, own))
     }
 
     /// What is waited for.
@@ -261,6 +274,12 @@ pub(crate) fn second(open: &mut Open, host: &dyn Host, is_same: bool) -> Result<
         true => format!("not (not (({})))", choice.condition),
     };
     edited.replace_range(condition.start as usize..condition.end as usize, &turned);
+    if is_other
+        && let Some(own) = &choice.example
+        && let Some(now) = example_span(open, &edited)
+    {
+        edited = own_values::with(&edited, now.start, own);
+    }
     let change = match edited == open.state.text {
         true => Change::default(),
         false => {
@@ -298,18 +317,25 @@ pub(crate) fn end(open: &mut Open, host: &dyn Host) -> Result<Change, Refusal> {
     let outside = Home::Program { program: program.clone(), example, way, before: None };
     let address = text::joined(&text::address_of(&outside), &segment);
     let mut edited = open.state.text.clone();
+    let mut is_turned_twice = false;
     if let Some(Value::If(it)) =
         text::step_at(&text::Source::of(edited.clone()), &program, &address).and_then(|s| s.value)
         && let Some(condition) = it.condition()
     {
+        is_turned_twice = it.turned_twice().is_some();
         let span = condition.span();
         edited.replace_range(span.start as usize..span.end as usize, &choice.condition);
     }
     edited = without_empty(&text::Source::of(edited), &program, (&address, &choice.condition))?;
-    if let Some(before) = &choice.example
+    let mut own = choice.example;
+    if is_turned_twice && let Some(now) = example_span(open, &edited) {
+        let (without, kept) = own_values::taken(&edited, now.start);
+        (edited, own) = (without, own.or(kept));
+    }
+    if let Some(own) = own
         && let Some(now) = example_span(open, &edited)
     {
-        edited.replace_range(now, before);
+        edited.replace_range(now, &own);
     }
     let change = match edited == open.state.text {
         true => Change::default(),
@@ -358,11 +384,14 @@ fn without_empty(
 
 /// Where the declaration of the example stands in a text.
 pub(super) fn example_span(open: &Open, source: &str) -> Option<std::ops::Range<usize>> {
-    let example = &open.recording.as_ref()?.example;
+    span_of(&open.recording.as_ref()?.example, source)
+}
+
+fn span_of(example: &str, source: &str) -> Option<std::ops::Range<usize>> {
     let file = syntax::parse(base::FileId(0), source).file();
     file.members().find_map(|member| match member {
         syntax::ast::Member::Part(part) => {
-            let is_it = part.names().any(|word| word.text() == example.as_str());
+            let is_it = part.names().any(|word| word.text() == example);
             let span = syntax::ast::span_without_doc(part.syntax());
             is_it.then_some(span.start as usize..span.end as usize)
         }

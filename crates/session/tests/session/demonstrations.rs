@@ -789,6 +789,37 @@ fn a_recording_that_was_broken_off_under_other_values_goes_on_in_the_branch_that
 }
 
 #[test]
+fn a_recording_that_was_broken_off_under_other_values_gives_the_example_back_its_own() {
+    let mut desk = in_its_if();
+    let own = desk.text().lines().last().unwrap_or_default().to_string();
+    desk.session.otherwise(desk.id).expect("the first case is drawn");
+    desk.set("pulley.d", 40.0).expect("a parameter can be set");
+    desk.session.other_branch(desk.id, false).expect("the values take it");
+    // an `if` in it, under values of its own
+    desk.session.begin_choice(desk.id).expect("it is recorded");
+    desk.session.enter(desk.id, "d > 30").expect("it is a condition");
+    draw(&mut desk, "Circle", &[Typed("0, 0"), Typed("d / 4")]);
+    desk.session.give_up(desk.id);
+    desk.session.otherwise(desk.id).expect("the first case is drawn");
+    desk.set("pulley.d", 20.0).expect("a parameter can be set");
+    desk.session.other_branch(desk.id, false).expect("the values take it");
+    desk = gone_on(&desk);
+    assert_eq!(value(&desk, "pulley.d"), "20 mm");
+    assert_eq!(open_in(&desk).len(), 2, "{}", desk.text());
+    draw(&mut desk, "Point", &[Typed("0, 0")]);
+    desk.session.give_up(desk.id);
+    desk.session.end_choice(desk.id).expect("it is open");
+    assert_eq!(value(&desk, "pulley.d"), "40 mm", "{}", desk.text());
+    desk = gone_on(&desk);
+    assert_eq!(open_in(&desk), ["draw what is done unless d > 80"], "{}", desk.text());
+    desk.session.end_choice(desk.id).expect("it is open");
+    assert_eq!(desk.text().lines().last(), Some(own.as_str()));
+    assert!(!desk.text().contains("//"), "{}", desk.text());
+    desk.session.apply(desk.id, &Command::Undo).expect("there is a step");
+    assert_eq!(value(&desk, "pulley.d"), "40 mm", "{}", desk.text());
+}
+
+#[test]
 fn an_if_keeps_no_empty_branch() {
     let mut desk = in_its_if();
     desk.session.end_choice(desk.id).expect("it is open");
