@@ -714,7 +714,8 @@ impl<'a> Run<'_, 'a> {
         Ended { why, step: path, operands, reason, is_called, origin: step.origin }
     }
 
-    /// Returns what a construction or call was given.
+    /// Returns what a construction or call was given; of one that another one was to supply, and did not, what that was
+    /// given.
     fn operands(&self, term: &'a Term, frame: &Frame<'a>) -> Vec<(String, String)> {
         let arguments: &'a [Argument] = match term {
             Term::Send { arguments, .. }
@@ -722,17 +723,33 @@ impl<'a> Run<'_, 'a> {
             | Term::Make { arguments, .. } => arguments,
             _ => return Vec::new(),
         };
+        let fails = |a: &&'a Argument| self.evaluator.term(&a.value, frame).is_err();
+        if let Some(failed) = arguments.iter().find(fails) {
+            return self.operands(&failed.value, frame);
+        }
         let operand = |(i, argument): (usize, &'a Argument)| {
-            let name = match (&argument.label, &argument.value) {
-                (_, Term::Local(name)) => name.to_string(),
-                (_, Term::Send { to, name, .. }) if **to == Term::Me => name.to_string(),
-                (Some(label), _) => label.to_string(),
-                (None, _) => format!("operand {}", i + 1),
+            let name = match (&argument.label, called(&argument.value)) {
+                (_, Some(name)) => name,
+                (Some(label), None) => label.to_string(),
+                (None, None) => format!("operand {}", i + 1),
             };
             let value = self.evaluator.term(&argument.value, frame).ok()?;
             Some((name, self.evaluator.in_words_briefly(&value)))
         };
         arguments.iter().enumerate().filter_map(operand).collect()
+    }
+}
+
+/// How an operand is written, where that is short: `ring`, `-ring`, `ring.center`.
+fn called(term: &Term) -> Option<String> {
+    match term {
+        Term::Local(name) => Some(name.to_string()),
+        Term::Send { to, name, .. } if **to == Term::Me => Some(name.to_string()),
+        Term::Send { to, name, arguments, .. } if arguments.is_empty() => {
+            let of = called(to)?;
+            Some(if *name == "reversed" { format!("-{of}") } else { format!("{of}.{name}") })
+        }
+        _ => None,
     }
 }
 

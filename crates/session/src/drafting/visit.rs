@@ -216,7 +216,15 @@ fn until_picked(
 ) -> Result<Home, Refusal> {
     let none = || words::refuse("nothing that the program drew lies here".into());
     let all = scene::scene(&open.state, &whole(open).ok_or_else(none)?);
-    let found = scene::nearest(all.iter(), pointer).ok_or_else(none)?;
+    let mut found = scene::nearest(all.iter(), pointer).ok_or_else(none)?;
+    // along a guide what is drawn is meant, where there is such
+    if !found.is_result && !found.curve.is_point() {
+        let least = found.curve.distance(pointer.at) + pointer.reach * 1e-6;
+        let covers = |f: &&scene::Found| {
+            f.is_result && !f.curve.is_point() && f.curve.distance(pointer.at) <= least
+        };
+        found = all.iter().find(covers).unwrap_or(found);
+    }
     until_drawn((program, example), &found.text, &text::Source::now(&open.state)).ok_or_else(none)
 }
 

@@ -335,6 +335,37 @@ fn a_steps_number_stands_at_the_turn_that_is_selected_or_visited() {
 }
 
 #[test]
+fn a_visit_until_what_lies_along_a_guide_goes_to_what_is_drawn() {
+    let mut desk = Desk::of(
+        "use geometry\nprogram Bore(d: Length = 40) {\n    guide rim = Circle(Point(0, 0), d / 2)\n    \
+         arc = Arc(rim.center, rim.point(at: 120 deg), rim.point(at: 60 deg))\n}\nbore: Bore\n",
+    );
+    desk.session.record(desk.id, "Bore").expect("it is recorded again");
+    let mut until = |x: f64, y: f64| {
+        let pointer = Pointer { at: (x, y), reach: 2.0, ..Pointer::default() };
+        desk.session.visit(desk.id, &Go::UntilPicked(pointer)).expect("something is drawn there");
+        desk.session.step_next(desk.id).map(|(_, step)| step)
+    };
+    assert_eq!(until(0.0, -20.0).as_deref(), Some("arc"));
+    // where nothing is drawn the guide is
+    assert_eq!(until(0.0, 20.0).as_deref(), Some("rim"));
+}
+
+#[test]
+fn a_step_that_fails_by_what_another_construction_supplies_tells_what_that_was_given() {
+    let desk = Desk::of(
+        "use geometry\nprogram Key(w: Length = 50) {\n    rim = Circle(Point(0, 0), 20)\n    \
+         side = Axis.vertical(x: w / 2)\n    \
+         line = Line(Point.intersection(-rim, side), Point(1, 2))\n}\nkey: Key\n",
+    );
+    let said: Vec<String> =
+        desk.session.text(desk.id).diagnostics.into_iter().map(|d| d.message).collect();
+    let said = said.join("; ");
+    assert!(said.contains("-rim is ") && said.contains("side is "), "{said}");
+    assert!(!said.contains("operand"), "{said}");
+}
+
+#[test]
 fn answers_and_conditions_of_a_loop_are_opened_again() {
     let mut desk = Desk::of(RINGS);
     let slots: Vec<String> =
