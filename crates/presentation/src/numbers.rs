@@ -15,6 +15,17 @@ pub fn slider_range(
     }
 }
 
+/// The ends of a slider for a number that is asked to lie between some: an end that is open is as for any number.
+pub fn ends_between(
+    number: f64,
+    asked: (Option<f64>, Option<f64>),
+    natural: Option<(f64, f64)>,
+    old: Option<&(f64, f64)>,
+) -> (f64, f64) {
+    let (below, above) = slider_range(number, natural, old);
+    (asked.0.unwrap_or(below), asked.1.unwrap_or(above))
+}
+
 /// How much one step of scrubbing changes a number: one unit of its third figure or so.
 pub fn step(number: f64) -> f64 {
     let mut step = 1.0;
@@ -61,7 +72,7 @@ pub fn to_read(value: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{exactly, meant_in, slider_range, step, to_read};
+    use super::{ends_between, exactly, meant_in, slider_range, step, to_read};
 
     #[test]
     fn a_value_that_is_left_as_it_is_shown_keeps_its_digits() {
@@ -93,6 +104,22 @@ mod tests {
         assert_eq!(slider_range(30.0, Some((0.0, 360.0)), None), (0.0, 360.0));
         assert_eq!(slider_range(30.0, Some((-180.0, 180.0)), None), (-180.0, 180.0));
         assert_eq!(slider_range(400.0, Some((0.0, 360.0)), None), (0.0, 800.0));
+    }
+
+    #[test]
+    fn a_slider_has_the_end_that_is_asked_and_room_where_none_is() {
+        assert_eq!(ends_between(10.0, (Some(2.0), Some(50.0)), None, None), (2.0, 50.0));
+        assert_eq!(ends_between(10.0, (Some(5.0), None), None, None), (5.0, 20.0));
+        // the open end stays under the hand
+        assert_eq!(ends_between(18.0, (Some(5.0), None), None, Some(&(5.0, 20.0))), (5.0, 20.0));
+        assert_eq!(ends_between(20.0, (Some(5.0), None), None, Some(&(5.0, 20.0))), (5.0, 20.0));
+        assert_eq!(ends_between(30.0, (Some(5.0), None), None, Some(&(5.0, 20.0))), (5.0, 60.0));
+        assert_eq!(ends_between(5.0, (Some(5.0), None), None, None), (5.0, 10.0));
+        assert_eq!(ends_between(0.0, (Some(0.0), None), None, None), (0.0, 100.0));
+        assert_eq!(ends_between(-3.0, (Some(-5.0), None), None, None), (-5.0, 0.0));
+        assert_eq!(ends_between(4.0, (None, Some(10.0)), None, None), (0.0, 10.0));
+        assert_eq!(ends_between(0.0, (None, Some(0.0)), None, None), (-100.0, 0.0));
+        assert_eq!(ends_between(1.0, (Some(0.0), None), Some((0.0, 6.0)), None), (0.0, 6.0));
     }
 
     #[test]

@@ -404,8 +404,9 @@ pub struct ValueRow {
     pub freedom: Option<Freedom>,
     /// What `///` says of it, or what a program asks for it in words.
     pub doc: String,
-    /// The least and the largest value that a program allows for it, in the units of `number`.
-    pub range: Option<(f64, f64)>,
+    /// The least and the largest value that a program allows for it, in the units of `number`; nothing for an end that
+    /// is open.
+    pub range: Option<(Option<f64>, Option<f64>)>,
 }
 
 /// The source and what is known of it.

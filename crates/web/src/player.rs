@@ -10,7 +10,7 @@ use crate::{icons, js, sheet, words};
 use drawing::{Bounds, Drawing, Shape};
 use leptos::prelude::*;
 use presentation::course::Course;
-use presentation::numbers::slider_range;
+use presentation::numbers::ends_between;
 use session::view::ValueRow;
 
 /// How long the way through the range takes, in milliseconds.
@@ -82,8 +82,8 @@ impl Lab {
             let is_it = |row: &ValueRow| row.path == path || row.shortest == path;
             let at = rows.iter().position(is_it)?;
             let row = &rows[at];
-            let around = slider_range(row.number?, whole_turn(row), None);
-            Some((at, row.range.unwrap_or(around)))
+            let asked = row.range.unwrap_or_default();
+            Some((at, ends_between(row.number?, asked, whole_turn(row), None)))
         })
     }
 

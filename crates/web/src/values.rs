@@ -6,7 +6,7 @@ use crate::{field, js, words};
 use leptos::ev::{KeyboardEvent, PointerEvent};
 use leptos::html::Span;
 use leptos::prelude::*;
-use presentation::numbers::{meant_in, slider_range, step};
+use presentation::numbers::{ends_between, meant_in, step};
 use presentation::paths::split;
 use session::view::ValueRow;
 use std::f64::consts::{PI, TAU};
@@ -291,8 +291,7 @@ pub fn Slider(
         Memo::new(move |_| row.with(|row| row.as_ref().is_some_and(|r| r.class == "Integer")));
     let range = Memo::new(move |old: Option<&(f64, f64)>| {
         let turn = row.with(|row| row.as_ref().and_then(whole_turn));
-        let around = || slider_range(number.get().unwrap_or(0.0), turn, old);
-        asked.get().unwrap_or_else(around)
+        ends_between(number.get().unwrap_or(0.0), asked.get().unwrap_or_default(), turn, old)
     });
     let pressed = StoredValue::new(false);
     // what was drawn then
@@ -351,12 +350,19 @@ pub fn Slider(
         let (least, most) = range.get();
         if whole.get() { 1.0 } else { (most - least) / STEPS }
     };
+    // an end that nobody asked for fades where the other one was asked for
+    let open = Memo::new(move |_| match asked.get() {
+        Some((Some(_), None)) => Some(("above", words::OPEN_ABOVE)),
+        Some((None, Some(_))) => Some(("below", words::OPEN_BELOW)),
+        Some(_) | None => None,
+    });
     // made once: a slider that is made anew under the hand would let go
     let is_number = Memo::new(move |_| number.with(Option::is_some));
     move || {
         is_number.get().then(|| {
             view! {
-                <div class="led">
+                <div class="led" data-open=move || open.get().map(|open| open.0)
+                    title=move || open.get().map(|open| open.1)>
                 <Play lab=lab at=at path=path ends=range />
                 <input type="range" class="slider" aria-label=move || words::slider_of(&path.get())
                     min=move || range.get().0.to_string() max=move || range.get().1.to_string()

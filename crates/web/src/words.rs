@@ -512,6 +512,11 @@ pub fn stops(path: &str) -> String {
     format!("Stop {path}")
 }
 
+/// A slider's range has no upper end.
+pub const OPEN_ABOVE: &str = "open above: larger values can be typed";
+/// A slider's range has no lower end.
+pub const OPEN_BELOW: &str = "open below: smaller values can be typed";
+
 /// What a screen reader hears of a value's slider.
 pub fn slider_of(path: &str) -> String {
     format!("{path}, slider")

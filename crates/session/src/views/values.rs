@@ -9,7 +9,7 @@ use base::Name;
 use eval::{Answer, Evaluator, Fault, FaultKind, Standing};
 use indexmap::IndexMap;
 use kernel::builtin::{FUNCTIONS, Kind, PICTURE_MESSAGES, find};
-use kernel::program::Allowed;
+use kernel::program::{Allowed, Bound};
 use kernel::{
     ClassId, ClassKind, Document, Message, Path, Primitive, Quantity, Shown, SlotId, Step, Term,
     ThingId, Values,
@@ -381,20 +381,21 @@ impl<'a> Maker<'a> {
     }
 
     /// Returns the range that a program gives the parameter that a thing is, or a class the whole number.
-    fn asked_range(&self, thing: ThingId) -> Option<(f64, f64)> {
+    fn asked_range(&self, thing: ThingId) -> Option<(Option<f64>, Option<f64>)> {
         let slot = self.state.structure.slot_of(thing)?;
         if let Some(&(least, most)) = self.state.structure.ranges.get(&slot) {
-            return Some((least as f64, most as f64));
+            return Some((Some(least as f64), Some(most as f64)));
         }
-        let (Allowed::Range { least: Some(least), most: Some(most) }, owner) = self.asked(thing)?
-        else {
+        let (Allowed::Range { least, most }, owner) = self.asked(thing)? else {
             return None;
         };
-        let end = |term: &'a Term| match self.evaluator.evaluate(term, owner) {
-            Ok(Answer::Number(x, _)) => Some(x),
-            _ => None,
-        };
-        Some((end(&least.value)?, end(&most.value)?))
+        let end =
+            |bound: &'a Option<Bound>| match self.evaluator.evaluate(&bound.as_ref()?.value, owner)
+            {
+                Ok(Answer::Number(x, _)) => Some(x),
+                _ => None,
+            };
+        Some((end(least), end(most)))
     }
 
     /// Opens a thing's parts and what it answers, in order.

@@ -196,6 +196,6 @@ fn a_count_is_told_from_numbers_and_knows_its_range() {
     );
     assert!(desk.session.is_count(desk.id, &at("ladder.n")));
     assert!(!desk.session.is_count(desk.id, &at("ladder.m")));
-    assert_eq!(desk.row("ladder.n").range, Some((1.0, 40.0)));
+    assert_eq!(desk.row("ladder.n").range, Some((Some(1.0), Some(40.0))));
     assert_eq!(desk.row("ladder.m").range, None);
 }

@@ -374,10 +374,12 @@ fn what_moves_one_after_the_other_is_set_apart_in_few_steps() {
 #[test]
 fn a_parameter_of_a_program_says_what_it_asks_and_in_which_range() {
     let desk = Desk::of(
-        "unit mm\nprogram Disc(d: Length in 2 mm..50 mm = 10 mm \"How wide?\", n: Integer = 3) {\n}\ndisc: Disc\n",
+        "unit mm\nprogram Disc(d: Length in 2 mm..50 mm = 10 mm \"How wide?\", t: Length in 5 mm.. = 8 mm, n: Integer = 3) {\n}\ndisc: Disc\n",
     );
     let wide = desk.row("disc.d");
-    assert_eq!((wide.number, wide.range), (Some(10.0), Some((2.0, 50.0))));
+    assert_eq!((wide.number, wide.range), (Some(10.0), Some((Some(2.0), Some(50.0)))));
+    // one end alone is asked
+    assert_eq!(desk.row("disc.t").range, Some((Some(5.0), None)));
     assert_eq!(wide.doc, "How wide?");
     assert_eq!(desk.row("disc.n").range, None);
 }
