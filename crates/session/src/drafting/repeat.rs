@@ -492,7 +492,8 @@ fn of_each(state: &State, (opened, first): (&Opened, &str), answer: &str) -> Opt
     opened.it.in_turn(first).filter(|_| answer == of_second)
 }
 
-/// Answers the open question by what is typed; nothing takes how far on the last place was, for all of the step.
+/// Answers the open question by what is typed; nothing takes how far on the last place was, for all of the step, and a
+/// value as it was.
 ///
 /// # Errors
 /// Nothing is typed and no place was said to be further on; the answer does not fit.
@@ -514,6 +515,10 @@ pub(crate) fn answer_typed(
     }
     let none = "pick an object of the turn before, type one, or press `The same`";
     let it = opened(open)?.it;
+    // of a set there are two such answers
+    if question.is_value && question.in_turn.is_none() && it.onward_of(step).is_none() {
+        return answer(open, host, (None, None));
+    }
     let typed = it.onward_of(step).ok_or_else(|| words::refuse(none.into()))?;
     let mut left = Some(question.clone());
     let is_place = |open: &Open, next: &RecurrenceQuestion| {

@@ -64,6 +64,30 @@ fn a_step_whose_name_was_typed_with_a_capital_is_asked_about() {
 }
 
 #[test]
+fn the_numbers_of_a_second_turn_are_the_same_by_enter_alone() {
+    let mut desk = Desk::recording("Comb", &[("pitch", "12"), ("tooth", "20")]);
+    desk.session.begin_loop(desk.id, "").expect("a loop");
+    for (tool, from, length) in [
+        ("Line.vertical(from,length)", "0, 0", "tooth"),
+        ("Line.horizontal(from,length)", "line.p2", "pitch / 2"),
+        ("Line.vertical(from,length)", "line2.p2", "-tooth"),
+        ("Line.horizontal(from,length)", "line3.p2", "pitch / 2"),
+    ] {
+        draw(&mut desk, tool, &[Typed(from), Typed(length)]);
+        desk.session.give_up(desk.id);
+    }
+    desk.session.end_turn(desk.id, Ends::Until).expect("a turn is drawn");
+    // of an object there is no such answer
+    let refused = desk.session.enter(desk.id, "").expect_err("it is an object");
+    assert!(refused.message.contains("press `The same`"), "{}", refused.message);
+    for typed in ["line4.p2", "", "", "", ""] {
+        desk.session.enter(desk.id, typed).unwrap_or_else(|r| panic!("{typed}: {}", r.message));
+    }
+    desk.session.enter(desk.id, "line4.p2.x > 55").expect("it ends");
+    assert_eq!(value(&desk, "comb.turns"), "5 turns");
+}
+
+#[test]
 fn a_second_turn_that_was_run_ahead_is_the_one_of_what_is_drawn_now() {
     let shown = |is_ahead: bool| {
         let mut desk = Desk::recording("Row", &[("pitch", "20")]);
