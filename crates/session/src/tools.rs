@@ -13,6 +13,7 @@ mod lengths;
 pub(crate) mod room;
 mod stages;
 mod stops;
+mod winding;
 
 use crate::apply;
 use crate::document::Open;
@@ -32,6 +33,7 @@ use kernel::{Command, Literal, Path, Step};
 use stages::{Stage, stages};
 use std::cell::RefCell;
 use syntax::ast::{AstNode, Expr, Member, Value};
+use winding::Winding;
 
 /// A tool in the hand.
 pub(crate) struct Tool {
@@ -51,6 +53,8 @@ pub(crate) struct Tool {
     picture: PictureView,
     /// Whether the next thing goes on from the end of this one.
     goes_on: bool,
+    /// Where the hand decides which way round it runs.
+    winding: Option<Winding>,
 }
 
 impl Tool {
@@ -90,7 +94,9 @@ impl Tool {
             [] => String::new(),
             values => format!(" {{\n    {}\n}}", values.join("\n    ")),
         };
-        let text = trial_text(&state.text, &format!("{name}: {written}{class}{body}"));
+        let text_of =
+            |class: &Name| trial_text(&state.text, &format!("{name}: {written}{class}{body}"));
+        let (text, winding) = (text_of(&class), Winding::of(state, known, text_of));
         let within = open.pane.as_ref().map(|pane| pane.part(&Path::default())).unwrap_or_default();
         let trial = Box::new(Open::of(&open.name, text, host));
         let stages = stages(&trial.state, &name);
@@ -98,7 +104,8 @@ impl Tool {
         let picture = views::picture::picture(state, open.values(), &open.status);
         let set = Vec::new();
         let offset = (0.0, 0.0);
-        let mut tool = Self { class, name, within, trial, stages, set, offset, picture, goes_on };
+        let mut tool =
+            Self { class, name, within, trial, stages, set, offset, picture, goes_on, winding };
         stages::spread(&mut tool.trial, &tool.stages, host);
         tool.begin()?;
         Ok(tool)
@@ -283,6 +290,7 @@ impl Tool {
     /// The pointer is elsewhere.
     pub(crate) fn moved(&mut self, state: &State, pointer: &Pointer, host: &dyn Host) -> ToolView {
         let catch = self.catch(state, pointer);
+        self.wind(catch.at, host);
         self.follow(catch.at, host);
         let mut view = self.view();
         if self.is_before_a_line() {
@@ -317,12 +325,30 @@ impl Tool {
                 return Err(words::refuse(format!("{} sticks to {what}", self.class)));
             }
         }
+        if let Some(there) = catch.joins.as_ref().filter(|there| self.adds_nothing(state, there)) {
+            let what = self.class.to_lowercase();
+            let hint = format!("hold Shift for another {what}");
+            return Err(words::refuse(format!("{there} is here already: {hint}")));
+        }
+        self.wind(catch.at, host);
         self.set_to(catch, host)?;
         let mut view = self.view();
         if self.set.len() == self.stages.len() {
             view.command = Some(self.command(host));
         }
         Ok(view)
+    }
+
+    /// Whether what is made is a place, and merged with what is there it would be nothing else than that is.
+    fn adds_nothing(&self, state: &State, there: &Path) -> bool {
+        let Some(Stage::Place { place, .. }) = self.stages.first() else { return false };
+        let (document, structure) = (&state.lowered.document, &state.structure);
+        let class = document.class_named(&self.class);
+        let is_one = |class| {
+            let thing = thing_at(state, there)?;
+            Some(document.is_a(structure.things[thing].class, class))
+        };
+        place.0.is_empty() && class.and_then(is_one) == Some(true)
     }
 
     /// The class of what must be there, where the tool makes what nobody would see by itself: a relation of things.

@@ -232,6 +232,52 @@ fn an_arc_and_a_box_are_drawn_place_by_place() {
 }
 
 #[test]
+fn an_arc_runs_the_way_that_the_hand_went_round() {
+    let drawn = |way: &[(f64, f64)]| {
+        let mut desk = Desk::of("use geometry\n");
+        desk.session.take_tool(desk.id, "Arc").expect("a tool");
+        for at in [(0.0, 0.0), (60.0, 0.0)] {
+            click(&mut desk, &pointer(at.0, at.1));
+        }
+        for &(x, y) in way {
+            desk.session.tool_moved(desk.id, &pointer(x, y)).expect("a tool is in the hand");
+        }
+        let (x, y) = way[way.len() - 1];
+        click(&mut desk, &pointer(x, y));
+        holds(&desk);
+        assert_eq!(desk.place("arc.start"), (60.0, 0.0));
+        let sweep: String = desk.number("arc.sweep").to_degrees().round().to_string();
+        // the next arc begins as any does
+        click(&mut desk, &pointer(200.0, 0.0));
+        click(&mut desk, &pointer(260.0, 0.0));
+        click(&mut desk, &pointer(200.0, 60.0));
+        assert_eq!(desk.number("arc2.sweep").to_degrees().round(), 90.0);
+        sweep
+    };
+    assert_eq!(drawn(&[(40.0, 45.0), (0.0, 60.0), (-60.0, 0.0)]), "180");
+    assert_eq!(drawn(&[(40.0, -45.0), (0.0, -60.0), (-60.0, 0.0)]), "-180");
+    assert_eq!(drawn(&[(0.0, -60.0), (-60.0, 0.0), (0.0, 60.0)]), "-270");
+    // first the one way, then back over the start and the other way
+    assert_eq!(drawn(&[(45.0, -40.0), (45.0, 40.0), (0.0, 60.0)]), "90");
+    // what jumps to the other side has gone no way
+    assert_eq!(drawn(&[(-60.0, -1.0)]), "181");
+}
+
+#[test]
+fn a_point_on_an_existing_point_is_no_second_one() {
+    let mut desk = Desk::of("use geometry\np: Point = (30, 40)\n");
+    desk.session.take_tool(desk.id, "Point").expect("a tool");
+    let (session, id) = (&mut desk.session, desk.id);
+    session.tool_moved(id, &pointer(31.0, 41.0)).expect("a tool is in the hand");
+    let refused = session.tool_set(id, &pointer(31.0, 41.0)).expect_err("there is one");
+    assert_eq!(refused.message, "p is here already: hold Shift for another point");
+    // beside it, or where it is wanted nevertheless, there is room
+    click(&mut desk, &pointer(60.0, 80.0));
+    click(&mut desk, &Pointer { alone: true, ..pointer(31.0, 41.0) });
+    assert_eq!(desk.place("point2"), (31.0, 41.0));
+}
+
+#[test]
 fn parts_of_a_circuit_stick_to_each_other_by_their_nodes() {
     let mut desk = Desk::of("use circuits\ny down\n");
     let part = |desk: &mut Desk, class: &str, a: (f64, f64), b: (f64, f64)| {
