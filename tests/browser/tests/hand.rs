@@ -429,7 +429,6 @@ async fn the_nine_points_of_a_triangle_are_constructed_and_lie_on_one_circle() {
     visit.until("window.__thinglab.state().text.includes('line3')").await;
     chord(&visit, &[], ESCAPE).await;
     let [a, b, c] = corners;
-    let (ab, bc, ca) = (between(a, b, 0.5), between(b, c, 0.5), between(c, a, 0.5));
     // what a point nearest to a line is called in textbooks
     construct(
         &visit,
@@ -438,9 +437,9 @@ async fn the_nine_points_of_a_triangle_are_constructed_and_lie_on_one_circle() {
     )
     .await;
     construct(&visit, "midpoint", &[a, b, b, c, c, a]).await;
-    construct(&visit, "nine-point", &[ab, bc, ca]).await;
+    construct(&visit, "nine-point", &[a, b, c]).await;
     let built = state(&visit).await;
-    assert!(text_of(&built).contains("circle => Circle.through("), "{}", text_of(&built));
+    assert!(text_of(&built).contains("circle => Circle.ninePoint("), "{}", text_of(&built));
     for move_to in [(0.0, 0.0), (60.0, 50.0)] {
         let corner = grip(&state(&visit).await, "line2.p2");
         if move_to != (0.0, 0.0) {
@@ -455,11 +454,11 @@ async fn the_nine_points_of_a_triangle_are_constructed_and_lie_on_one_circle() {
                  const place = path => rows.find(r => r.path === path).value.match(/-?[0-9.]+/g).map(Number); \
                  const [x, y] = place('circle.center'); \
                  const radius = Number(rows.find(r => r.path === 'circle.radius').value); \
-                 return ['point', 'point2', 'point3'].map(p => { const [u, v] = place(p); \
+                 return ['point', 'point2', 'point3', 'point4', 'point5', 'point6'].map(p => { const [u, v] = place(p); \
                      return Math.abs(Math.hypot(u - x, v - y) - Math.abs(radius)); })",
             )
             .await;
-        for far in far.as_array().expect("three points") {
+        for far in far.as_array().expect("six points") {
             assert!(far.as_f64().expect("a number") < 1e-2, "{far}: {}", text_of(&built));
         }
     }
