@@ -274,7 +274,8 @@ fn must_be_name(name: &str) -> Result<(), Diagnostic> {
         name.starts_with(|c: char| c.is_alphabetic() || c == '_') && name.chars().all(inner);
     match plain && SyntaxKind::reserved(name).is_none() {
         true => Ok(()),
-        false => Err(refused("not-a-name", format!("`{name}` is no name"))),
+        false => Err(refused("not-a-name", format!("`{name}` is no name"))
+            .hint("a name is one word: a letter, then letters, digits and _")),
     }
 }
 

@@ -38,13 +38,13 @@ pub fn step(number: f64) -> f64 {
     if number == 0.0 { 1.0 } else { step }
 }
 
-/// A bare number is meant in the unit that stands beside the field.
+/// A bare number is meant in the unit that stands beside the field; anything else is as it was typed.
 pub fn meant_in(words: &str, unit: &str) -> String {
-    let words = words.trim();
-    if unit.is_empty() || words.parse::<f64>().is_err() {
-        String::from(words)
-    } else {
-        format!("{words} {unit}")
+    match words.trim() {
+        // of a text every space counts
+        number if number.parse::<f64>().is_err() => String::from(words),
+        number if unit.is_empty() => String::from(number),
+        number => format!("{number} {unit}"),
     }
 }
 
@@ -57,7 +57,9 @@ pub fn exactly(typed: &str, value: &str) -> String {
     match quantity {
         _ if typed.trim() == to_read(value) => String::from(value),
         Some((_, unit)) if !session::is_unit_of_sheet(unit) => meant_in(typed, unit),
-        Some(_) | None => String::from(typed.trim()),
+        Some(_) => String::from(typed.trim()),
+        // of a text every space counts
+        None => String::from(typed),
     }
 }
 
@@ -94,6 +96,12 @@ mod tests {
         assert_eq!(meant_in("0.3 kohm", "ohm"), "0.3 kohm");
         assert_eq!(meant_in("300", ""), "300");
         assert_eq!(meant_in("hello", "ohm"), "hello");
+    }
+
+    #[test]
+    fn a_text_keeps_the_spaces_at_its_ends() {
+        assert_eq!(meant_in("rent = ", ""), "rent = ");
+        assert_eq!(exactly("rent = ", "text"), "rent = ");
     }
 
     #[test]

@@ -45,7 +45,10 @@ pub fn shelved(found: &[BinEntry], is_filtered: bool) -> Vec<Shelf> {
     shelves.reverse();
     shelves.sort_by_key(|((rank, _), _)| *rank);
     let shelf = |((rank, name), entries): ((u8, String), Vec<BinEntry>)| {
-        let is_open = is_filtered || rank < 2 || !boxed(&name);
+        let is_rest = rank == 2 && boxed(&name);
+        let is_open = is_filtered || !is_rest;
+        // a toolbox is often called as its library is
+        let name = if is_rest { format!("more of {name}") } else { name };
         Shelf { name, entries, is_open }
     };
     shelves.into_iter().map(shelf).collect()
@@ -104,7 +107,8 @@ mod tests {
             let shelves = shelved(&found, is_filtered).into_iter();
             shelves.map(|s| (s.name, s.is_open)).collect::<Vec<_>>()
         };
-        let wanted = [("", true), ("Circuits", true), ("circuits", false), ("geometry", true)];
+        let wanted =
+            [("", true), ("Circuits", true), ("more of circuits", false), ("geometry", true)];
         assert_eq!(names(false), wanted.map(|(n, open)| (String::from(n), open)));
         assert!(names(true).iter().all(|(_, is_open)| *is_open));
     }

@@ -296,7 +296,7 @@ impl Session {
         };
         let told = |path: &Path| {
             let of = |name: &str| path.then(Step::Part(name.into()));
-            let named = ["length", "radius", "x"].map(of).into_iter().find(number);
+            let named = ["radius", "length", "x"].map(of).into_iter().find(number);
             if number(path) { Some(path.clone()) } else { named }
         };
         let all: Vec<String> = paths.iter().filter_map(told).map(|p| p.to_string()).collect();

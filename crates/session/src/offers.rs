@@ -210,7 +210,7 @@ impl Offerer<'_> {
                 pairs.map(|p| format!("{}.{name} = {}.{name}", p[0].path, p[1].path)).collect();
             all.then(|| Self::rule(&format!("equal {name}"), &rules))
         };
-        ["length", "radius"].into_iter().filter_map(equal).take(1).collect()
+        ["radius", "length"].into_iter().filter_map(equal).take(1).collect()
     }
 
     /// Whether things of a class have a part of a name.
@@ -266,7 +266,7 @@ impl Offerer<'_> {
             Some(self.dimension("direction", &[path.to_string()], in_degrees(radians)))
         };
         let singles =
-            ["length", "radius", "side", "width", "height"].into_iter().filter_map(single);
+            ["radius", "length", "side", "width", "height"].into_iter().filter_map(single);
         let angles = self.angles().into_iter().chain(direction());
         let ratio = self.ratio();
         distance().into_iter().chain(singles).chain(angles).chain(ratio).collect()

@@ -94,9 +94,8 @@ impl Tool {
             [] => String::new(),
             values => format!(" {{\n    {}\n}}", values.join("\n    ")),
         };
-        let text_of =
-            |class: &Name| trial_text(&state.text, &format!("{name}: {written}{class}{body}"));
-        let (text, winding) = (text_of(&class), Winding::of(state, known, text_of));
+        let text = trial_text(&state.text, &format!("{name}: {written}{class}{body}"));
+        let winding = Winding::of(state, known, &text);
         let within = open.pane.as_ref().map(|pane| pane.part(&Path::default())).unwrap_or_default();
         let trial = Box::new(Open::of(&open.name, text, host));
         let stages = stages(&trial.state, &name);
@@ -439,7 +438,10 @@ impl Tool {
         if self.is_before_a_line() {
             preview.elements.clear();
         }
-        let stage = self.stages.get(self.set.len());
+        let is_right = self.winding.as_ref().is_some_and(|winding| winding.is_right);
+        // the hand sets what it began with first, which ever way that runs
+        let stage = self.stages.get(if is_right { 1 } else { self.set.len() });
+        let stage = stage.filter(|_| self.set.len() < self.stages.len());
         let hint = stage.map(|stage| {
             let kind = stage.class(&trial.state, &self.name);
             stage.hint(&self.class, kind.as_ref(), (self.set.is_empty(), self.goes_on))

@@ -10,6 +10,7 @@ use wasm_bindgen::closure::Closure;
 mod conditions;
 pub(crate) use conditions::lockable;
 mod instances;
+mod of_class;
 mod recording;
 mod table;
 pub use table::ACTIONS;
@@ -57,6 +58,10 @@ pub enum Context {
     Sheet,
     /// Something selected.
     Thing,
+    /// A value of a table.
+    Value,
+    /// A class of the document's own, in the bin.
+    Class,
 }
 
 impl PartialEq for Action {

@@ -1,12 +1,14 @@
 //! The bin: a tile for each class that things can be made of.
 
+use crate::actions::Context;
 use crate::dock::Sheet;
 use crate::js::Painter;
 use crate::lab::Lab;
 use crate::paint::{Part, display_list};
 use crate::picture::{new_painter, paint_alone};
 use crate::sheet::{fit, with_words};
-use crate::{icons, keyboard, words};
+use crate::{icons, keyboard, menu, words};
+use leptos::ev::MouseEvent;
 use leptos::html::Canvas;
 use leptos::prelude::*;
 use presentation::find::has_words;
@@ -210,6 +212,12 @@ fn Tile(lab: Lab, entry: BinEntry, is_used: bool) -> impl IntoView {
     };
     let held = Memo::new(move |_| lab.tool.get() == Some(class.get_value()));
     let is_own = entry.library.is_empty();
+    let open_menu = move |at: (f64, f64)| {
+        lab.drop_tool();
+        lab.carried.set_value(false);
+        lab.of_tile.set(Some(class.get_value()));
+        menu::open_at(lab, at, Context::Class);
+    };
     let by_finger = StoredValue::new(false);
     view! {
         <li>
@@ -230,7 +238,21 @@ fn Tile(lab: Lab, entry: BinEntry, is_used: bool) -> impl IntoView {
                         lab.sheet.set(Sheet::Shut);
                     }
                 }
+                on:contextmenu=move |e: MouseEvent| {
+                    if is_own {
+                        e.prevent_default();
+                        open_menu((f64::from(e.client_x()), f64::from(e.client_y())));
+                    }
+                }
                 on:keydown=move |e| {
+                    let asks = e.key() == "ContextMenu" || e.shift_key() && e.key() == "F10";
+                    if asks && is_own {
+                        e.prevent_default();
+                        e.stop_propagation();
+                        let tile: web_sys::Element = event_target(&e);
+                        let rect = tile.get_bounding_client_rect();
+                        open_menu((rect.left() + 8.0, rect.bottom()));
+                    }
                     if e.key() == "Enter" || e.key() == " " {
                         e.prevent_default();
                         e.stop_propagation();

@@ -351,7 +351,11 @@ fn refused(lab: Lab) -> Result<(), String> {
 /// Gives a thing another name.
 fn rename(lab: Lab, path: &str, to: &str) -> Result<(), String> {
     let Some(from) = session::parse_path(path) else { return Ok(()) };
+    let is_class = lab.id().is_some_and(|id| lab.ask(|session| session.has_class(id, path)));
     if lab.apply(&Command::Rename { from, to: String::from(to) }) {
+        if is_class {
+            return Ok(());
+        }
         let renamed =
             path.rsplit_once('.').map_or(String::from(to), |(owner, _)| format!("{owner}.{to}"));
         lab.select(Some(renamed));

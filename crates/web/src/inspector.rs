@@ -52,16 +52,23 @@ pub fn Inspector(
         if several > 1 {
             return words::several(several);
         }
-        name.unwrap_or_else(|| {
+        let shown = lab.prototype.with(|shown| shown.as_ref().map(|shown| shown.class.clone()));
+        name.or(shown).unwrap_or_else(|| {
             lab.document.with(|d| d.as_ref().map_or_else(String::new, |d| d.title.clone()))
         })
     };
     let class = move || {
         let class =
             row.with(|row| row.as_ref().filter(|r| r.kind.is_thing()).map(|r| r.detail.clone()));
+        let value = lab.inspected.get().and_then(|path| value_at(lab, &path));
+        let class = value.map(|value| value.class).or(class);
         let class = class.unwrap_or_else(|| {
-            let is_thing = row.with(Option::is_none);
-            String::from(if is_thing { words::PARAMETERS } else { words::IS_RULE })
+            let is_class = lab.prototype.with(Option::is_some);
+            String::from(match row.with(Option::is_none) {
+                true if is_class => words::GIVEN_IN_CLASS,
+                true => words::PARAMETERS,
+                false => words::IS_RULE,
+            })
         });
         if lab.also.with(Vec::is_empty) {
             return class;
@@ -102,6 +109,12 @@ pub fn Inspector(
             </div>
         </section>
     }
+}
+
+/// The row of the values that a path leads to.
+fn value_at(lab: Lab, path: &str) -> Option<ValueRow> {
+    lab.value_rows.track();
+    lab.values.with_untracked(|rows| rows.iter().find(|row| row.path == path).cloned())
 }
 
 /// How something that is computed is written in the text.
@@ -152,6 +165,10 @@ fn Said(lab: Lab) -> impl IntoView {
 fn Made(lab: Lab) -> impl IntoView {
     let found = Memo::new(move |_| {
         let path = lab.inspected.get()?;
+        // a number has its row below
+        if value_at(lab, &path).is_some() {
+            return None;
+        }
         let value = |row: &StructureRow| {
             let name = row.path.get(path.len()..)?.trim_start_matches('.');
             let name = if name.is_empty() { words::VALUE } else { name };

@@ -216,6 +216,8 @@ pub struct Lab {
     pub drawer: RwSignal<Drawer>,
     /// The value that is typed in the picture, and where on the canvas.
     pub editing: RwSignal<Option<InPlace>>,
+    /// The class whose tile was asked for its menu last.
+    pub of_tile: RwSignal<Option<String>>,
     /// The menu that is open.
     pub menu: RwSignal<Option<Menu>>,
     /// While a class is made of the selection, the points by which its things are placed.
@@ -383,6 +385,7 @@ impl Lab {
             drafting: Drafting::default(),
             drawer: RwSignal::new(Drawer::Structure),
             editing: RwSignal::new(None),
+            of_tile: RwSignal::new(None),
             menu: RwSignal::new(None),
             attachers: RwSignal::new(None),
             opening: RwSignal::new(None),

@@ -54,7 +54,7 @@ impl Lab {
             return;
         }
         let ends = (ends.0.min(at), ends.1.max(at));
-        let covered = self.fits.get_value().then(|| self.covered());
+        let covered = (!self.looked.get_value()).then(|| self.covered());
         let grows = at < ends.1;
         let seen = [None, None];
         let mut course = Course { ends, at, grows, is_turn, is_computed, seen, turns: 0, covered };
@@ -135,7 +135,7 @@ fn frame(lab: Lab, row: usize, playing: Playing, mut course: Course, before: f64
     let time = js::now();
     course.step((time - before).clamp(0.0, LONGEST_STEP) / THROUGH);
     lab.drag((course.at, 0.0));
-    if let Some(before) = course.covered.filter(|_| lab.fits.get_value()) {
+    if let Some(before) = course.covered.filter(|_| !lab.looked.get_value()) {
         let now = lab.covered();
         let all = before.with(now.least).with(now.most);
         if all != before {

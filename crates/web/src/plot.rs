@@ -3,6 +3,7 @@
 //! In: what a person names. Out: a request to the session, and the plot that comes of it. A sweep is made anew
 //! after every command; a drag is followed while it goes on.
 
+use crate::actions::{Action, Context, Group};
 use crate::dock::Tab;
 use crate::field;
 use crate::lab::{Lab, Notice};
@@ -26,6 +27,22 @@ const A_WHILE: f64 = 24.0;
 const EXPORTED: (f64, f64) = (720.0, 420.0);
 /// So many values are offered while a path is typed.
 const MOST_OFFERED: usize = 400;
+
+/// Sweeps the selected number.
+pub(crate) const SWEEP: Action = Action {
+    id: "sweep",
+    group: Group::View,
+    contexts: &[Context::Value],
+    label: words::SWEEP_SELECTION,
+    keys: &[],
+    enabled: |lab| if lab.playable().is_some() { Ok(()) } else { Err(words::NO_NUMBER) },
+    run: |lab| {
+        if let Some(path) = lab.selected.get_untracked() {
+            lab.sweep(&path);
+            lab.open_dock(Tab::Plot);
+        }
+    },
+};
 
 /// What is plotted of the shown document.
 #[derive(Clone, Copy, Debug)]

@@ -2,8 +2,9 @@
 //!
 //! All rows are equally high; only those in sight, and the one that has the keyboard, are in the page.
 
+use crate::actions::Context;
 use crate::lab::{Lab, Notice};
-use crate::{field, icons, keyboard, words};
+use crate::{field, icons, keyboard, menu, words};
 use leptos::attr::custom::custom_attribute;
 use leptos::ev::{FocusEvent, KeyboardEvent};
 use leptos::html::Div;
@@ -502,6 +503,15 @@ fn Row(tree: Tree, place: usize, shown: Shown) -> impl IntoView {
                 if tree.row(at).is_some_and(|row| is_editable(&row)) {
                     tree.editing.set(Some(at));
                 }
+            }
+            on:contextmenu=move |e: leptos::ev::MouseEvent| {
+                e.prevent_default();
+                if !selected.get_untracked() {
+                    tree.go_to(at);
+                }
+                let is_some = lab.selected.with_untracked(Option::is_some);
+                let context = if is_some { Context::Thing } else { Context::Sheet };
+                menu::open_at(lab, (f64::from(e.client_x()), f64::from(e.client_y())), context);
             }
             on:pointerenter=move |_| lab.hover(tree.row(at).and_then(thing_of))
             on:keydown=move |e: KeyboardEvent| tree.key(at, &e)

@@ -1,9 +1,10 @@
 //! The values view: a table in which every value can be typed, scrubbed and locked.
 
+use crate::actions::Context;
 use crate::lab::{Lab, Notice};
 use crate::player::Play;
-use crate::{field, js, words};
-use leptos::ev::{KeyboardEvent, PointerEvent};
+use crate::{field, js, menu, words};
+use leptos::ev::{KeyboardEvent, MouseEvent, PointerEvent};
 use leptos::html::Span;
 use leptos::prelude::*;
 use presentation::numbers::{ends_between, meant_in, step};
@@ -153,7 +154,11 @@ pub fn Row(
             title=hint
             on:pointerenter=move |_| lab.hover(Some(path.get_untracked()))
         >
-            <th scope="row">
+            <th scope="row" on:contextmenu=move |e: MouseEvent| {
+                e.prevent_default();
+                lab.select(Some(path.get_untracked()));
+                menu::open_at(lab, (f64::from(e.client_x()), f64::from(e.client_y())), Context::Value);
+            }>
                 <Scrub lab=lab row=row owner=owner name=name selects={place == Place::Table} />
             </th>
             <td><Field lab=lab row=row selects={place == Place::Table} /></td>

@@ -9,6 +9,7 @@ mod in_the_browser {
     mod hand;
     mod jobs;
     mod lab;
+    mod menus;
     mod recorded;
     mod server;
     mod six;

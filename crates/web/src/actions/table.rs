@@ -3,7 +3,7 @@
 use super::conditions::{
     class, constraint, document, drawn, instance, is_own, is_thing, lockable, selected, several,
 };
-use super::{Action, Context, Group, recording};
+use super::{Action, Context, Group, of_class, recording};
 use crate::dialog::Wish;
 use crate::dock::{Sheet, Tab};
 use crate::keyboard::focus;
@@ -96,7 +96,7 @@ pub const ACTIONS: &[Action] = &[
     Action {
         id: "play",
         group: Group::Edit,
-        contexts: &[Context::Thing],
+        contexts: &[Context::Thing, Context::Value],
         label: words::PLAY,
         keys: &["Alt+P"],
         enabled: |lab| {
@@ -109,7 +109,7 @@ pub const ACTIONS: &[Action] = &[
     Action {
         id: "lock",
         group: Group::Edit,
-        contexts: &[Context::Thing],
+        contexts: &[Context::Thing, Context::Value],
         label: words::LOCK,
         keys: &["Shift+L"],
         enabled: |lab| lockable(lab).map(drop),
@@ -556,6 +556,11 @@ pub const ACTIONS: &[Action] = &[
         enabled: |lab| document(lab).map(drop),
         run: Lab::toggle_annotations,
     },
+    of_class::INSERT,
+    of_class::EDIT,
+    of_class::RENAME,
+    of_class::DELETE,
+    crate::plot::SWEEP,
     recording::REPEAT,
     recording::IF,
     recording::GO,
@@ -721,7 +726,7 @@ pub const ACTIONS: &[Action] = &[
     Action {
         id: "plot",
         group: Group::View,
-        contexts: &[Context::Thing],
+        contexts: &[Context::Thing, Context::Value],
         label: words::PLOT_SELECTION,
         keys: &["Shift+P"],
         enabled: |lab| {

@@ -1,18 +1,21 @@
 //! The prototype of a class, shown instead of the document that declares it: what is done there is done to the class.
 
 use super::{Lab, Notice, Zoom};
+use crate::sheet::View;
 use crate::words;
 use leptos::prelude::*;
 use session::view::DocumentId;
 use session::{Path, Session};
 
 /// The class whose prototype is shown.
-#[derive(Clone, PartialEq, Eq, Debug)]
+#[derive(Clone, PartialEq, Debug)]
 pub struct Shown {
     /// What the class is called.
     pub class: String,
     /// The document that declares it.
     pub home: DocumentId,
+    /// How one saw the document, and whether that fitted all of it.
+    seen: (View, bool),
 }
 
 impl Lab {
@@ -29,8 +32,12 @@ impl Lab {
         match self.tell(|session, id| session.open_prototype(id, class)) {
             Some(Ok(pane)) => {
                 let home = self.ask(|session| session.home(pane));
-                self.prototype.set(Some(Shown { class: String::from(class), home }));
+                let before = self.prototype.with_untracked(|shown| shown.as_ref().map(|s| s.seen));
+                let now = || (self.view.get_untracked(), self.fits.get_value());
+                let seen = before.unwrap_or_else(now);
+                self.prototype.set(Some(Shown { class: String::from(class), home, seen }));
                 self.show_of_document(pane);
+                self.zoom.set(Some(Zoom::Fit));
             }
             Some(Err(refusal)) => self.notice.set(Some(Notice::Refused(refusal))),
             None => {}
@@ -43,6 +50,11 @@ impl Lab {
             self.flush_text();
             self.prototype.set(None);
             self.show_of_document(shown.home);
+            // one goes on where one was, unless nothing is left there
+            let (view, fits) = shown.seen;
+            self.view.set(view);
+            self.fits.set_value(fits);
+            self.zoom.set(Some(if fits { Zoom::Fit } else { Zoom::Seen }));
         }
     }
 
@@ -58,7 +70,6 @@ impl Lab {
         self.renew_drafting();
         self.refresh();
         crate::keyboard::focus("#picture");
-        self.zoom.set(Some(Zoom::Fit));
     }
 
     /// After a change: the class may have another name now, or be gone.

@@ -29,6 +29,26 @@ pub const ONLY_FOLLOWS: &str = "It only follows what it measures. With Done, or 
 pub const ALSO: &str = "+ also";
 /// What that does.
 pub const ALSO_HELP: &str = "Select further things by touching them; touch the empty sheet to end";
+/// Inserts a thing of a class where there is room.
+pub const CLASS_INSERT: &str = "Insert one";
+/// Shows the prototype of a class of the bin.
+pub const CLASS_EDIT: &str = "Edit this class";
+/// Gives a class of the bin another name.
+pub const CLASS_RENAME: &str = "Rename this class";
+/// Takes a class of the bin out of the document.
+pub const CLASS_DELETE: &str = "Delete this class";
+/// Why none of these can be done.
+pub const NO_TILE: &str = "ask a class of your own in the bin for its menu first";
+
+/// What is said once a class is gone.
+pub fn class_deleted(class: &str) -> String {
+    format!("{class} is gone; Ctrl+Z brings it back")
+}
+
+/// Leads the selected number through a range, and plots over it.
+pub const SWEEP_SELECTION: &str = "Sweep it in the plot";
+/// What is given in the class whose prototype is shown.
+pub const GIVEN_IN_CLASS: &str = "what is given in every one of this class";
 /// The value of what is one itself.
 pub const VALUE: &str = "value";
 /// What the strip says of a dimension that is said already.
