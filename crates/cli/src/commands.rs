@@ -4,10 +4,10 @@
 //! warnings}, `test` {files: [{path, checks, diagnostics}], passed, failed}, `run` {path, values,
 //! arbitrary, status, diagnostics}, `explain` the explanation, with what holds the thing in `held`, where else it could be in
 //! `ghosts` and what would make less to be solved together in `advice`, `analyse` the analysis, `recognise`
-//! {path, classes}, `draw` {path, svg, undrawn, unpictured}, `fmt` {files: [{path, changed, error}]}. The shapes of their parts are
-//! those of `session::view`.
+//! {path, classes}, `draw` {path, svg, undrawn, unpictured}, `fmt` {files: [{path, changed, error}]}, with the `text` of
+//! standard input. What cannot be read at all is {error}. The shapes of their parts are those of `session::view`.
 
-use crate::documents::{self, OpenError, Opened, find, open, open_sparingly};
+use crate::documents::{self, OpenError, Opened, find, is_standard_input, open, open_sparingly};
 use crate::family::Format;
 use crate::rows::{self, Row};
 use presentation::annotations::{self, Moved};
@@ -549,8 +549,7 @@ pub(crate) fn fmt(
 ) -> Result<Report, OpenError> {
     let (mut words, mut files, mut good) = (String::new(), Vec::new(), true);
     for path in find(arguments)? {
-        let text = std::fs::read_to_string(&path)
-            .map_err(|source| OpenError::Unreadable { path: path.clone(), source })?;
+        let text = documents::read(&path)?;
         if let Some((line, column, message)) = session::misspelled(&text) {
             good = false;
             let _ = writeln!(words, "{}:{line}:{column}: not laid out: {message}", path.display());
@@ -558,6 +557,11 @@ pub(crate) fn fmt(
             continue;
         }
         let formatted = session::format(&text);
+        if is_standard_input(&path) && mode == FormatMode::Write {
+            files.push(json!({ "path": path, "text": formatted }));
+            words.push_str(&formatted);
+            continue;
+        }
         let changed = formatted != text;
         if changed {
             match mode {

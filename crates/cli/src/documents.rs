@@ -97,12 +97,28 @@ pub(crate) fn open_sparingly(path: &Path) -> Result<Opened, OpenError> {
     open_by(path, Session::open_sparingly)
 }
 
+/// Returns true for `-`, which stands for what comes in by standard input.
+pub(crate) fn is_standard_input(path: &Path) -> bool {
+    path == Path::new("-")
+}
+
+/// Reads the text of a document.
+///
+/// # Errors
+/// If it cannot be read as text.
+pub(crate) fn read(path: &Path) -> Result<String, OpenError> {
+    let text = match is_standard_input(path) {
+        true => std::io::read_to_string(std::io::stdin()),
+        false => fs::read_to_string(path),
+    };
+    text.map_err(|source| OpenError::Unreadable { path: path.to_path_buf(), source })
+}
+
 fn open_by(
     path: &Path,
     open: impl FnOnce(&mut Session, &str, &str) -> DocumentId,
 ) -> Result<Opened, OpenError> {
-    let text = fs::read_to_string(path)
-        .map_err(|source| OpenError::Unreadable { path: path.to_path_buf(), source })?;
+    let text = read(path)?;
     let folder = path.parent().unwrap_or(Path::new(".")).to_path_buf();
     let mut session = Session::new(Box::new(FilesBeside { folder }));
     let name = path.file_stem().map_or_else(String::new, |s| s.to_string_lossy().into_owned());

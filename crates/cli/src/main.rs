@@ -34,7 +34,7 @@ struct Arguments {
 enum Command {
     /// Says what is wrong with documents, with the source line, a code and a hint.
     Check {
-        /// Files, or folders with documents.
+        /// Files, or folders with documents; `-` is standard input.
         #[arg(required = true)]
         files: Vec<PathBuf>,
         /// Warnings make it fail too.
@@ -43,7 +43,7 @@ enum Command {
     },
     /// Runs the `check` blocks of documents.
     Test {
-        /// Files, or folders with documents.
+        /// Files, or folders with documents; `-` is standard input.
         #[arg(required = true)]
         files: Vec<PathBuf>,
         /// Names each check, those that passed as well.
@@ -54,7 +54,7 @@ enum Command {
     ///
     /// Marks: `=` given in the text, `!` anchored, `~` arbitrary, as nothing decides it.
     Run {
-        /// The document.
+        /// The document; `-` is standard input.
         file: PathBuf,
         /// Lists everything, where things are drawn and what pictures compute as well.
         #[arg(long)]
@@ -105,7 +105,7 @@ enum Command {
     },
     /// Lays documents out as the language wants it, keeping comments.
     Fmt {
-        /// Files, or folders with documents.
+        /// Files, or folders with documents; `-` is standard input.
         #[arg(required = true)]
         files: Vec<PathBuf>,
         /// Only says which would change, and fails if any would.
@@ -151,11 +151,11 @@ fn main() -> ExitCode {
             commands::fmt(files, mode, form)
         }
     };
-    finish(report)
+    finish(report, form)
 }
 
 /// Prints a report: 0 if all is well, 1 if something is wrong with the documents, 2 without an answer.
-fn finish(report: Result<Report, OpenError>) -> ExitCode {
+fn finish(report: Result<Report, OpenError>, form: Form) -> ExitCode {
     match report {
         Ok(report) => {
             // A reader that went away has read enough.
@@ -164,6 +164,10 @@ fn finish(report: Result<Report, OpenError>) -> ExitCode {
             if report.good { ExitCode::SUCCESS } else { ExitCode::FAILURE }
         }
         Err(error) => {
+            if form == Form::Json {
+                let told = serde_json::json!({ "error": error.to_string() });
+                let _ = writeln!(std::io::stdout(), "{told}");
+            }
             let _ = writeln!(std::io::stderr(), "thinglab: {error}");
             ExitCode::from(2)
         }

@@ -1,7 +1,8 @@
 //! What the command answers to the shell: nothing was in order where it says why not.
 
+use std::io::Write as _;
 use std::path::PathBuf;
-use std::process::{Command, Output};
+use std::process::{Command, Output, Stdio};
 
 /// Runs the command on a document of that text.
 fn asked(name: &str, text: &str, command: &str, about: &[&str]) -> Output {
@@ -272,4 +273,25 @@ fn a_name_of_more_letters_than_a_line_has_is_printed() {
     let words = printed("long-name", &format!("{name}: Real = 3\ny: Real = 4\n"), "run", &[]);
     assert!(words.starts_with(&format!("{name} = 3\n")), "{}", words.len());
     assert!(words.lines().nth(1).is_some_and(|line| line.trim_end().ends_with("= 4")));
+}
+
+#[test]
+fn a_document_may_come_in_by_standard_input() {
+    let mut thinglab = Command::new(env!("CARGO_BIN_EXE_thinglab"));
+    let thinglab = thinglab.args(["run", "-"]).stdin(Stdio::piped()).stdout(Stdio::piped());
+    let mut running = thinglab.spawn().expect("the command starts");
+    let mut to = running.stdin.take().expect("it is piped");
+    to.write_all(b"use geometry\nx: Real = 3\n").expect("it is read");
+    drop(to);
+    let said = running.wait_with_output().expect("it ends").stdout;
+    assert!(said.starts_with(b"x = 3\n"), "{}", String::from_utf8_lossy(&said));
+}
+
+#[test]
+fn a_file_that_is_not_there_is_an_answer_in_json_too() {
+    let mut thinglab = Command::new(env!("CARGO_BIN_EXE_thinglab"));
+    let said = thinglab.args(["run", "--json", "no-such.thing"]).output().expect("it starts");
+    let told: serde_json::Value = serde_json::from_slice(&said.stdout).expect("it is JSON");
+    assert!(told["error"].as_str().is_some_and(|e| e.starts_with("no-such.thing: ")), "{told}");
+    assert_eq!(said.status.code(), Some(2));
 }

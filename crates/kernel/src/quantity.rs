@@ -31,6 +31,8 @@ const PREFIXES: [(&str, i8, f64); 10] = [
 const MOST_READABLE: f64 = 1e6;
 /// Other numbers do not read well in the unit in which they were written.
 const READABLE: std::ops::Range<f64> = 1e-3..MOST_READABLE;
+/// A smaller number does not read well in a unit in which another one was written.
+const LEAST_OF_ANOTHER: f64 = 0.1;
 
 /// A smaller number does not read well in a quotient of the units that the text writes.
 const LEAST_OF_QUOTIENT: f64 = 0.1;
@@ -136,6 +138,7 @@ pub fn spelling_for(x: f64, quantity: Quantity<'_>, document: &Document) -> Stri
     let digits = |c: char| c.is_ascii_digit() || c == '.';
     let words = last.into_iter().flat_map(|word| [word, word.trim_start_matches(digits)]);
     let fits = |spelling: &&str| units::unit(spelling).is_some_and(|u| u.dimension == dimension);
+    let text = written;
     let all = written.split(char::is_whitespace).map(|word| word.trim_start_matches(digits));
     let written_units = all.filter(fits).count();
     let written = { words }.find(fits);
@@ -147,7 +150,15 @@ pub fn spelling_for(x: f64, quantity: Quantity<'_>, document: &Document) -> Stri
             |s: &&str| is_one && matches!(*s, "arcmin" | "arcsec" | "mas") && is_read(s);
         return written.filter(is_of_degrees).unwrap_or("deg").into();
     }
-    if let Some(spelling) = written.filter(|s| x == 0.0 || READABLE.contains(&size(s))) {
+    let is_read = |s: &&str| {
+        let size = size(s);
+        let least = match size < LEAST_OF_ANOTHER && !is_written_as(text, size) {
+            true => LEAST_OF_ANOTHER,
+            false => READABLE.start,
+        };
+        x == 0.0 || (least..READABLE.end).contains(&size)
+    };
+    if let Some(spelling) = written.filter(is_read) {
         return spelling.into();
     }
     // millions of light years are no easier to read as billions of terametres
@@ -158,6 +169,14 @@ pub fn spelling_for(x: f64, quantity: Quantity<'_>, document: &Document) -> Stri
         }
         _ => other,
     }
+}
+
+/// Returns true for the size of a number that stands in what is written.
+fn is_written_as(written: &str, size: f64) -> bool {
+    let is_of_number = |c: char| c.is_ascii_digit() || c == '.' || c == 'e' || c == '-';
+    let words = written.split(|c: char| !is_of_number(c));
+    let mut numbers = words.filter_map(|word| word.parse::<f64>().ok());
+    numbers.any(|number| base::number::close(number.abs(), size))
 }
 
 /// How many times a number is larger or smaller than one that is read easily.

@@ -6,7 +6,9 @@ use crate::planner::{Model, Planner};
 use crate::rule::{Body, Condition, Source};
 use crate::task::{Course, Holding, Task};
 use kernel::{SlotId, Values};
-use solve::{COUNTING, Count, Level, Proofs, Rejected, Standing, Step, StepKind, System};
+use solve::{
+    COUNTING, Count, Level, Proofs, Rejected, RelationBody, Standing, Step, StepKind, System,
+};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// One step of a plan, in the document's terms.
@@ -139,7 +141,8 @@ impl Planner {
     }
 
     /// Returns for each of some slots that the latest edit computed the constraints that hold by the step which did,
-    /// those included that make it equal to what another step computed.
+    /// those included that make it equal to what another step computed; of what no step did, as of what was looked for,
+    /// those that speak of it.
     ///
     /// Cost: linear in the steps of the components that have one of them.
     pub fn behind(&self, slots: &BTreeSet<SlotId>) -> BTreeMap<SlotId, BTreeSet<Source>> {
@@ -158,6 +161,24 @@ impl Planner {
                 }
                 for slot in targets.filter_map(slot_of) {
                     behind.entry(slot).or_default().extend(&sources);
+                }
+            }
+            let is_told = |slot: &SlotId| behind.contains_key(slot) || !slots.contains(slot);
+            let untold: BTreeSet<SlotId> =
+                task.component.slots().iter().copied().filter(|slot| !is_told(slot)).collect();
+            for (relation, r) in task.system.relations.iter().zip(0..) {
+                let source = task.source(&self.rules, r);
+                let arguments = task.system.equations_of(relation).iter();
+                let arguments = arguments.flat_map(|e| task.system.arguments(e.arguments));
+                let named = match &relation.body {
+                    RelationBody::Opaque { slots } => &**slots,
+                    RelationBody::Equations(_) => &[],
+                };
+                let named = arguments.chain(named).filter_map(|&l| {
+                    task.component.slots().get(l as usize).filter(|slot| untold.contains(slot))
+                });
+                for &slot in named {
+                    behind.entry(slot).or_default().insert(source);
                 }
             }
         }

@@ -607,6 +607,21 @@ pub(crate) fn show_thing(state: &State, thing: ThingId, values: &Values) -> Opti
     each_slot(state, thing, |slot| slot_in_words(state, slot, values))
 }
 
+/// Returns what the value of a thing was and is, if it is primitive or a place: to six digits, or all where these do not
+/// tell them apart.
+pub(crate) fn show_both(
+    state: &State,
+    thing: ThingId,
+    [was, is]: [&Values; 2],
+) -> Option<[String; 2]> {
+    let both = [show_thing(state, thing, was)?, show_thing(state, thing, is)?];
+    if both[0] != both[1] {
+        return Some(both);
+    }
+    let exactly = |values| show_thing_exactly(state, thing, values);
+    Some([exactly(was)?, exactly(is)?])
+}
+
 /// Returns the value of a thing with all its digits, if it is primitive or a place.
 pub(crate) fn show_thing_exactly(state: &State, thing: ThingId, values: &Values) -> Option<String> {
     each_slot(state, thing, |slot| slot_exactly(state, slot, values))

@@ -6,7 +6,7 @@
 
 use crate::rules;
 use crate::state::State;
-use crate::words::{listed, show_thing};
+use crate::words::{listed, show_both};
 use crate::write_back::unit_of_writing;
 use base::{Diagnostic, Place};
 use kernel::{DOCUMENT, SlotId, Term, ThingId, Values};
@@ -94,8 +94,7 @@ fn warning(
 ) -> Diagnostic {
     let path = |unit| state.structure.path(&state.lowered.document, unit).to_string();
     let told = |&unit: &ThingId| {
-        let was = show_thing(state, unit, given).unwrap_or_default();
-        let is = show_thing(state, unit, &state.values).unwrap_or_default();
+        let [was, is] = show_both(state, unit, [given, &state.values]).unwrap_or_default();
         let by = if line.of_class { "by its class" } else { "here" };
         format!("{} is given {by} as {was}, and became {is}", path(unit))
     };

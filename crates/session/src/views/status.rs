@@ -4,7 +4,6 @@ use crate::document::Open;
 use crate::state::State;
 use crate::view::{Status, Unmet};
 use crate::words;
-use kernel::{SlotId, Values};
 use plan::Source;
 use solve::Level;
 
@@ -65,11 +64,12 @@ fn double_roots(state: &State) -> Option<String> {
 
 /// Says which numbers are others than the text gives them, because something had to give way.
 fn yielded(state: &State) -> Option<String> {
-    let shown = |values: &Values, slot: SlotId| words::slot_in_words(state, slot, values);
     let mut given = state.values.clone();
     let named = state.gave_way.iter().take(MOST_NAMED).map(|(slot, was)| {
         given.put(*slot, was.clone());
-        let (is, was) = (shown(&state.values, *slot), shown(&given, *slot));
+        let thing = state.structure.slots[*slot].thing;
+        let both = words::show_both(state, thing, [&given, &state.values]);
+        let [was, is] = both.unwrap_or_default();
         format!("{} is {is}, given as {was}", state.slot_path(*slot))
     });
     let named: Vec<String> = named.collect();

@@ -214,6 +214,35 @@ fn the_status_says_which_given_numbers_gave_way() {
 }
 
 #[test]
+fn a_value_that_gave_way_is_read_in_a_unit_of_its_size_and_to_as_many_digits_as_tell() {
+    let told = |text: &str| {
+        let desk = Desk::of(text);
+        let all = desk.session.text(desk.id).diagnostics;
+        all.into_iter().map(|d| d.message).collect::<Vec<_>>().join("\n")
+    };
+    assert_eq!(
+        told("v: Voltage = 1 V\nconstraint 2 * v = 9.17038 mV\n"),
+        "v is given here as 1 V, and became 4.58519 mV, because of “2 * v = 9.17038 mV”"
+    );
+    assert_eq!(
+        told("f: Force = -1000 N\nconstraint 2 * f = -2000.000004 N\n"),
+        "f is given here as -1000 N, and became -1000.000002 N, because of “2 * f = -2000.000004 N”"
+    );
+    // what is as it was written keeps its unit
+    let row = Desk::of("v: Voltage = 0.0045 V\n").row("v");
+    assert_eq!([row.text, row.unit], ["0.0045", "V"]);
+}
+
+#[test]
+fn a_list_of_whole_numbers_that_gave_way_says_because_of_what() {
+    let desk = Desk::of(
+        "n: List of Integer in 0..9 = [1, 2, 3]\nconstraint allDifferent(n)\nconstraint first: n[0] = 2\n",
+    );
+    let all = desk.session.text(desk.id).diagnostics;
+    assert!(all[0].message.ends_with(", because of first"), "{}", all[0].message);
+}
+
+#[test]
 fn a_document_is_called_what_it_says_of_itself_or_by_its_name() {
     let title = |text: &str| {
         let mut desk = Desk::of("");
