@@ -358,6 +358,16 @@ fn whole_numbers_without_a_solution_are_no_search_without_end() {
                 .into(),
             Unmet,
         ),
+        (
+            "three factors of a prime",
+            "x, y, z: Integer in 2..1000000000\nconstraint x*y*z = 1000000007\n".into(),
+            Unmet,
+        ),
+        (
+            "squares apart by three",
+            "a, b: Integer in 1..1000000000\nconstraint a^2 - 2*b^2 = 3\n".into(),
+            Unmet,
+        ),
         ("no sum of two squares", "a, b: Integer\nconstraint a^2 + b^2 = 3\n".into(), Unmet),
         (
             "a large power against a bound",

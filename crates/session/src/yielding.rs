@@ -121,6 +121,9 @@ fn warning(
             "give a value with which the constraints hold, or write `constant` before it where it never yields"
         }
         true => "give it a value with which the constraints hold, in the body of the part",
+        false if line.units.len() == 1 => {
+            "leave its value out if it is to be computed, or `anchor` it and let another yield"
+        }
         false => {
             "give a value with which the constraints hold, or `anchor` it and let another yield"
         }

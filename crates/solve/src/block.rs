@@ -17,7 +17,7 @@ use crate::lanes::{LaneScratch, Out, Outs, WIDE};
 use crate::lower::{Definers, Problem, ProblemRow};
 use crate::residue::Residue;
 use crate::rows::Point;
-use crate::search::{Effort, IMPROVING, Puzzle, Verdict};
+use crate::search::{COUNTING, Effort, IMPROVING, Puzzle, Verdict};
 use crate::system::SlotIndex;
 use expr::{Arena, ExprId, LANES, Var};
 use layout::{Group, KNOWN, positions};
@@ -118,7 +118,7 @@ impl Workspace {
     /// Searches, which counts as iterating does.
     pub(crate) fn nearest(&mut self, puzzle: &Puzzle, start: &[f64], values: &[f64]) -> Verdict {
         let improving = if self.is_trial { 0 } else { IMPROVING };
-        let most = self.bound.unwrap_or(u64::MAX);
+        let most = self.bound.unwrap_or(self.spent + COUNTING);
         let mut effort = Effort { spent: self.spent, most, improving };
         let verdict = puzzle.nearest_within(start, values, &mut effort);
         self.spent = effort.spent;

@@ -33,7 +33,7 @@ use row::{different, whole_number};
 pub const PATIENCE: u64 = 200_000;
 /// How many more are visited in search of a nearer one.
 pub const IMPROVING: u64 = 5_000;
-/// What counting solutions may cost, in multiplications, roughly.
+/// What a search, or counting solutions, may cost, in multiplications, roughly.
 pub const COUNTING: u64 = 2_000_000_000;
 
 /// What is searched, for any values of what is known.
@@ -377,7 +377,7 @@ pub(crate) struct Effort {
 
 impl Default for Effort {
     fn default() -> Self {
-        Self { spent: 0, most: u64::MAX, improving: IMPROVING }
+        Self { spent: 0, most: COUNTING, improving: IMPROVING }
     }
 }
 

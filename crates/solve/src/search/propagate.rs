@@ -17,6 +17,8 @@ use expr::{Arena, ExprId, Interval};
 const STATES: u64 = 64;
 /// What it costs to test a row in one of them, in multiplications, roughly.
 const STATE: u64 = 20;
+/// What it costs to bound one operation of a row's sides, there and back, in multiplications, roughly.
+const BOUND: u64 = 200;
 
 /// There is no solution.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -399,6 +401,7 @@ impl<'a> Field<'a> {
 
     /// Leaves cells what the bounds of both sides allow.
     fn narrow(&mut self, general: &General) -> Result<(), Dead> {
+        self.spent += BOUND * general.sides.len() as u64;
         let (l, r) = self.enclose_sides(general);
         let (of_left, of_right) = match general.comparing {
             Comparing::Differ => return Ok(()),
