@@ -20,7 +20,7 @@ const MOST_PARTS: usize = 6;
 /// Of so many parts at most each is tried both ways round.
 const MOST_TURNED: usize = 4;
 /// What the name of the class of placed things begins with: nobody declares it.
-const PLACED_OF: &str = "Placed of ";
+pub(crate) const PLACED_OF: &str = "Placed of ";
 
 /// Returns the classes that some parts could be the parts of, those with most constraints first.
 ///

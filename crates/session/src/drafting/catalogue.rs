@@ -427,7 +427,10 @@ pub(crate) fn tools(state: &State, home: &Home) -> Vec<Tool> {
 pub(crate) fn serving(state: &State) -> BTreeSet<ClassId> {
     let document = &state.lowered.document;
     let is_own = |origin| state.lowered.own_span(origin).is_some();
-    let messages = document.classes.iter().flat_map(|(_, class)| &class.messages);
+    // what places a program is no construction of a library
+    let is_written = |class: &Class| !class.name.starts_with(recognise::PLACED_OF);
+    let classes = document.classes.iter().filter(|(_, class)| is_written(class));
+    let messages = classes.flat_map(|(_, class)| &class.messages);
     let constructions = messages.filter(|m| m.is_of_class() && !is_own(m.origin));
     let mut made = BTreeSet::new();
     let mut left: Vec<&Term> = constructions.map(|m| &*m.answer).collect();

@@ -325,12 +325,17 @@ pub(crate) fn asked(state: &State, program: &str) -> Vec<(String, Asks)> {
     let (file, all) = { declared }.find(|(_, all)| !all.is_empty()).unwrap_or_default();
     let user = state.lowered.files.iter().nth(file).map_or("", |(_, file)| file.name.as_str());
     let is_constant = |text: &str| all.iter().all(|d| text::places_of(text, &d.name).is_empty());
+    let unit_of = |nth: usize| {
+        let lines = state.lowered.files.iter().nth(nth)?.1.parse.syntax().children();
+        lines.filter_map(syntax::ast::UnitLine::cast).next().map(|line| line.unit())
+    };
     // a bare length of another file may be one of other units
+    let is_of_same_unit = file == 0 || unit_of(file) == unit_of(0);
     let is_here = |d: &Declared, text: &str| {
         let is_plain = matches!(d.class.as_str(), "Integer" | "Real" | "Bool" | "Text");
         let has_unit =
             text.split_once(' ').is_some_and(|(number, _)| number.parse::<f64>().is_ok());
-        !text.is_empty() && is_constant(text) && (file == 0 || is_plain || has_unit)
+        !text.is_empty() && is_constant(text) && (is_of_same_unit || is_plain || has_unit)
     };
     let one = |d: &Declared| {
         let usual = Some(d.example.clone()).filter(|example| is_here(d, example));

@@ -1,6 +1,7 @@
 //! Dynamic updating: an edit of a class reaches every thing of it, here and in documents that use it.
 
 use super::desk::{Desk, at};
+use session::view::RowUse;
 use session::{Command, DocumentId, Host, Literal, Session};
 use std::cell::RefCell;
 use std::rc::Rc;
@@ -319,4 +320,54 @@ fn the_example_of_a_used_text_is_not_drawn_nor_counted() {
     assert_eq!(session.picture(id).drawing.elements.len(), 1);
     session.apply(id, &Command::Undo).expect("there is a step");
     assert_eq!(session.picture(id).drawing.elements.len(), 3);
+}
+
+/// A host beside whose document another one lies, in the unit of a sheet.
+struct Shop(&'static str);
+
+impl Host for Shop {
+    fn read(&self, name: &str) -> Option<String> {
+        match name {
+            "flange" => Some(format!(
+                "{}use geometry\nprogram Flange(\n    d: Length in 10..100 = 40 \"Bore?\",\n    n: Integer = 4,\n) {{\n    \
+                 rim = Circle(Point(0, 0), d / 2)\n}}\nfamily Sizes of Flange {{\n    rows: (\"S\", 20)\n}}\n",
+                self.0
+            )),
+            _ => crate::desk::Library.read(name),
+        }
+    }
+    fn libraries(&self) -> Vec<String> {
+        vec!["geometry".into()]
+    }
+}
+
+#[test]
+fn a_program_of_a_document_beside_asks_for_its_own_values_and_goes_on_being_listed() {
+    let listed =
+        |session: &Session, id| session.constructions(id).iter().any(|row| row.id == "Flange");
+    for (theirs, own, is_usual) in
+        [("", "", true), ("unit mm\n", "unit mm\n", true), ("", "unit mm\n", false)]
+    {
+        let mut session = Session::new(Box::new(Shop(theirs)));
+        let id = session.open("desk", &format!("{own}use geometry\nuse flange\n"));
+        let prompt = session.begin(id, "Flange").expect("it is listed");
+        assert!(prompt.words.starts_with("Bore? (d)"), "{}", prompt.words);
+        assert_eq!(
+            prompt.words.contains("10 to 100; Enter takes 40"),
+            is_usual,
+            "{}",
+            prompt.words
+        );
+        if is_usual {
+            session.enter(id, "").expect("it has a value of its own");
+            session.enter(id, "").expect("it has a value of its own");
+            session.enter(id, "30,40").expect("it is placed");
+            assert!(listed(&session, id), "{}", session.text(id).source);
+        }
+        session.give_up(id);
+        let grid = session.family_grid(id, "Sizes", None).expect("there is one");
+        let row = ("Sizes", &grid.rows[0]);
+        session.use_family_row(id, row, &RowUse::Place).expect("a row is placed");
+        assert!(listed(&session, id), "{}", session.text(id).source);
+    }
 }
