@@ -107,8 +107,10 @@ pub fn ends(line: &Shape) -> Option<[Point; 2]> {
     Some([corners.first()?.at, corners.last()?.at])
 }
 
-/// Returns the corners along a line, the last where it ends.
-pub(crate) fn corners_along(line: &Shape) -> Option<Vec<Corner>> {
+/// Returns the corners along a line, the last where it ends; nothing for words, dots and regions.
+///
+/// Accuracy: an elliptic arc becomes Bézier curves within 1e-7 of its longer half axis.
+pub fn corners_along(line: &Shape) -> Option<Vec<Corner>> {
     let arc = |center: Point, radius: f64, (start, sweep): (f64, f64)| -> Vec<Corner> {
         let at = |part: f64| Point {
             x: center.x + radius * cos(start + part * sweep),

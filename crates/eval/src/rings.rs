@@ -1,45 +1,63 @@
-//! Rings: what segments and arcs of a picture surround, so that it can be filled.
+//! Rings: what segments, arcs and other open lines of a picture surround, so that it can be filled.
 
 use std::collections::BTreeMap;
 
 use base::number::{cos, hypot, sin, tan};
+use drawing::curve::{corners_along, ring_along};
 use drawing::{Corner, Element, Layer, Line, Point, Shape};
 
 /// Ends that are closer than this part of how far the pieces reach meet: they are computed on several ways. Pieces
 /// between the same ends are one where their bulges differ by as small a part.
 const MEET: f64 = 1e-9;
 
-/// A segment or an arc, from one end to the other.
+/// A segment, an arc or another line, from one end to the other.
 #[derive(Clone, Copy)]
 struct Piece {
     from: Point,
     to: Point,
+    /// The bulge of a segment or an arc; of another line how much lies between it and its chord, as a part of the
+    /// chord's square, which tells it from others.
     bulge: f64,
+    /// Whether it is neither a segment nor an arc.
+    is_curve: bool,
 }
 
 impl Piece {
     fn of(shape: &Shape) -> Option<Self> {
         match *shape {
-            Shape::Segment(from, to) => Some(Self { from, to, bulge: 0.0 }),
+            Shape::Segment(from, to) => Some(Self { from, to, bulge: 0.0, is_curve: false }),
             Shape::Arc { center, radius, start, sweep } => {
                 let at = |angle: f64| Point {
                     x: center.x + radius * cos(angle),
                     y: center.y + radius * sin(angle),
                 };
-                Some(Self { from: at(start), to: at(start + sweep), bulge: tan(sweep / 4.0) })
+                let (from, to) = (at(start), at(start + sweep));
+                Some(Self { from, to, bulge: tan(sweep / 4.0), is_curve: false })
             }
-            Shape::Dot(_)
-            | Shape::Polyline { .. }
-            | Shape::Circle { .. }
+            Shape::Polyline { closed: false, .. }
             | Shape::Ellipse { .. }
             | Shape::Spline(_)
-            | Shape::Nurbs(_)
+            | Shape::Nurbs(_) => Self::of_curve(shape),
+            Shape::Dot(_)
+            | Shape::Polyline { closed: true, .. }
+            | Shape::Circle { .. }
             | Shape::Region(_)
             | Shape::Text { .. } => None,
         }
     }
+    fn of_curve(shape: &Shape) -> Option<Self> {
+        let line = corners_along(shape)?;
+        let (from, to) = (line.first()?.at, line.last()?.at);
+        let poles =
+            line.iter().flat_map(|c| [Some(c.at), c.poles.map(|p| p[0]), c.poles.map(|p| p[1])]);
+        let ways = poles.flatten().map(|p| (p.x - from.x, p.y - from.y));
+        let ways: Vec<(f64, f64)> = ways.collect();
+        let twice = ways.windows(2).map(|w| w[0].0 * w[1].1 - w[1].0 * w[0].1).sum::<f64>();
+        let chord = hypot(to.x - from.x, to.y - from.y);
+        Some(Self { from, to, bulge: twice / (chord * chord), is_curve: true })
+    }
     fn reversed(self) -> Self {
-        Self { from: self.to, to: self.from, bulge: -self.bulge }
+        Self { from: self.to, to: self.from, bulge: -self.bulge, ..self }
     }
     fn is_finite(self) -> bool {
         [self.from.x, self.from.y, self.to.x, self.to.y, self.bulge].into_iter().all(f64::is_finite)
@@ -48,7 +66,15 @@ impl Piece {
 
 /// Returns true for what may be a piece of a ring.
 pub(crate) fn is_piece(element: &Element) -> bool {
-    let is_edge = matches!(element.shape, Shape::Segment(..) | Shape::Arc { .. });
+    let is_edge = matches!(
+        element.shape,
+        Shape::Segment(..)
+            | Shape::Arc { .. }
+            | Shape::Polyline { closed: false, .. }
+            | Shape::Ellipse { .. }
+            | Shape::Spline(_)
+            | Shape::Nurbs(_)
+    );
     is_edge && !element.style.is_unbounded && element.style.dimension.is_none()
 }
 
@@ -136,7 +162,7 @@ fn sides(elements: &[Element]) -> (Vec<Side>, usize) {
     (sides, corners.count)
 }
 
-/// Finds the rings that segments and arcs close, each piece in one ring at most: the surface of each, which has no
+/// Finds the rings that segments, arcs and other lines close, each piece in one ring at most: the surface of each, which has no
 /// line, and the places of its pieces. What hangs on a ring, or leads from one to another, is in none.
 ///
 /// From each corner the first side that is left is followed, until the way comes back to a corner that it has passed;
@@ -179,11 +205,18 @@ pub(crate) fn rings(elements: &[Element]) -> Vec<(Element, Vec<usize>)> {
 /// Returns what sides surround, each of them with the corner that it runs from, and the places of their elements.
 fn surface(elements: &[Element], sides: &[Side], ring: &[(usize, usize)]) -> (Element, Vec<usize>) {
     let pieces = ring.iter().map(|&(side, corner)| sides[side].run_from(corner).0);
-    let corners = pieces.map(|piece| Corner::new(piece.from, piece.bulge));
+    let pieces: Vec<Piece> = pieces.collect();
+    let shape = |(side, _): &(usize, usize)| elements[sides[*side].places[0]].shape.clone();
+    let curved = pieces
+        .iter()
+        .any(|piece| piece.is_curve)
+        .then(|| ring_along(&ring.iter().map(shape).collect::<Vec<_>>()));
+    let straight = || pieces.iter().map(|piece| Corner::new(piece.from, piece.bulge)).collect();
+    let corners = curved.flatten().unwrap_or_else(straight);
     let places: Vec<usize> =
         ring.iter().flat_map(|&(side, _)| &sides[side].places).copied().collect();
     let mut surface = Element {
-        shape: Shape::Region(vec![corners.collect()]),
+        shape: Shape::Region(vec![corners]),
         layer: Layer::Back,
         ..elements[places[0]].clone()
     };
@@ -222,6 +255,49 @@ mod tests {
         let found = rings(&[Element::new(arc), segment((993.0, 0.0), (1007.0, 0.0))]);
         let Shape::Region(corners) = &found[0].0.shape else { panic!("a region") };
         assert!((corners[0][0].bulge - 1.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_spline_and_its_chord_close_whichever_way_they_run() {
+        let point = |(x, y)| Point { x, y };
+        let poles = [(0.0, 0.0), (1.0, 3.0), (3.0, 3.0), (4.0, 0.0)];
+        let spline = |way: Vec<Point>| Element::new(Shape::Spline(way));
+        let way: Vec<Point> = poles.into_iter().map(point).collect();
+        let back: Vec<Point> = way.iter().rev().copied().collect();
+        for (a, b) in [((0.0, 0.0), (4.0, 0.0)), ((4.0, 0.0), (0.0, 0.0))] {
+            let lines = [spline(way.clone()), segment(a, b), spline(back.clone())];
+            let found = rings(&lines);
+            // what is drawn twice is one side
+            assert_eq!(found[0].1, [0, 2, 1]);
+            let Shape::Region(corners) = &found[0].0.shape else { panic!("a region") };
+            assert_eq!(corners[0].len(), 2);
+            assert!(drawing::curve::covers(corners, Point { x: 2.0, y: 2.0 }));
+            assert!(!drawing::curve::covers(corners, Point { x: 2.0, y: 2.4 }));
+        }
+        // with an ellipse for the other side
+        let half = |ratio| {
+            Element::new(Shape::Ellipse {
+                center: point((2.0, 0.0)),
+                major: point((2.0, 0.0)),
+                ratio,
+                start: 0.0,
+                sweep: -std::f64::consts::PI,
+            })
+        };
+        let found = rings(&[half(0.5), spline(way)]);
+        assert_eq!(found.len(), 1);
+        let Shape::Region(corners) = &found[0].0.shape else { panic!("a region") };
+        assert!(drawing::curve::covers(corners, Point { x: 2.0, y: -0.9 }));
+        assert!(!drawing::curve::covers(corners, Point { x: 2.0, y: -1.1 }));
+        // a line that closes by itself is filled by itself
+        let whole = Shape::Ellipse {
+            center: point((0.0, 0.0)),
+            major: point((2.0, 0.0)),
+            ratio: 0.5,
+            start: 0.0,
+            sweep: std::f64::consts::TAU,
+        };
+        assert!(rings(&[Element::new(whole), segment((9.0, 0.0), (8.0, 0.0))]).is_empty());
     }
 
     /// The places of the pieces of each ring that segments between named corners close.

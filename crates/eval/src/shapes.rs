@@ -447,7 +447,7 @@ impl<'a> Evaluator<'a> {
         Ok(Answer::Picture(Rc::new(elements)))
     }
 
-    /// Finds what segments and arcs of a picture surround, and the places of these; what a region of the picture covers
+    /// Finds what open lines of a picture surround, and the places of these; what a region of the picture covers
     /// is no surface once more. Each piece is a step.
     fn surrounded(&self, elements: &[Element]) -> Result<(Vec<Element>, BTreeSet<usize>)> {
         let pieces = elements.iter().filter(|e| rings::is_piece(e)).count();
