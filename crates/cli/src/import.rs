@@ -9,7 +9,7 @@ mod merging;
 use crate::commands::{Form, Report};
 use crate::documents::OpenError;
 use base::number::shortest;
-use drawing::{Corner, Point};
+use drawing::{Corner, Point, Shape, curve};
 use dxf::{Figure, Measured, Read, What};
 use merging::Merging;
 use serde_json::json;
@@ -236,12 +236,40 @@ fn surface(rings: &[Vec<Corner>]) -> String {
         format!("Bend({}, {}, {})", shortest(c.at.x), shortest(c.at.y), shortest(c.bulge))
     };
     let contour = |ring: &Vec<Corner>| {
+        if ring.iter().any(|corner| corner.poles.is_some()) {
+            let edges: Vec<String> = curve::runs(ring).iter().filter_map(edge).collect();
+            return format!("Contour.along(edges: [{}])", edges.join(", "));
+        }
         let corners: Vec<String> = ring.iter().map(corner).collect();
         format!("Contour([{}])", corners.join(", "))
     };
     let mut rings = rings.iter().map(contour);
     let outer = rings.next().unwrap_or_default();
     format!("Surface({outer}, [{}])", rings.collect::<Vec<_>>().join(", "))
+}
+
+/// Writes an edge of a ring; nothing for what is none.
+fn edge(shape: &Shape) -> Option<String> {
+    let point = |p: Point| format!("Point{}", place(p));
+    Some(match shape {
+        Shape::Segment(from, to) => format!("Line({}, {})", point(*from), point(*to)),
+        Shape::Arc { center, sweep, .. } => {
+            let [from, to] = curve::ends(shape)?.map(point);
+            let class = if *sweep < 0.0 { "ClockwiseArc" } else { "Arc" };
+            format!("{class}({}, {from}, {to})", point(*center))
+        }
+        Shape::Spline(poles) => {
+            let poles: Vec<String> = poles.iter().map(|p| point(*p)).collect();
+            format!("Bezier([{}])", poles.join(", "))
+        }
+        Shape::Dot(_)
+        | Shape::Polyline { .. }
+        | Shape::Circle { .. }
+        | Shape::Ellipse { .. }
+        | Shape::Nurbs(_)
+        | Shape::Region(_)
+        | Shape::Text { .. } => return None,
+    })
 }
 
 fn place(p: Point) -> String {

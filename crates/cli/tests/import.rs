@@ -260,6 +260,32 @@ fn paragraphs_are_notes_and_hatches_surfaces() {
 }
 
 #[test]
+fn hatches_with_ellipses_and_splines_are_surfaces() {
+    let folder = folder("curved");
+    // half an ellipse and its axis; a spline and its chord
+    let paths = "0\nHATCH\n8\n0\n10\n0.0\n20\n0.0\n30\n0.0\n2\nSOLID\n70\n1\n71\n0\n91\n2\n\
+        92\n1\n93\n2\n72\n3\n10\n0.0\n20\n0.0\n11\n4.0\n21\n0.0\n40\n0.5\n50\n0.0\n51\n180.0\n73\n1\n\
+        72\n1\n10\n-4.0\n20\n0.0\n11\n4.0\n21\n0.0\n97\n0\n\
+        92\n1\n93\n2\n72\n4\n94\n3\n73\n0\n74\n0\n95\n8\n96\n4\n\
+        40\n0.0\n40\n0.0\n40\n0.0\n40\n0.0\n40\n1.0\n40\n1.0\n40\n1.0\n40\n1.0\n\
+        10\n10.0\n20\n0.0\n10\n10.0\n20\n4.0\n10\n16.0\n20\n4.0\n10\n16.0\n20\n0.0\n97\n0\n\
+        72\n1\n10\n16.0\n20\n0.0\n11\n10.0\n21\n0.0\n97\n0\n75\n0\n76\n1\n";
+    fs::write(folder.join("a.dxf"), drawing("4", &[paths])).expect("it can be written");
+    let said = thinglab(&folder, &["import", "a.dxf", "-o", "a.thing"]);
+    let words = String::from_utf8_lossy(&said.stderr).into_owned();
+    assert!(!words.contains("HATCH"), "{words}");
+    let text = fs::read_to_string(folder.join("a.thing")).expect("it is written");
+    let spline = "Contour.along(edges: [Bezier([Point(10, 0), Point(10, 4), Point(16, 4), Point(16, 0)]), Line(Point(16, 0), Point(10, 0))])";
+    assert!(text.contains(spline), "{text}");
+    let text = format!(
+        "{text}check \"what they cover\" {{\n    expect surface1.area = 4 * pi() * 1 mm^2 within 1e-4 mm^2\n    expect surface2.area = 14.4 mm^2 within 1e-4 mm^2\n}}\n"
+    );
+    fs::write(folder.join("a.thing"), text).expect("it is written");
+    let said = thinglab(&folder, &["test", "a.thing"]);
+    assert!(said.status.success(), "{said:?}");
+}
+
+#[test]
 fn what_a_program_drew_is_a_block_and_comes_back() {
     let folder = folder("parts");
     let text = "use geometry\nunit mm\nprogram Posts(n: Integer = 3) {\n    row = repeat n times with x = 0 mm {\n        post = Circle(Point(x, 0 mm), 2 mm)\n        next x = x + 10 mm\n    }\n}\nleft: Posts\nalone: Circle { center = (50, 0)  radius = 1 }\n";

@@ -359,6 +359,7 @@ fn edge(from: Corner, to: Corner) -> Figure {
         Shape::Arc { center, sweep, .. } => {
             Figure::Arc { center, start: from.at, end: to.at, is_clockwise: sweep < 0.0 }
         }
+        Shape::Spline(poles) => Figure::Curves(poles),
         _ => Figure::Line(from.at, to.at),
     }
 }

@@ -132,7 +132,10 @@ impl Placing {
                 return Err("HATCH with arcs in a block that is stretched");
             }
             Figure::Surface(rings) => {
-                let corner = |c: &Corner| Corner::new(self.place(c.at), sign * c.bulge);
+                let corner = |c: &Corner| Corner {
+                    poles: c.poles.map(|poles| poles.map(|p| self.place(p))),
+                    ..Corner::new(self.place(c.at), sign * c.bulge)
+                };
                 Figure::Surface(rings.iter().map(|r| r.iter().map(corner).collect()).collect())
             }
             // words are read as they were, along where their line goes

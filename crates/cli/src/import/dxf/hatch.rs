@@ -1,8 +1,10 @@
-//! Hatches: what closed rings of segments and arcs surround.
+//! Hatches: what closed rings of segments, arcs, elliptic arcs and splines surround.
 
-use super::{Entity, Figure, Found, Read, found};
+use super::{Entity, Figure, Found, Read, found, spline};
 use base::number::{cos, sin, tan};
-use drawing::{Corner, Point};
+use drawing::curve::{self, corners_along};
+use drawing::nurbs::Nurbs;
+use drawing::{Corner, Point, Shape};
 use std::f64::consts::TAU;
 
 /// The values of an entity, read one after the other.
@@ -47,7 +49,7 @@ pub(super) fn surfaces(entity: &Entity<'_>, scale: f64, read: &mut Read) {
                 Some(surface) if kind & (1 | 16) == 0 => surface.push(ring),
                 _ => surfaces.push(vec![ring]),
             },
-            _ => read.notes.push("a path of a HATCH that is no ring of segments and arcs".into()),
+            _ => read.notes.push("a path of a HATCH that is no ring".into()),
         }
     }
     if surfaces.is_empty() {
@@ -68,7 +70,7 @@ fn polyline(values: &mut Values<'_>) -> Option<Vec<Corner>> {
     Some(ring)
 }
 
-/// Reads a path of edges; nothing where one is neither a segment nor an arc.
+/// Reads a path of edges; nothing where one is of no known kind, or lacks some of its numbers.
 fn edges(values: &mut Values<'_>) -> Option<Vec<Corner>> {
     let count = values.next(93)? as usize;
     let mut ring = Vec::new();
@@ -99,10 +101,54 @@ fn edges(values: &mut Values<'_>) -> Option<Vec<Corner>> {
                     ring.push(Corner::new(at, sign * tan(0.25 * part)));
                 }
             }
+            3 => ring.extend(along(&elliptic_arc(values)?)?),
+            4 => ring.extend(along(&curves(values)?)?),
             _ => return None,
         }
     }
     Some(ring)
+}
+
+/// Returns the corners along an edge, without the last, where the next edge begins.
+fn along(edge: &Shape) -> Option<Vec<Corner>> {
+    let mut corners = corners_along(edge)?;
+    corners.pop();
+    Some(corners)
+}
+
+/// Reads an elliptic arc; nothing for one that has no width.
+fn elliptic_arc(values: &mut Values<'_>) -> Option<Shape> {
+    let (center, major, ratio) = (values.point(10)?, values.point(11)?, values.next(40)?);
+    let (start, end) = (values.next(50)?.to_radians(), values.next(51)?.to_radians());
+    let is_left = values.next(73)? != 0.0;
+    let sweep = (end - start).rem_euclid(TAU);
+    let sweep = if sweep < 1e-9 { TAU } else { sweep };
+    // where it runs to the right, its angles are counted to the right
+    let sign = if is_left { 1.0 } else { -1.0 };
+    let across = Point { x: -ratio * major.y, y: ratio * major.x };
+    let is_sound = ratio > 0.0 && curve::half_axis(major) > 0.0;
+    let across = curve::half_axis(across);
+    is_sound.then(|| curve::ellipse(center, major, across, sign * start, sign * sweep))
+}
+
+/// Reads a spline as Bézier curves.
+fn curves(values: &mut Values<'_>) -> Option<Shape> {
+    let degree = values.next(94)? as usize;
+    let is_rational = values.next(73)? != 0.0;
+    let (knot_count, pole_count) = (values.next(95)? as usize, values.next(96)? as usize);
+    // no more than there are: a count may be anything
+    let most = values.values.len();
+    let knots = (0..knot_count.min(most)).map(|_| values.next(40)).collect::<Option<Vec<f64>>>()?;
+    let (mut poles, mut weights) = (Vec::new(), Vec::new());
+    for _ in 0..pole_count.min(most) {
+        poles.push(values.point(10)?);
+        weights.push(if is_rational { values.here(42).unwrap_or(1.0) } else { 1.0 });
+    }
+    let is_plain = weights.windows(2).all(|w| w[0] == w[1]);
+    match is_plain && degree <= 3 {
+        true => spline::bezier(degree, &knots, &poles).map(Shape::Spline),
+        false => Nurbs::new(degree, knots, poles, weights).ok().map(Shape::Nurbs),
+    }
 }
 
 /// Leaves out the edges of rings that surround a surface which is drawn with its own: polylines drawn around a hatch.

@@ -46,7 +46,7 @@ pub(super) fn curves(entity: &Entity<'_>, scale: f64, read: &mut Read) {
 /// each stands as often as the degree.
 ///
 /// **Source:** Boehm, *Inserting new knots into B-spline curves*, Computer-Aided Design 12 (1980).
-fn bezier(degree: usize, knots: &[f64], poles: &[Point]) -> Option<Vec<Point>> {
+pub(super) fn bezier(degree: usize, knots: &[f64], poles: &[Point]) -> Option<Vec<Point>> {
     let n = poles.len();
     let is_sound = (1..=3).contains(&degree)
         && n > degree
