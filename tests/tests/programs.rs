@@ -398,6 +398,40 @@ fn curves_by_places_and_poles_are_drawn_and_measured_again_as_the_interpreter_do
     assert!(2 * replayed > asked, "{replayed} of {asked}");
 }
 #[test]
+fn contours_of_curves_are_drawn_again_as_the_interpreter_does() {
+    let text = "use contours\nuse drafting\nprogram Cam(w: Length = 90, h: Length = 50, n: Integer = 4) {\n    \
+                turns = repeat n times with x = 0 mm {\n        \
+                top = EllipticArc(center: Point(x, 0), end: Point(x + w / 2, 0), across: h, from: 0 deg, sweep: 180 deg)\n        \
+                side = Arc(Point(x, 0), Point(x - w / 2, 0), Point(x, -w / 2))\n        \
+                foot = Spline([Point(x + w / 2, 0), Point(x + w / 3, -h), Point(x, -w / 2)])\n        \
+                cam = Contour.along(edges: [foot, top, side])\n        \
+                eye = Contour.along(edges: [Ellipse(center: Point(x, 0), end: Point(x + h / 9, 0), across: h / 7)])\n        \
+                plate = Surface(cam, [eye])\n        \
+                next x = x + 2 * w\n    }\n    \
+                area => turns[0].plate.area\n}\np: Cam\n";
+    let opened = Opened::new(text).unwrap_or_else(|why| panic!("{why}"));
+    let model = opened.model();
+    let drawn: ThingId = opened.thing("p").expect("it has a program");
+    let class = model.document.class_named("Cam").expect("the program");
+    let (known, mut values) = (Known::default(), opened.given().clone());
+    for time in 0..12 {
+        let reference = Evaluator::new(model.document, model.structure, &values);
+        let again = Evaluator::knowing(model.document, model.structure, &values, &known);
+        let [a, b] = [&reference, &again].map(|e| e.run(drawn).expect("a run").expect("a program"));
+        assert!(same_run(&a, &b), "{time}: {a:?}\n{b:?}");
+        let [a, b] = [&reference, &again].map(|e| e.picture(drawn).drawing.elements);
+        assert_eq!(a, b, "{time}");
+        assert!(a.len() > 8, "{time}: {a:?}");
+        assert_eq!(again.why_interpreted(class), None);
+        for part in ["p.w", "p.h"] {
+            let slot = opened.slots(part)[0];
+            values.put(slot, Value::Number(values.numbers[slot] * 1.01));
+        }
+    }
+    let (asked, replayed) = known.replays();
+    assert!(2 * replayed > asked, "{replayed} of {asked}");
+}
+#[test]
 fn what_lines_surround_is_filled_anew_and_the_reason_is_told() {
     let text = "use geometry\nclass Panel {\n    a, b, c: Point\n    picture => picture(segment(a, b), segment(b, c), \
                 segment(c, a)).filled(\"silver\")\n}\nprogram Sheet(long: Length = 3) {\n    \

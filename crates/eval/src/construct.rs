@@ -3,9 +3,9 @@
 use crate::answer::Answer;
 use crate::evaluator::{Evaluator, Given, Result};
 use crate::fault::Fault;
-use crate::replay::{Binary, Unary};
+use crate::replay::{Binary, Measure, Unary, order_of_lines};
 use base::Name;
-use drawing::{Shape, curve};
+use drawing::Shape;
 use expr::dimension::Dimension;
 use geometry::{Bend, Combination, Construction, Figure, Made, Side, Source, Surface, edges_from};
 use kernel::builtin::Making;
@@ -195,25 +195,38 @@ impl<'a> Evaluator<'a> {
     ) -> Result<Answer<'a>> {
         let curved = self.document.class_named("CurvedContour");
         let curved = curved.ok_or_else(|| Fault::wrong("there is no class CurvedContour"))?;
-        if self.is_recording() {
-            return Err(Fault::wrong("a contour of curves is not noted"));
-        }
-        let lines = edges.iter().map(|edge| self.line_of(edge, nearest));
-        let lines = lines.collect::<Result<Vec<Shape>>>()?;
-        let side = |(line, side): (&Shape, &Option<Side>)| {
-            let ends = curve::ends(line).unwrap_or_default().map(|p| [p.x, p.y]);
-            side.unwrap_or(Side { from: ends[0], to: ends[1], bulge: 0.0 })
+        let place = |[x, y]: [f64; 2]| drawing::Point { x, y };
+        let line = |(edge, side): (&Answer<'a>, &Option<Side>)| match side {
+            Some(side) => Ok(Shape::Segment(place(side.from), place(side.to))),
+            None => self.line_of(edge, nearest),
         };
-        let sides: Vec<Side> = lines.iter().zip(sides).map(side).collect();
-        let order = match (&sides[..], curve::ring_along(&lines)) {
-            // one that comes back to where it began
-            ([only], Some(ring)) if closes(only, &ring) => vec![(0, false)],
-            _ => geometry::order(&sides).map_err(|why| self.no_such(class, &why.words()))?,
+        let lines = edges.iter().zip(sides).map(line).collect::<Result<Vec<Shape>>>()?;
+        let side = |(line, side): (&Shape, &Option<Side>)| match (side, line) {
+            (Some(side), _) => Ok(*side),
+            (None, line) => {
+                let ends = self.of_lines(Measure::Ends, std::slice::from_ref(line));
+                let ends = ends.map_err(Fault::wrong)?;
+                Ok(Side { from: [ends[0], ends[1]], to: [ends[2], ends[3]], bulge: 0.0 })
+            }
+        };
+        let sides = lines.iter().zip(sides).map(side).collect::<Result<Vec<Side>>>()?;
+        let order = match self.is_recording() {
+            true => {
+                let order = self.of_lines(Measure::Order, &lines).map_err(Fault::wrong)?;
+                let (pairs, _) = order.as_chunks::<2>();
+                let pair = |[i, is_back]: &[f64; 2]| {
+                    (self.fixed_number(*i) as usize, self.fixed_number(*is_back) != 0.0)
+                };
+                pairs.iter().map(pair).collect()
+            }
+            false => order_of_lines(&lines).map_err(|why| self.no_such(class, &why.words()))?,
         };
         let corner = |&(i, is_back): &(usize, bool)| {
             let Side { from, to, bulge } = sides[i];
-            let (at, bulge) = if is_back { (to, 0.0 - bulge) } else { (from, bulge) };
-            Bend { at, bulge }
+            match is_back {
+                true => Bend { at: to, bulge: self.binary_number(Binary::Subtract, 0.0, bulge) },
+                false => Bend { at: from, bulge },
+            }
         };
         let bends = self.bends(&order.iter().map(corner).collect(), curved, nearest)?;
         let edges = order.iter().map(|&(i, _)| edges[i].clone()).collect();
@@ -227,7 +240,9 @@ impl<'a> Evaluator<'a> {
             _ => self.send(of, &self.tables.picture, Vec::new(), None, nearest)?,
         };
         let Answer::Picture(elements) = picture else { return Err(Fault::wrong("no picture")) };
-        let mut lines = elements.iter().filter(|e| curve::ends(&e.shape).is_some());
+        let is_line =
+            |shape: &Shape| !matches!(shape, Shape::Dot(_) | Shape::Text { .. } | Shape::Region(_));
+        let mut lines = elements.iter().filter(|e| is_line(&e.shape));
         match (lines.next(), lines.next()) {
             (Some(line), None) => Ok(line.shape.clone()),
             _ => {
@@ -480,14 +495,4 @@ impl<'a> Evaluator<'a> {
         }
         Ok(at)
     }
-}
-
-/// Whether a line that is a ring of its own ends where it begins.
-fn closes(line: &Side, ring: &[drawing::Corner]) -> bool {
-    let reach = |of: fn(&drawing::Corner) -> f64| {
-        let all = || ring.iter().map(of);
-        all().fold(f64::NEG_INFINITY, f64::max) - all().fold(f64::INFINITY, f64::min)
-    };
-    let extent = reach(|c| c.at.x).max(reach(|c| c.at.y));
-    ring.len() > 1 && extent > 0.0 && geometry::meets(line.from, line.to, extent)
 }

@@ -19,7 +19,7 @@ mod outline;
 mod record;
 mod routine;
 
-pub(crate) use curves::Measure;
+pub(crate) use curves::{Measure, corners, order_of_lines};
 pub(crate) use op::{Binary, Unary};
 
 use crate::answer::{Answer, Made};

@@ -5,12 +5,12 @@ use crate::evaluator::{Evaluator, Result};
 use crate::fault::Fault;
 use crate::measure;
 use crate::operate::finite;
-use crate::replay::{Measure, Unary};
+use crate::replay::{Measure, Unary, corners};
 use crate::rings;
 use base::Name;
 use drawing::{
     Anchoring, Color, Corner, Dimension as Dimensioned, DimensionKind, Element, Layer, Line,
-    Placement, Point, Shape, Tag, curve, nurbs::Nurbs,
+    Placement, Point, Shape, Tag, nurbs::Nurbs,
 };
 use expr::dimension::Dimension;
 use kernel::builtin::{Function, PictureMessage};
@@ -36,7 +36,6 @@ impl<'a> Evaluator<'a> {
         nearest: ThingId,
     ) -> Result<Answer<'a>> {
         let place = |i: usize| self.place(&arguments[i]);
-        let number = |i: usize| self.number(&arguments[i]).map(|(x, _)| x);
         let written = |i: usize| self.operand(&arguments[i]).map(|(x, _)| x);
         let size = |i: usize| written(i).map(|x| self.unary_number(Unary::Abs, x));
         let shape = match function {
@@ -55,11 +54,15 @@ impl<'a> Evaluator<'a> {
                 sweep: written(3)?,
             },
             Function::Ellipse => {
-                let (center, end) = (self.plain(place(0)?)?, self.plain(place(1)?)?);
-                let major = Point { x: end.x - center.x, y: end.y - center.y };
-                let from = if arguments.len() > 3 { number(3)? } else { 0.0 };
-                let sweep = if arguments.len() > 4 { number(4)? } else { TAU };
-                curve::ellipse(center, major, number(2)?, from, sweep)
+                let (center, end) = (place(0)?, place(1)?);
+                let start = if arguments.len() > 3 { written(3)? } else { 0.0 };
+                let sweep = if arguments.len() > 4 { written(4)? } else { TAU };
+                // its end and its height stand where it has its half axis and their ratio
+                let given = Shape::Ellipse { center, major: end, ratio: written(2)?, start, sweep };
+                let made = self.of_lines(Measure::Ellipse, &[given]).map_err(Fault::wrong)?;
+                let point = |i: usize| Point { x: made[i], y: made[i + 1] };
+                let (center, major, ratio) = (point(0), point(2), made[4]);
+                Shape::Ellipse { center, major, ratio, start: made[5], sweep: made[6] }
             }
             Function::Spline => {
                 let places = Shape::Spline(self.places(arguments)?);
@@ -198,7 +201,13 @@ impl<'a> Evaluator<'a> {
         let made = self.of_lines(what, &shapes).map_err(Fault::no_answer)?;
         let dimension = match what {
             Measure::Area => measure::power(Dimension::LENGTH, 2.0),
-            Measure::Length | Measure::Nearest | Measure::Through => Dimension::LENGTH,
+            Measure::Length
+            | Measure::Nearest
+            | Measure::Through
+            | Measure::Ellipse
+            | Measure::Ends
+            | Measure::Order
+            | Measure::Ring => Dimension::LENGTH,
         };
         match made[..] {
             [x] => finite(x, dimension),
@@ -234,12 +243,10 @@ impl<'a> Evaluator<'a> {
 
     /// Reads a ring as the lines that follow one another along it.
     fn ring_of_lines(&self, lines: &[Answer<'a>], nearest: ThingId) -> Result<Vec<Corner>> {
-        if self.is_recording() {
-            return Err(Fault::wrong("a ring of curves is not noted"));
-        }
         let lines = lines.iter().map(|line| self.line_of(line, nearest));
         let lines = lines.collect::<Result<Vec<Shape>>>()?;
-        curve::ring_along(&lines).ok_or_else(|| Fault::wrong("no ring goes along these"))
+        let numbers = self.of_lines(Measure::Ring, &lines).map_err(Fault::wrong)?;
+        Ok(corners(&numbers, |x| self.fixed_number(x)))
     }
 
     /// Reads a corner of a ring: a place, which may have a part `bulge`, or `(place, bulge)`.
@@ -294,12 +301,6 @@ impl<'a> Evaluator<'a> {
             }
         };
         Ok(Point { x: self.operand(&x)?.0, y: self.operand(&y)?.0 })
-    }
-
-    /// Reads a place to compute with.
-    fn plain(&self, place: Point) -> Result<Point> {
-        [place.x, place.y].iter().try_for_each(|&x| self.number(&Answer::plain(x)).map(|_| ()))?;
-        Ok(place)
     }
 
     /// Makes several pictures, or lists of pictures, one.

@@ -1,10 +1,11 @@
-//! Curves among what was noted: the smooth curve through places, and what is measured of lines.
+//! Curves among what was noted: the smooth curve through places, what is measured of lines, and rings along them.
 //!
 //! In: shapes whose numbers are marked. Out: numbers in the next registers, as many as in the run that was noted.
 
 use super::record::{Recorder, place_of};
 use super::routine::Op;
-use drawing::{Point, Shape, measure, spline};
+use drawing::{Corner, Point, Shape, curve, measure, spline};
+use geometry::{NoContour, Side};
 use std::cmp::Ordering;
 use std::rc::Rc;
 
@@ -19,6 +20,57 @@ pub(crate) enum Measure {
     Nearest,
     /// The poles of the smooth curve through places.
     Through,
+    /// An ellipse from its centre, one end and how far it reaches across: these stand in the place of its numbers.
+    Ellipse,
+    /// Where each begins and ends.
+    Ends,
+    /// In which order they follow one another: the number of each, and whether it runs back.
+    Order,
+    /// The ring along lines that follow one another: of each corner its place and bulge, whether a Bézier curve leaves
+    /// it, and the poles of that.
+    Ring,
+}
+
+/// How many numbers a corner of a ring is.
+const CORNER: usize = 8;
+
+/// Returns in which order lines follow one another, each with whether it runs back.
+pub(crate) fn order_of_lines(lines: &[Shape]) -> Result<Vec<(usize, bool)>, NoContour> {
+    let ends = lines.iter().map(|line| curve::ends(line).unwrap_or_default());
+    let side = |[p, q]: [Point; 2]| Side { from: [p.x, p.y], to: [q.x, q.y], bulge: 0.0 };
+    let sides: Vec<Side> = ends.map(side).collect();
+    match (&sides[..], curve::ring_along(lines)) {
+        // one that comes back to where it began
+        ([only], Some(ring)) if closes(only, &ring) => Ok(vec![(0, false)]),
+        _ => geometry::order(&sides),
+    }
+}
+
+/// Whether a line ends where it began: as a part of how far its corners lie apart.
+fn closes(line: &Side, ring: &[Corner]) -> bool {
+    let reach = |of: fn(&Corner) -> f64| {
+        let all = || ring.iter().map(of);
+        all().fold(f64::NEG_INFINITY, f64::max) - all().fold(f64::INFINITY, f64::min)
+    };
+    let extent = reach(|c| c.at.x).max(reach(|c| c.at.y));
+    ring.len() > 1 && extent > 0.0 && geometry::meets(line.from, line.to, extent)
+}
+
+fn numbers_of_corner(corner: Corner) -> [f64; CORNER] {
+    let [p, q] = corner.poles.unwrap_or_default();
+    let is_curve = f64::from(u8::from(corner.poles.is_some()));
+    [corner.at.x, corner.at.y, corner.bulge, is_curve, p.x, p.y, q.x, q.y]
+}
+
+/// Returns the corners of a ring from their numbers; `fixed` says what a number is, once and for all.
+pub(crate) fn corners(numbers: &[f64], fixed: impl Fn(f64) -> f64) -> Vec<Corner> {
+    let (all, _) = numbers.as_chunks::<CORNER>();
+    let one = |&[x, y, bulge, is_curve, px, py, qx, qy]: &[f64; CORNER]| Corner {
+        at: Point { x, y },
+        bulge,
+        poles: (fixed(is_curve) != 0.0).then_some([Point { x: px, y: py }, Point { x: qx, y: qy }]),
+    };
+    all.iter().map(one).collect()
 }
 
 impl Measure {
@@ -44,6 +96,30 @@ impl Measure {
                 }
                 _ => Err(NONE),
             },
+            Self::Ellipse => match *shapes {
+                [Shape::Ellipse { center, major: end, ratio: across, start, sweep }] => {
+                    let major = Point { x: end.x - center.x, y: end.y - center.y };
+                    let mut made = Vec::new();
+                    let mut ellipse = curve::ellipse(center, major, across, start, sweep);
+                    ellipse.each_number(&mut |x| made.push(*x));
+                    Ok(made)
+                }
+                _ => Err(NONE),
+            },
+            Self::Ends => {
+                let ends = shapes.iter().map(|line| curve::ends(line).ok_or(NONE));
+                let ends = ends.collect::<Result<Vec<_>, _>>()?;
+                Ok(ends.into_iter().flatten().flat_map(numbers).collect())
+            }
+            Self::Order => {
+                let order = order_of_lines(shapes).map_err(|_| "the lines are no contour")?;
+                let pair = |(i, is_back): (usize, bool)| [i as f64, f64::from(u8::from(is_back))];
+                Ok(order.into_iter().flat_map(pair).collect())
+            }
+            Self::Ring => {
+                let ring = curve::ring_along(shapes).ok_or("no ring goes along these")?;
+                Ok(ring.into_iter().flat_map(numbers_of_corner).collect())
+            }
         }
     }
 }
