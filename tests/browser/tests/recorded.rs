@@ -184,6 +184,71 @@ async fn a_nut_is_a_flat_in_a_polar_pattern() {
     visit.picture("nut").await;
 }
 
+#[tokio::test]
+async fn a_geneva_wheel_is_drawn_where_its_guides_cross() {
+    let visit = hands::begin().await;
+    let parameters =
+        [("radius", "50"), ("slots", "6"), ("pin", "5"), ("deep", "28"), ("bore", "12")];
+    record(&visit, "Geneva", &parameters).await;
+    enlarge(&visit, 8).await;
+    construct(&visit, "Circle").await;
+    press(&visit, "input[name='guide']").await;
+    for typed in ["0,0", "radius"] {
+        enter(&visit, typed).await;
+    }
+    construct(&visit, "Axis.horizontal(y)").await;
+    for typed in ["pin / 2", "-pin / 2"] {
+        enter(&visit, typed).await;
+    }
+    press(&visit, "[data-draft='end']").await;
+    construct(&visit, "Circle").await;
+    press(&visit, "input[name='guide']").await;
+    construct(&visit, "Point.polar(from,distance,angle)").await;
+    pick(&visit, 0.0, 0.0).await;
+    for typed in ["radius / cos(180 deg / slots)", "180 deg / slots", "21 * radius / 50"] {
+        enter(&visit, typed).await;
+    }
+    press(&visit, "[data-draft='end']").await;
+    // the slot begins where two guides cross, and follows them
+    construct(&visit, "Line").await;
+    for (y, typed) in [(2.5, "radius - deep, pin / 2"), (-2.5, "radius - deep, -pin / 2")] {
+        pick(&visit, 49.94, y).await;
+        enter(&visit, typed).await;
+    }
+    has(&visit, "line = Line(Point.intersection(axis, circle), Point(radius - deep, pin / 2))")
+        .await;
+    construct(&visit, "Arc").await;
+    enter(&visit, "radius - deep, 0").await;
+    for y in [2.5, -2.5] {
+        pick(&visit, 22.0, y).await;
+    }
+    let (low, high) = ((49.38, 7.88), (31.51, 38.82));
+    for (x, y) in [(0.0, 0.0), (49.94, 2.5), low, (50.0, 28.87), high, low, (0.0, 0.0), high] {
+        pick(&visit, x, y).await;
+    }
+    construct(&visit, "Point:turned").await;
+    pick(&visit, 49.94, -2.5).await;
+    pick(&visit, 0.0, 0.0).await;
+    enter(&visit, "360 deg / slots").await;
+    has(&visit, "arc4 = Arc(circle.center, arc3.start, line2.p1.turned(").await;
+    construct(&visit, ":pattern(about,count)").await;
+    visit.act();
+    hands::drag(&visit, seen(&visit, 18.0, 46.0).await, seen(&visit, 62.0, -6.0).await).await;
+    pick(&visit, 0.0, 0.0).await;
+    press(&visit, ".prompt [data-value='slots']").await;
+    has(&visit, "[line, line2, arc, arc2, arc3, arc4].turned(about: circle.center, by: nth * ")
+        .await;
+    construct(&visit, "Circle").await;
+    pick(&visit, 0.0, 0.0).await;
+    enter(&visit, "bore / 2").await;
+    press(&visit, "[data-draft='stop']").await;
+    assert_eq!(visit.actions.get(), 62);
+    let row = "document.querySelector(\"[data-step='pattern']\").innerText";
+    set(&visit, "slots", "5").await;
+    visit.until(&format!("{row}.includes('4 figures')")).await;
+    visit.picture("geneva").await;
+}
+
 /// The half of a ring with round lugs, right of its gap, drawn by guides and then by its edges.
 async fn half_a_ring(visit: &Visit) {
     press(visit, "[data-action='tool-circle']").await;
