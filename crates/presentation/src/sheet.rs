@@ -25,7 +25,7 @@ impl Default for View {
 }
 
 /// The scales between which one can zoom.
-const SCALES: (f64, f64) = (1e-6, 1e6);
+const SCALES: (f64, f64) = (1e-12, 1e12);
 
 /// The shortest distance between two lines of the grid, in pixels.
 const GRID_PIXELS: f64 = 18.0;
@@ -155,7 +155,15 @@ const MILLIMETRES_PER_PIXEL: f64 = 25.4 / 96.0;
 /// Returns a scale as people say it: that of a drawing, `5 : 1` or `1 : 200`, where it is known how many millimetres a
 /// unit of the sheet is; else how many pixels it has, in percent.
 pub fn scale_in_words(scale: f64, millimetres: Option<f64>) -> String {
-    let Some(millimetres) = millimetres else { return format!("{:.0} %", 100.0 * scale) };
+    let Some(millimetres) = millimetres else {
+        let percent = 100.0 * scale;
+        return match percent {
+            // where nothing is left of whole percents, digits that count
+            small if small < 1.0 => format!("{} %", base::number::significant(small, 2)),
+            large if large >= 1e7 => format!("{large:.0e} %"),
+            plain => format!("{plain:.0} %"),
+        };
+    };
     let times = scale * MILLIMETRES_PER_PIXEL / millimetres;
     let digits = |x: f64| base::number::significant(x, if x < 100.0 { 2 } else { 3 });
     let (large, small) = (digits(times), digits(1.0 / times));
@@ -449,6 +457,8 @@ mod tests {
             (0.02 * pixels_per_millimetre, Some(1.0), "1 : 50"),
             (30.0, Some(1000.0), "1 : 126"),
             (1.5, None, "150 %"),
+            (1e-9, None, "1e-7 %"),
+            (2e9, None, "2e11 %"),
         ] {
             assert_eq!(super::scale_in_words(scale, millimetres), says);
         }

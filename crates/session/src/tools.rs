@@ -252,7 +252,8 @@ impl Tool {
     fn follow(&mut self, at: (f64, f64), host: &dyn Host) {
         let to = match (self.stages.get(self.set.len()), self.set.last()) {
             (Some(Stage::Reach { .. }), Some(last)) => {
-                (catch::short(hypot(at.0 - last.at.0, at.1 - last.at.1)), 0.0)
+                let radius = hypot(at.0 - last.at.0, at.1 - last.at.1);
+                (catch::short(radius, radius), 0.0)
             }
             _ => (at.0 + self.offset.0, at.1 + self.offset.1),
         };

@@ -316,7 +316,13 @@ pub fn Slider(
         let asked = path.zip(lab.id());
         asked.is_some_and(|(path, id)| lab.ask(|session| session.is_count(id, &path)))
     };
+    // Escape gives up what the hand still holds
+    let given_up = StoredValue::new(false);
     let moved = move |e: leptos::ev::Event| {
+        if given_up.get_value() {
+            let is = number.get_untracked().unwrap_or_default().to_string();
+            return event_target::<web_sys::HtmlInputElement>(&e).set_value(&is);
+        }
         let Ok(to) = event_target_value(&e).parse::<f64>() else { return };
         if !pressed.get_value() && is_count() {
             counted.set_value(Some(to));
@@ -332,6 +338,7 @@ pub fn Slider(
         }
     };
     let done = move || {
+        let _ = given_up.try_set_value(false);
         if pressed.try_update_value(std::mem::take) == Some(true) {
             lab.release();
             // while the hand holds it the picture stays where it is
@@ -349,6 +356,15 @@ pub fn Slider(
         }
         if counted.try_update_value(Option::take).flatten().is_some() {
             lab.notice.set(None);
+        }
+    };
+    let key = move |e: KeyboardEvent| {
+        let is_held = pressed.get_value() || counted.with_value(Option::is_some);
+        if e.key() == "Escape" && is_held {
+            e.prevent_default();
+            e.stop_propagation();
+            cancel();
+            given_up.set_value(true);
         }
     };
     let step = move || {
@@ -373,7 +389,7 @@ pub fn Slider(
                     min=move || range.get().0.to_string() max=move || range.get().1.to_string()
                     step=move || step().to_string()
                     prop:value=move || number.get().unwrap_or_default().to_string()
-                    on:input=moved on:change=move |e| {
+                    on:keydown=key on:input=moved on:change=move |e| {
                         done();
                         // what was refused is as it was
                         let is = number.get_untracked().unwrap_or_default().to_string();

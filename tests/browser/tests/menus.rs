@@ -2,7 +2,10 @@
 
 use browser::Visit;
 use browser::hands::{chord, key, keys, middle, point, show, state, text_of, word};
-use fantoccini::actions::MOUSE_BUTTON_RIGHT;
+use fantoccini::actions::{
+    InputSource, MOUSE_BUTTON_LEFT, MOUSE_BUTTON_RIGHT, MouseActions, PointerAction,
+};
+use std::time::Duration;
 
 const CRANK: &str = "\
 use geometry
@@ -37,7 +40,7 @@ async fn take(visit: &Visit, at: (f64, f64), action: &str) {
 /// Where the name of a value stands in the inspector.
 async fn value(visit: &Visit, name: &str) -> (f64, f64) {
     let row = format!(
-        "[...document.querySelectorAll('.inspector tr th')].find(th => th.innerText.trim() === '{name}')"
+        "[...document.querySelectorAll('.inspector tr th')].find(th => th.textContent.trim() === '{name}')"
     );
     visit.until(&row).await;
     let script =
@@ -133,4 +136,33 @@ fn word_saying(state: &serde_json::Value, says: &str) -> (f64, f64) {
     let words = state["words"].as_array().expect("words are a list");
     let found = words.iter().find(|word| word["text"] == says).expect("it says so");
     word(state, found["path"].as_str().expect("a path"))
+}
+
+#[tokio::test]
+async fn escape_gives_up_a_slider_that_is_still_held() {
+    let visit = Visit::open_empty().await;
+    visit.put("crank.thing", CRANK);
+    let before = text_of(&show(&visit, "crank.thing").await);
+    choose(&visit, "rod").await;
+    let slider = middle(&visit, ".inspector input[type=range]").await;
+    let to = |x: f64| PointerAction::MoveTo {
+        duration: Some(Duration::from_millis(60)),
+        x: slider.0 + x,
+        y: slider.1,
+    };
+    let perform = async |actions: MouseActions| {
+        visit.client.perform_actions(actions).await.expect("the mouse goes there");
+    };
+    let mouse = || MouseActions::new("mouse".into());
+    let down = PointerAction::Down { button: MOUSE_BUTTON_LEFT };
+    perform(mouse().then(to(0.0)).then(down).then(to(20.0))).await;
+    visit.until("window.__thinglab.state().dragging").await;
+    chord(&visit, &[], key::ESCAPE).await;
+    visit.until("!window.__thinglab.state().dragging").await;
+    perform(mouse().then(to(40.0)).then(PointerAction::Up { button: MOUSE_BUTTON_LEFT })).await;
+    assert_eq!(text_of(&state(&visit).await), before);
+    // the next hand has it
+    perform(mouse().then(to(0.0)).then(down).then(to(20.0))).await;
+    perform(mouse().then(PointerAction::Up { button: MOUSE_BUTTON_LEFT })).await;
+    visit.until("window.__thinglab.state().status.undo").await;
 }

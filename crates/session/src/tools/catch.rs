@@ -115,13 +115,20 @@ pub(crate) fn find(sight: &Sight<'_>, pointer: &Pointer) -> Catch {
     match found.joins {
         // one with what is there, to the bit
         Some(_) => found,
-        None => Catch { at: (short(found.at.0), short(found.at.1)), ..found },
+        None => {
+            let short = |x| short(x, pointer.reach);
+            Catch { at: (short(found.at.0), short(found.at.1)), ..found }
+        }
     }
 }
 
-/// A coordinate without the digits that only rounding has made.
-pub(super) fn short(x: f64) -> f64 {
-    rounded(x, 9).parse().unwrap_or(x)
+/// A coordinate without the digits that only rounding has made, where what counts is as large as `like`.
+pub(super) fn short(x: f64, like: f64) -> f64 {
+    let (mut digits, mut like) = (9, like.abs());
+    while 0.0 < like && like < 1.0 && digits < 40 {
+        (digits, like) = (digits + 1, like * 10.0);
+    }
+    rounded(x, digits).parse().unwrap_or(x)
 }
 
 /// A grip that what is placed can become one with; for a radius, a point that the circle passes through.

@@ -659,3 +659,13 @@ fn an_arc_is_offered_its_radius_before_its_length() {
     first(&labels(&["a", "b"]), ["equal radius", "equal length"]);
     first(&labels(&["a", "l"]), ["equal length", "equal radius"]);
 }
+
+#[test]
+fn what_is_drawn_among_atoms_is_not_rounded_away() {
+    let mut desk = Desk::of("use geometry\np: Point = (0, 0)\nq: Point = (3e-9, 1e-9)\n");
+    desk.session.take_tool(desk.id, "Line").expect("a tool");
+    let at = |x: f64, y: f64| Pointer { at: (x, y), reach: 2e-11, ..Pointer::default() };
+    click(&mut desk, &at(2e-9, 2e-9));
+    click(&mut desk, &at(2.5e-9, 1e-9));
+    assert_eq!((desk.place("line.p1"), desk.place("line.p2")), ((2e-9, 2e-9), (2.5e-9, 1e-9)));
+}
