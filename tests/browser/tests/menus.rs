@@ -77,8 +77,8 @@ async fn a_value_of_the_inspector_is_plotted_and_swept_without_its_path_being_ty
     assert_eq!(visit.script(&format!("return {shown}.includes('0.92')")).await, false);
     visit.picture("swept").await;
     // the structure has the menu of a figure, too
-    take(&visit, middle(&visit, "[role=treeitem][data-path=rod]").await, "delete").await;
-    visit.until("!window.__thinglab.state().text.includes('rod: Line')").await;
+    take(&visit, middle(&visit, "[role=treeitem][data-path=rod]").await, "duplicate").await;
+    visit.until("window.__thinglab.state().text.includes('line: Line')").await;
 }
 
 #[tokio::test]
@@ -143,7 +143,7 @@ async fn escape_gives_up_a_slider_that_is_still_held() {
     let visit = Visit::open_empty().await;
     visit.put("crank.thing", CRANK);
     let before = text_of(&show(&visit, "crank.thing").await);
-    choose(&visit, "rod").await;
+    choose(&visit, "rod.p2").await;
     let slider = middle(&visit, ".inspector input[type=range]").await;
     let to = |x: f64| PointerAction::MoveTo {
         duration: Some(Duration::from_millis(60)),
@@ -154,15 +154,15 @@ async fn escape_gives_up_a_slider_that_is_still_held() {
         visit.client.perform_actions(actions).await.expect("the mouse goes there");
     };
     let mouse = || MouseActions::new("mouse".into());
-    let down = PointerAction::Down { button: MOUSE_BUTTON_LEFT };
-    perform(mouse().then(to(0.0)).then(down).then(to(20.0))).await;
+    let down = || PointerAction::Down { button: MOUSE_BUTTON_LEFT };
+    perform(mouse().then(to(0.0)).then(down()).then(to(20.0))).await;
     visit.until("window.__thinglab.state().dragging").await;
     chord(&visit, &[], key::ESCAPE).await;
     visit.until("!window.__thinglab.state().dragging").await;
     perform(mouse().then(to(40.0)).then(PointerAction::Up { button: MOUSE_BUTTON_LEFT })).await;
     assert_eq!(text_of(&state(&visit).await), before);
     // the next hand has it
-    perform(mouse().then(to(0.0)).then(down).then(to(20.0))).await;
+    perform(mouse().then(to(0.0)).then(down()).then(to(20.0))).await;
     perform(mouse().then(PointerAction::Up { button: MOUSE_BUTTON_LEFT })).await;
     visit.until("window.__thinglab.state().status.undo").await;
 }
