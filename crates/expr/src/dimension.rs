@@ -14,7 +14,7 @@ use std::fmt;
 pub struct Dimension(pub [i8; 7]);
 
 /// Names of quantities; of several names for one dimension the first is shown.
-const NAMES: [(&str, Dimension); 92] = [
+const NAMES: [(&str, Dimension); 96] = [
     ("Real", Dimension::NONE),
     ("Angle", Dimension::ANGLE),
     ("Length", Dimension::LENGTH),
@@ -107,6 +107,10 @@ const NAMES: [(&str, Dimension); 92] = [
     ("RadiationConstant", Dimension::RADIATION),
     ("MolarCharge", Dimension::MOLAR_CHARGE),
     ("ReciprocalAmount", Dimension::RECIPROCAL_AMOUNT),
+    ("MolarEnergy", Dimension::MOLAR_ENERGY),
+    ("MolarVolume", Dimension::MOLAR_VOLUME),
+    ("PowerDensity", Dimension::POWER_DENSITY),
+    ("Compressibility", Dimension::COMPRESSIBILITY),
 ];
 
 /// The base units in the order in which they are written, each with its place in a dimension.
@@ -256,6 +260,14 @@ impl Dimension {
     pub const MOLAR_CHARGE: Self = Self([0, 0, 1, 1, 0, -1, 0]);
     /// Number in a mole, 1/mol.
     pub const RECIPROCAL_AMOUNT: Self = Self([0, 0, 0, 0, 0, -1, 0]);
+    /// Energy of a mole, J/mol.
+    pub const MOLAR_ENERGY: Self = Self([2, 1, -2, 0, 0, -1, 0]);
+    /// Volume of a mole, m³/mol.
+    pub const MOLAR_VOLUME: Self = Self([3, 0, 0, 0, 0, -1, 0]);
+    /// Power of a volume, W/m³.
+    pub const POWER_DENSITY: Self = Self([-1, 1, -3, 0, 0, 0, 0]);
+    /// Compressibility, 1/Pa.
+    pub const COMPRESSIBILITY: Self = Self([1, -1, 2, 0, 0, 0, 0]);
 
     /// Returns true for a plain number.
     pub fn is_none(self) -> bool {

@@ -414,7 +414,7 @@ fn shifted(number: &str, exponent: i32) -> Option<f64> {
 ///
 /// It is always the unit of SI, so that the number shown is the number kept.
 pub fn preferred(dimension: Dimension) -> Option<&'static str> {
-    const PREFERRED: [(Dimension, &str); 65] = [
+    const PREFERRED: [(Dimension, &str); 69] = [
         (Dimension::AREA, "m^2"),
         (Dimension::VOLUME, "m^3"),
         (Dimension::MASS, "kg"),
@@ -480,6 +480,10 @@ pub fn preferred(dimension: Dimension) -> Option<&'static str> {
         (Dimension::RADIATION, "W/m^2/K^4"),
         (Dimension::MOLAR_CHARGE, "C/mol"),
         (Dimension::RECIPROCAL_AMOUNT, "1/mol"),
+        (Dimension::MOLAR_ENERGY, "J/mol"),
+        (Dimension::MOLAR_VOLUME, "m^3/mol"),
+        (Dimension::POWER_DENSITY, "W/m^3"),
+        (Dimension::COMPRESSIBILITY, "1/Pa"),
     ];
     PREFERRED.iter().find(|(d, _)| *d == dimension).map(|(_, unit)| *unit)
 }

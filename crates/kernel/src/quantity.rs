@@ -395,7 +395,8 @@ fn of_the_sheet(
         return prefixed("m", size);
     }
     let least = if own == "cm" { 1.0 } else { 0.1 };
-    let shown = size(own);
+    // as it is shown, so that 0.9999999 is one
+    let shown = significant(size(own), DIGITS).parse().unwrap_or_default();
     if shown == 0.0 || (least..1e5).contains(&shown) { own.into() } else { prefixed("m", size) }
 }
 

@@ -12,7 +12,7 @@ use base::{Diagnostic, Name, Place, Span};
 use expr::dimension::Dimension;
 use kernel::builtin::{FUNCTIONS, find};
 use kernel::quantity::is_of_the_sheet;
-use kernel::{BinaryOperator, Class, ClassId, Document, Message, PartRef, Path};
+use kernel::{BinaryOperator, Class, ClassId, ClassKind, Document, Message, PartRef, Path};
 use syntax::ast::{self, AstNode, BinaryOp, Expr, UnaryOp};
 
 /// How a plain number becomes a length of the sheet.
@@ -118,14 +118,20 @@ impl Lowerer<'_> {
 
     /// Says how what is computed of plain numbers becomes a length: the first of them that the document declares is one.
     fn plain_as_length(&self, value: &Expr) -> String {
-        let of_document = |word: &Name| self.class_of_part(self.document.root, word);
         let is_plain = |class: ClassId| *self.document.classes[class].name == *"Real";
+        let as_length = |word: ast::Word| {
+            let class = self.class_of_part(self.document.root, &word.name())?;
+            let list = match self.document.classes[class].kind {
+                ClassKind::List(element) if is_plain(element) => "List of ",
+                _ if is_plain(class) => "",
+                _ => return None,
+            };
+            Some(format!("declare `{}: {list}Length`", word.text()))
+        };
         let names = value.syntax().descendants().filter_map(ast::NameExpr::cast);
-        let words = names.filter_map(|name| name.name());
-        match { words }.find(|word| of_document(&word.name()).is_some_and(is_plain)) {
-            Some(word) => {
-                let word = word.text();
-                format!("what is computed of plain numbers alone is none: declare `{word}: Length`")
+        match { names }.filter_map(|name| name.name()).find_map(as_length) {
+            Some(declared) => {
+                format!("what is computed of plain numbers alone is none: {declared}")
             }
             None => PLAIN_AS_LENGTH.into(),
         }
@@ -438,7 +444,7 @@ impl Lowerer<'_> {
             let (measures, kind) = if is_plain(left) { (b, right) } else { (a, left) };
             let quantity = measures.split(" (").next().unwrap_or_default();
             d = d.hint(match *kind == Kind::LENGTH && !self.document.writes_lengths {
-                true => PLAIN_AS_LENGTH.to_string(),
+                true => self.plain_side_as_length(place, is_plain(left)),
                 false => format!(
                     "a product measures what its factors do: declare one as {quantity}, or give it a unit"
                 ),
@@ -463,6 +469,18 @@ impl Lowerer<'_> {
             side => unit_meant(&side, found, wanted),
         };
         meant(compared.right(), *right, *left).or_else(|| meant(compared.left(), *left, *right))
+    }
+
+    /// Says how the side of a comparison, the left one or the other, that is made of plain numbers becomes a length.
+    fn plain_side_as_length(&self, place: Place, is_left: bool) -> String {
+        let text = self.files[place.file].text.get(place.span.range()).unwrap_or_default();
+        let compared = syntax::parse_expression(place.file, text).file().expression();
+        let side = match compared {
+            Some(Expr::Binary(compared)) if is_left => compared.left(),
+            Some(Expr::Binary(compared)) => compared.right(),
+            _ => None,
+        };
+        side.map_or_else(|| PLAIN_AS_LENGTH.to_string(), |side| self.plain_as_length(&side))
     }
 
     /// Reports a part that is called like a message; an element of a list stands in square brackets.
