@@ -64,6 +64,7 @@ mod programs;
 mod quotients;
 mod references;
 mod refine;
+mod replaced;
 mod restore;
 mod rewritten;
 mod rings;

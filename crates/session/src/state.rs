@@ -324,6 +324,7 @@ impl Solved {
         warnings.extend(crate::unlike::warnings(&state));
         warnings.extend(state.lowered.mixed_lengths());
         warnings.extend(state.lowered.given_twice());
+        warnings.extend(state.lowered.bindings_replaced());
         warnings.extend(crate::families::outside::warnings(&state));
         if !warnings.is_empty() {
             state.diagnostics.extend(warnings);
