@@ -166,18 +166,22 @@ impl Session {
         self.document(id).recording.as_ref().map(|recording| recording.example.as_str())
     }
 
-    /// Returns the names of the parameters of what is recorded that may be a value: numbers, truth values, words, options.
+    /// Returns the names of the parameters of what is recorded that may be a value: numbers, truth values, words, options;
+    /// where a construction waits for a length, an angle or a count, those that are numbers.
     pub fn value_parameters(&self, id: DocumentId) -> Vec<String> {
         let open = self.document(id);
         let (home, evaluator) = (home(open), open.state.evaluator(open.values()));
         let path = home.path();
         let example = kernel::Path(path.0.into_iter().take(1).collect());
-        let is_value = |name: &&base::Name| {
-            let answer = evaluator.at(&example.then(kernel::Step::Part((*name).clone())));
-            matches!(
-                answer,
-                Ok(Answer::Number(..) | Answer::Bool(_) | Answer::Text(_) | Answer::Option(..))
-            )
+        let slot = open.dialogue.as_ref().and_then(super::Dialogue::slot);
+        let is_measure =
+            slot.is_some_and(|slot| matches!(slot.class.as_str(), "Length" | "Angle" | "Integer"));
+        let is_value = |name: &&base::Name| match evaluator
+            .at(&example.then(kernel::Step::Part((*name).clone())))
+        {
+            Ok(Answer::Number(..)) => true,
+            Ok(Answer::Bool(_) | Answer::Text(_) | Answer::Option(..)) => !is_measure,
+            Ok(_) | Err(_) => false,
         };
         let names = scene::parameters(&open.state, &home).filter(is_value);
         names.map(ToString::to_string).collect()

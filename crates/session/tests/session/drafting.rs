@@ -733,6 +733,22 @@ fn steps_are_told_in_words_with_their_values() {
 }
 
 #[test]
+fn no_yes_or_no_is_offered_where_a_length_is_wanted() {
+    let mut desk = Desk::recording("Bore", &[("d", "20"), ("keyed", "yes"), ("n", "4")]);
+    begin(&mut desk, "Circle");
+    enter(&mut desk, "0,0");
+    assert_eq!(desk.session.value_parameters(desk.id), ["d", "n"]);
+    made(enter(&mut desk, "d / 2"));
+    desk.session.give_up(desk.id);
+    // a value that is kept, and a condition, may be one
+    begin(&mut desk, "value");
+    assert_eq!(desk.session.value_parameters(desk.id), ["d", "keyed", "n"]);
+    desk.session.give_up(desk.id);
+    desk.session.begin_choice(desk.id).expect("it is recorded");
+    assert_eq!(desk.session.value_parameters(desk.id), ["d", "keyed", "n"]);
+}
+
+#[test]
 fn a_class_of_two_words_is_told_as_two_words() {
     let document = "use drafting
 program Part(rim: EllipticArc) {
