@@ -1,7 +1,7 @@
 //! A plot as a table of commas.
 
 use super::{Axis, Plot};
-use base::number::shortest;
+use base::number::{shortest, significant};
 
 impl Plot {
     /// Returns the samples as CSV: what the curves are over, then every curve, then both coordinates of
@@ -29,7 +29,9 @@ impl Plot {
             let cell = |x: Option<f64>| x.map(shortest).unwrap_or_default();
             let mut row = Vec::new();
             if !self.curves.is_empty() {
-                row.push(cell(self.curves.iter().find_map(|c| point(&c.points)).map(|p| p.0)));
+                // a step of a sweep is as round as it is in the unit that it is told in
+                let over = self.curves.iter().find_map(|c| point(&c.points)).map(|p| p.0);
+                row.push(over.map(|x| significant(x, 15)).unwrap_or_default());
             }
             row.extend(self.curves.iter().map(|c| cell(point(&c.points).map(|p| p.1))));
             for locus in &self.loci {

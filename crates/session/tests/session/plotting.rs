@@ -75,6 +75,18 @@ fn a_locus_keeps_its_distance_and_ends_where_the_linkage_ends() {
 }
 
 #[test]
+fn an_angle_that_is_swept_is_told_in_round_degrees() {
+    let desk = Desk::of(
+        "use geometry\ncrank: Line { p1 = (0, 0)  p2 = (60, 80) }\n\
+         anchor crank.p1\nconstraint crank.length = 100\n",
+    );
+    let plot = swept(&desk, &["crank.p2.x"], ("crank.direction", "-180 deg", "180 deg"), 200);
+    let csv = plot.csv();
+    let angles: Vec<&str> = csv.lines().filter_map(|line| line.split(',').next()).skip(1).collect();
+    assert_eq!(angles[..4], ["-180", "-178.2", "-176.4", "-174.6"]);
+}
+
+#[test]
 fn every_event_of_a_drag_is_a_sample() {
     let mut desk = Desk::of(&gallery("quadrilateral"));
     let over = Some(String::from("q.outer.side3.p1.x"));
