@@ -63,18 +63,23 @@ pub(super) fn without_noise(
 }
 
 /// Whether the values of a state are like others of the same things: apart by no more than such a part of themselves, or
-/// of the largest coordinate of their place.
+/// of the largest coordinate of their place and of the other places of its thing.
 pub(crate) fn has_values(now: &State, was: &Values, like: f64) -> bool {
-    let slots = &now.structure.slots;
+    let (slots, things) = (&now.structure.slots, &now.structure.things);
+    // a place of the document's own is measured by itself
+    let whole = |place: ThingId| {
+        let owner = things[place].owner.filter(|owner| things[*owner].owner.is_some());
+        owner.unwrap_or(place)
+    };
     let mut largest: BTreeMap<ThingId, f64> = BTreeMap::new();
     for (slot, of) in slots.iter() {
         if let (Some(place), Value::Number(x)) = (of.place, was.get(slot)) {
-            let known = largest.entry(place).or_default();
+            let known = largest.entry(whole(place)).or_default();
             *known = known.max(x.abs());
         }
     }
     let is_like = |a: f64, b: f64, place: Option<ThingId>| {
-        let size = place.and_then(|place| largest.get(&place).copied()).unwrap_or(a.abs());
+        let size = place.and_then(|place| largest.get(&whole(place)).copied()).unwrap_or(a.abs());
         a == b || (a - b).abs() <= like * size
     };
     slots.len() == was.numbers.len()
@@ -84,24 +89,27 @@ pub(crate) fn has_values(now: &State, was: &Values, like: f64) -> bool {
         })
 }
 
-/// Returns a text with the numbers of each value to some digits of its largest, where they are much shorter so.
+/// Returns a text with its numbers to some digits of themselves, and those of its places to some digits of the places'
+/// largest, where they are much shorter so.
 fn shortened(text: &str, rounding: Rounding) -> String {
     let tree = syntax::parse(base::FileId(0), text).syntax();
+    let tuples = tree.descendants().filter(|node| node.kind() == SyntaxKind::TupleExpr);
+    let size = tuples.map(|tuple| largest(&tuple)).fold(0.0, f64::max);
     let numbers = tree.descendants().filter_map(NumberExpr::cast);
-    let edits: Vec<TextEdit> = numbers.filter_map(|number| shorter(&number, rounding)).collect();
+    let edits: Vec<TextEdit> =
+        numbers.filter_map(|number| shorter(&number, size, rounding)).collect();
     syntax::edit::apply(text, &edits)
 }
 
 /// Returns the edit that shortens a number; none where it is as short as it can be, or stands within quotes.
-fn shorter(number: &NumberExpr, rounding: Rounding) -> Option<TextEdit> {
+fn shorter(number: &NumberExpr, size: f64, rounding: Rounding) -> Option<TextEdit> {
     let (digits, x) = (number.digits()?, number.value()?);
     if number.syntax().ancestors().any(|node| node.kind() == SyntaxKind::TextExpr) {
         return None;
     }
     let signed = signed(number);
-    let tuple = signed.parent().filter(|node| node.kind() == SyntaxKind::TupleExpr);
-    let largest = tuple.map_or(x, |tuple| largest(&tuple));
-    let short = decimal(x, largest, rounding.digits);
+    let is_of_place = signed.parent().is_some_and(|node| node.kind() == SyntaxKind::TupleExpr);
+    let short = decimal(x, if is_of_place { size } else { x }, rounding.digits);
     if short.len() > rounding.longest || short.len() >= digits.text().len() {
         return None;
     }
@@ -149,6 +157,9 @@ mod tests {
         let short = "line2: Line { p1 = (-110.7, 0)  p2 = (46.0554002110016, 1) }";
         assert_eq!(shortened(text), short);
         assert_eq!(shortened("a = (-1e-15, 300.00000000000006)"), "a = (0, 300)");
+        // beside the other places of its thing a place is at the origin
+        let arc = "arc1: Arc { center = (-1.0157151026e-15, 0)  start = (40, 0)  end = (0, 40) }";
+        assert_eq!(shortened(arc), "arc1: Arc { center = (0, 0)  start = (40, 0)  end = (0, 40) }");
         assert_eq!(shortened("a = -50.00000000000001 mm"), "a = -50 mm");
     }
 

@@ -12,8 +12,14 @@ use std::io::{self, Write as _};
 use std::time::Duration;
 
 /// What is opened and dragged, each in a visit of its own.
-const DRAGGED: [&str; 6] =
-    ["four-bar", "lesson-1-first-minute", "quadrilateral", "bridge", "warren-truss", "resistor-grid"];
+const DRAGGED: [&str; 6] = [
+    "four-bar",
+    "lesson-1-first-minute",
+    "quadrilateral",
+    "bridge",
+    "warren-truss",
+    "resistor-grid",
+];
 /// A document of many things in a list, and of places of their own.
 const LINES: &str = "use geometry\nlines: List of 4000 Line\nfor i in 0..19 { for j in 0..199 { \
                      lines[200*i+j] = Line(Point(7*j, 7*i), Point(7*j+5, 7*i+3)) } }\n\
