@@ -116,14 +116,15 @@ fn is_divided(package: &str, effort: Effort) -> bool {
 fn compile(package: &str, compiler: &WasmCompiler, effort: Effort) -> Result<Option<Made>, String> {
     let failure = "the page did not compile";
     let mut command = compile_command(package, compiler, effort);
+    let told_rustc = told_rustc(package, effort);
     if effort != Effort::Tests {
-        return run(failure, &mut command).map(|()| None);
+        return run(failure, command.args(told_rustc)).map(|()| None);
     }
     if *compiler == WasmCompiler::Toolchain {
         // the rooms below are linted where they are compiled for this machine
         tools::lint(&mut command).env("CLIPPY_ARGS", "--no-deps__CLIPPY_HACKERY__");
     }
-    let made = compiled::follow(&mut command);
+    let made = compiled::follow(&mut command, &told_rustc);
     if made.is_whole { Ok(Some(made)) } else { Err(String::from(failure)) }
 }
 
@@ -160,16 +161,22 @@ fn compile_command(package: &str, compiler: &WasmCompiler, effort: Effort) -> Co
     };
     command.args(["--package", package, "--bin", package, "--profile", effort.page_profile()]);
     command.args(["--target", "wasm32-unknown-unknown", "--target-dir"]).arg(target());
-    quiet(&mut command).arg("--");
+    quiet(&mut command);
+    command
+}
+
+/// What the compiler of the page itself, not of what it is made of, is told; behind all that cargo is.
+fn told_rustc(package: &str, effort: Effort) -> Vec<&'static str> {
+    let mut told = vec!["--"];
     if matches!(effort, Effort::Full | Effort::Followed) {
         // what leads to a message (`#[cold]`) becomes a function of its own, which comes after a first drag
-        command.arg("-Cllvm-args=-hot-cold-split -hotcoldsplit-max-params=12");
+        told.push("-Cllvm-args=-hot-cold-split -hotcoldsplit-max-params=12");
     }
     if is_divided(package, effort) {
         // by these is told which data come after it, too
-        command.arg("-Clink-arg=--emit-relocs");
+        told.push("-Clink-arg=--emit-relocs");
     }
-    command
+    told
 }
 
 /// Debian's cargo and rustc, free of what the toolchain that runs us has put into the environment;

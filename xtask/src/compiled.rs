@@ -53,12 +53,13 @@ impl Made {
 /// Compiles the tests of a selection of packages by a cargo, and lints them; narrowed to some targets by `which`.
 pub(crate) fn make(cargo: fn(&[&str]) -> Command, which: &[&str], selection: &[&str]) -> Made {
     let mut cargo = cargo(&["test", "--quiet", "--no-run"]);
-    follow(tools::lint(cargo.args(which).args(selection)))
+    follow(tools::lint(cargo.args(which).args(selection)), &[])
 }
 
-/// Runs a command of cargo's and takes down what it made. What the compiler and the linter say is shown.
-pub(crate) fn follow(cargo: &mut Command) -> Made {
-    cargo.arg("--message-format=json-render-diagnostics");
+/// Runs a command of cargo's and takes down what it made. What the compiler and the linter say is shown; to the last
+/// compiler it is said what is `told_rustc`.
+pub(crate) fn follow(cargo: &mut Command, told_rustc: &[&str]) -> Made {
+    cargo.arg("--message-format=json-render-diagnostics").args(told_rustc);
     // lines begin with what they are, not with a colour
     cargo.env("CARGO_TERM_COLOR", "never");
     cargo.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
