@@ -296,6 +296,11 @@ pub enum Zoom {
     By(f64),
 }
 
+/// What a lesson has one trace.
+fn traced_by(lesson: RwSignal<Option<LessonView>>) -> drawing::Drawing {
+    lesson.with(|lesson| lesson.as_ref().map(|l| l.traced.clone()).unwrap_or_default())
+}
+
 impl Lab {
     /// Makes a lab without documents.
     pub fn new() -> Self {
@@ -314,9 +319,6 @@ impl Lab {
         });
         let files = StoredValue::new(FileSet::default());
         let lesson = RwSignal::new(None::<LessonView>);
-        let traced = Memo::new(move |_| {
-            lesson.with(|lesson| lesson.as_ref().map(|l| l.traced.clone()).unwrap_or_default())
-        });
         Self {
             session: StoredValue::new_local(Session::new(Box::new(Files(files)))),
             files,
@@ -339,7 +341,7 @@ impl Lab {
             inspected_values: StoredValue::new(Vec::new()),
             first: RwSignal::new(first::is_offered()),
             lesson,
-            traced,
+            traced: Memo::new(move |_| traced_by(lesson)),
             card: RwSignal::new(0.0),
             lesson_offered: RwSignal::new(None),
             clip: RwSignal::new(None),

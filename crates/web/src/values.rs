@@ -278,6 +278,21 @@ fn Scrub(
 /// How many steps a slider has.
 const STEPS: f64 = 200.0;
 
+/// Whether a value says how many parts there are.
+fn is_count(lab: Lab, path: &str) -> bool {
+    let asked = session::parse_path(path).zip(lab.id());
+    asked.is_some_and(|(path, id)| lab.ask(|session| session.is_count(id, &path)))
+}
+
+/// The end of a range that nobody asked for, where the other one was asked for, and what is said of it: it fades.
+fn open_end(range: (Option<f64>, Option<f64>)) -> Option<(&'static str, &'static str)> {
+    match range {
+        (Some(_), None) => Some(("above", words::OPEN_ABOVE)),
+        (None, Some(_)) => Some(("below", words::OPEN_BELOW)),
+        _ => None,
+    }
+}
+
 /// A slider for a number; while it is moved the rest follows, and it is one step of the undo list.
 #[component]
 pub fn Slider(
@@ -311,11 +326,7 @@ pub fn Slider(
     };
     // how many parts there are is said once the hand lets go: each number is another document
     let counted = StoredValue::new(None::<f64>);
-    let is_count = move || {
-        let path = path.with_untracked(|path| session::parse_path(path));
-        let asked = path.zip(lab.id());
-        asked.is_some_and(|(path, id)| lab.ask(|session| session.is_count(id, &path)))
-    };
+    let is_count = move || path.with_untracked(|path| is_count(lab, path));
     // Escape gives up what the hand still holds
     let given_up = StoredValue::new(false);
     let moved = move |e: leptos::ev::Event| {
@@ -371,12 +382,7 @@ pub fn Slider(
         let (least, most) = range.get();
         if whole.get() { 1.0 } else { (most - least) / STEPS }
     };
-    // an end that nobody asked for fades where the other one was asked for
-    let open = Memo::new(move |_| match asked.get() {
-        Some((Some(_), None)) => Some(("above", words::OPEN_ABOVE)),
-        Some((None, Some(_))) => Some(("below", words::OPEN_BELOW)),
-        Some(_) | None => None,
-    });
+    let open = Memo::new(move |_| asked.get().and_then(open_end));
     // made once: a slider that is made anew under the hand would let go
     let is_number = Memo::new(move |_| number.with(Option::is_some));
     move || {
