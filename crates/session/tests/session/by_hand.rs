@@ -299,3 +299,13 @@ fn several_parts_are_locked_and_let_go_in_one_step_each() {
     assert!(refused.is_err());
     assert_eq!(desk.moment(), before);
 }
+
+#[test]
+fn where_words_stand_is_no_degree_of_freedom_unless_it_is_a_corner() {
+    let mut loose =
+        Desk::of("use geometry\np: Point = (1, 2)\nc: Caption { at = (5, 6)  words = \"A\" }\n");
+    assert_eq!(loose.session.status(loose.id).freedom, 2);
+    let mut joined =
+        Desk::of("use geometry\np: Point = (1, 2)\nc: Caption { words = \"A\" }\nmerge c.at = p\n");
+    assert_eq!(joined.session.status(joined.id).freedom, 2);
+}
