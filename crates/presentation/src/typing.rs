@@ -19,7 +19,7 @@ pub fn pointed(typed: &str, pointer: Pointer) -> Option<Pointer> {
         return Some(pointer);
     }
     if let Some((x, y)) = typed.split_once(',') {
-        return Some(Pointer { at: (number(x)?, number(y)?), alone: true, ..pointer });
+        return Some(Pointer { at: (number(x)?, number(y)?), is_typed: true, ..pointer });
     }
     let (length, angle) = typed.split_once('<').unwrap_or((typed, ""));
     let degrees = angle.trim().trim_end_matches("deg").trim_end_matches('°');
@@ -54,7 +54,7 @@ mod tests {
         assert_eq!((both.length, both.angle), (length(3.0, "cm"), Some(45.0)));
         assert_eq!(read("<-30°").expect("an angle").angle, Some(-30.0));
         let place = read("120, -40").expect("a place");
-        assert_eq!((place.at, place.alone), ((120.0, -40.0), true));
+        assert_eq!((place.at, place.is_typed), ((120.0, -40.0), true));
         for wrong in ["3/4 in", "30+5", "3 kg", "30<x", "1,", "120 mm,40 mm", "inf", "3,4,5"] {
             assert_eq!(read(wrong), None, "{wrong}");
         }

@@ -6,7 +6,7 @@ use crate::session::{parse_path, thing_at};
 use crate::state::State;
 use crate::view::{PictureView, Pointer};
 use base::Name;
-use base::number::{hypot, rounded};
+use base::number::{RULE_TOLERANCE, hypot, rounded};
 use drawing::{Element, Point, Shape};
 use kernel::{ClassId, Path, Step};
 use std::cell::RefCell;
@@ -102,10 +102,21 @@ impl Sight<'_> {
 }
 
 /// Returns what the pointer finds: what it is nearest to, points before lines, lines before levels, levels before places
-/// that are merely beside others.
+/// that are merely beside others. A place that was typed joins what stands there.
 pub(crate) fn find(sight: &Sight<'_>, pointer: &Pointer) -> Catch {
     if pointer.alone {
         return Catch::at(pointer.at);
+    }
+    if pointer.is_typed {
+        let (x, y) = pointer.at;
+        let exactly = Pointer { reach: RULE_TOLERANCE * x.abs().max(y.abs()), ..pointer.clone() };
+        let found = at_point(sight, &exactly).and_then(|found| Some((found.at, found.joins?)));
+        let joint = |(at, joined)| Catch {
+            word: Some(format!("joins {joined}")),
+            joins: Some(joined),
+            ..Catch::at(at)
+        };
+        return found.map_or_else(|| Catch::at(pointer.at), joint);
     }
     let found = at_point(sight, pointer).or_else(|| at_body(sight, pointer));
     let found = found.or_else(|| touching(sight, pointer));

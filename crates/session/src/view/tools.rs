@@ -11,6 +11,8 @@ pub struct Pointer {
     pub reach: f64,
     /// Whether it finds nothing: no joints, no guides.
     pub alone: bool,
+    /// Whether its place was typed: it finds no more than the joint that is exactly there.
+    pub is_typed: bool,
     /// A length that was typed: the place is so far from the last one, in the pointer's direction.
     pub length: Option<TypedLength>,
     /// An angle that was typed, in degrees: the direction from the last place, turned left from the right.

@@ -116,6 +116,23 @@ fn a_tool_goes_by_keys_from_corner_to_corner_and_from_middle_to_middle() {
 }
 
 #[test]
+fn a_place_that_is_typed_joins_the_point_that_is_there() {
+    let mut desk = Desk::of("use geometry\n");
+    desk.session.take_tool(desk.id, "Line").expect("geometry has lines");
+    for (x, y) in [(0.0, 0.0), (40.0, 0.0), (40.0, 30.0), (0.0, 0.0)] {
+        click(&mut desk, &Pointer { is_typed: true, ..pointer(x, y) });
+    }
+    holds(&desk);
+    // a triangle of three corners, free each: nothing is level that was not said so
+    assert_eq!(desk.session.status(desk.id).freedom, 6);
+    assert!(desk.text().contains("merge line.p1 = line3.p2"), "{}", desk.text());
+    // what is near, and not there, is another point
+    desk.session.take_tool(desk.id, "Point").expect("geometry has points");
+    click(&mut desk, &Pointer { is_typed: true, ..pointer(40.0, 1.0) });
+    assert_eq!(desk.session.status(desk.id).freedom, 8);
+}
+
+#[test]
 fn a_line_drawn_from_middle_to_middle_keeps_to_the_middles() {
     let mut desk = Desk::of(
         "use geometry\na: Line { p1 = (0, 0)  p2 = (100, 0) }\nb: Line { p1 = (0, 80)  p2 = (100, 120) }\n",
