@@ -196,6 +196,16 @@ fn parameter(p: &mut Parser<'_>) {
         let class = unit.and_then(|unit| unit.dimension.named()).unwrap_or("Real");
         let hint = format!("a parameter has its class: `{name}: {class} = …`");
         p.expected_hint("expected-class", "`:` and the parameter's class", Some(hint));
+    } else if let Some(names) = names_of_one_class(p) {
+        // said once for all of them
+        let is_said =
+            (p.behind(2), p.behind(3)) == (Comma, Ident) && matches!(p.behind(4), LParen | Comma);
+        if !is_said {
+            let class = p.word(2 * names.len() - 1);
+            let each: Vec<String> = names.iter().map(|name| format!("{name}: {class}")).collect();
+            let hint = format!("each parameter has its class: `{}`", each.join(", "));
+            p.expected_hint("expected-class", "`:` and the parameter's class", Some(hint));
+        }
     } else if p.expect(Colon, "expected-class", "`:` and the parameter's class") {
         class_name(p);
         domain(p);
@@ -205,6 +215,18 @@ fn parameter(p: &mut Parser<'_>) {
     }
     p.eat(Text);
     p.finish();
+}
+
+/// Behind the first name of `a, b, c: Length`: the names; nothing elsewhere.
+fn names_of_one_class(p: &Parser<'_>) -> Option<Vec<String>> {
+    let mut names = vec![p.text_between(p.pos() - 1, p.pos() - 1).to_string()];
+    let mut next = 0;
+    while p.nth(next) == Comma && p.nth(next + 1) == Ident {
+        names.push(p.word(next + 1).to_string());
+        next += 2;
+    }
+    let is_classed = p.nth(next) == Colon && p.nth(next + 1) == Ident;
+    (names.len() > 1 && is_classed).then_some(names)
 }
 
 /// `a, b, c`: names, each a path.
