@@ -1,8 +1,8 @@
 //! `bindgen [--quick] [--named] [--rest LIST | --followed] PAGE.wasm FOLDER [FILE…]`: writes the module `PAGE.js` and
 //! its `PAGE_bg.wasm` into the folder, and beside them, compressed by brotli as `NAME.br`, these two and further files.
 //! `--quick` compresses them little; `--named` keeps the names of functions for whoever looks where time goes, a sixth
-//! of the module. `--rest` leaves the functions of a list to `PAGE_rest.wasm`; `--followed` has the module mark which
-//! of them are called, and writes to `PAGE.functions` where, and their keys.
+//! of the module. `--rest` leaves the functions of a list to `PAGE_rest.wasm`, and the data that only they name;
+//! `--followed` has the module mark which of them are called, and writes to `PAGE.functions` where, and their keys.
 
 mod data;
 mod order;
