@@ -7,7 +7,7 @@ pub(crate) use units::{
 };
 
 use crate::classes::small_first;
-use crate::kinds::Kind;
+use crate::kinds::{Kind, with_article};
 use crate::lower::Lowerer;
 use crate::members::is_constant;
 use crate::names::LONGEST_WORD;
@@ -525,8 +525,7 @@ impl Lowerer<'_> {
     pub(crate) fn asked_elsewhere(&self, scope: &Scope, word: &ast::Word) -> Option<String> {
         let asked = |class: &str, m: &Message| {
             let receiver = small_first(class);
-            let article = if class.starts_with(['A', 'E', 'I', 'O', 'U']) { "an" } else { "a" };
-            format!("{article} {class}: `{}`", written(&receiver, m))
+            format!("{}: `{}`", with_article(class), written(&receiver, m))
         };
         let of =
             self.messages_by(scope, word, |m| !m.is_of_class() && m.name == *word.text(), asked);

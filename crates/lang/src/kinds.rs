@@ -202,7 +202,7 @@ impl Kind {
 }
 
 /// Returns a noun with its article.
-pub(crate) fn with_article(noun: &str) -> String {
+pub fn with_article(noun: &str) -> String {
     match noun.starts_with(['A', 'E', 'I', 'O', 'U', 'a', 'e', 'i', 'o', 'u']) {
         true => format!("an {noun}"),
         false => format!("a {noun}"),

@@ -88,6 +88,7 @@ pub use checks::{Check, Counted, Expectation, PlanKind, Statement, StatementKind
 pub use edits::{Restructuring, edits_for, for_every, is_count, of_constraint, write_sides};
 pub use families::{Family, Row as FamilyRow};
 pub use files::File;
+pub use kinds::with_article;
 pub use lessons::{Goal, Lesson, LessonStep, Task};
 pub use lower::{Lowered, lower, lower_asking, lower_written, mentions};
 pub use lowering::Lowering;

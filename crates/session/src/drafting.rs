@@ -8,9 +8,9 @@
 //! them in a copy of the text. So a construction that a library gains is a tool at once.
 //!
 //! Reading order: `catalogue`, `synonyms`, `compound`, `scene`, `edges`, `typed`, `outcome`, `crossing`, `dialogue`,
-//! `older`,
-//! `hands`, `recording`, `reading`, `parameters`, `becoming`, `blocks`, `operands`, `patterns`, `repeat`, `choice`, `own_values`,
-//! `demonstrating`, `measure`, `steps`, `visit`, `remove`, `erase`, `changing`, `visiting`, `text`.
+//! `older`, `hands`, `recording`, `reading`, `parameters`, `becoming`, `blocks`, `operands`, `patterns`, `repeat`,
+//! `choice`, `own_values`, `demonstrating`, `measure`, `steps`, `visit`, `remove`, `erase`, `changing`, `visiting`,
+//! `text`.
 
 mod becoming;
 mod blocks;

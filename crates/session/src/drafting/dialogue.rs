@@ -7,6 +7,7 @@ use super::{Home, becoming, crossing, edges, measure, older, outcome, text, type
 use crate::state::State;
 use crate::view::{Pointer, Refusal};
 use crate::words;
+use lang::with_article;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// An operand as it is given.
@@ -103,11 +104,7 @@ impl Dialogue {
                 SlotKind::Point => {
                     "pick a point, or type `x,y`, `@dx,dy`, `length<angle`".to_string()
                 }
-                SlotKind::Curve => {
-                    let what = slot.in_words();
-                    let article = if what.starts_with(['a', 'e', 'i', 'o', 'u']) { "an" } else { "a" };
-                    format!("pick {article} {what}")
-                }
+                SlotKind::Curve => format!("pick {}", with_article(&slot.in_words())),
                 SlotKind::Set => {
                     "pick a figure, or drag over several; Tab takes its turn, or the whole loop"
                         .to_string()
