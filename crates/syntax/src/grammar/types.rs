@@ -196,16 +196,13 @@ fn parameter(p: &mut Parser<'_>) {
         let class = unit.and_then(|unit| unit.dimension.named()).unwrap_or("Real");
         let hint = format!("a parameter has its class: `{name}: {class} = …`");
         p.expected_hint("expected-class", "`:` and the parameter's class", Some(hint));
-    } else if let Some(names) = names_of_one_class(p) {
+    } else if p.at(Comma) && is_after_bare_one(p) {
         // said once for all of them
-        let is_said =
-            (p.behind(2), p.behind(3)) == (Comma, Ident) && matches!(p.behind(4), LParen | Comma);
-        if !is_said {
-            let class = p.word(2 * names.len() - 1);
-            let each: Vec<String> = names.iter().map(|name| format!("{name}: {class}")).collect();
-            let hint = format!("each parameter has its class: `{}`", each.join(", "));
-            p.expected_hint("expected-class", "`:` and the parameter's class", Some(hint));
-        }
+    } else if let Some(names) = names_of_one_class(p) {
+        let class = p.word(2 * names.len() - 1);
+        let each: Vec<String> = names.iter().map(|name| format!("{name}: {class}")).collect();
+        let hint = format!("each parameter has its class: `{}`", each.join(", "));
+        p.expected_hint("expected-class", "`:` and the parameter's class", Some(hint));
     } else if p.expect(Colon, "expected-class", "`:` and the parameter's class") {
         class_name(p);
         domain(p);
@@ -215,6 +212,11 @@ fn parameter(p: &mut Parser<'_>) {
     }
     p.eat(Text);
     p.finish();
+}
+
+/// Behind a parameter's name: whether the parameter before it is a name alone.
+fn is_after_bare_one(p: &Parser<'_>) -> bool {
+    (p.behind(2), p.behind(3)) == (Comma, Ident) && matches!(p.behind(4), LParen | Comma)
 }
 
 /// Behind the first name of `a, b, c: Length`: the names; nothing elsewhere.
