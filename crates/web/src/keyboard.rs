@@ -44,13 +44,15 @@ pub fn rest_at(selector: &'static str) {
     });
 }
 
-/// With the next frame, does what gives somebody the keyboard, unless by then somebody else has taken it.
-pub fn unless_taken(then: impl FnOnce() + 'static) {
+/// With the next frame, does what gives one of some elements the keyboard, unless by then an element that is none of them
+/// has taken it: of keys that come faster than frames the last one counts.
+pub fn unless_taken(own: &'static str, then: impl FnOnce() + 'static) {
     let before = holder();
     request_animation_frame(move || {
-        let now = holder().filter(|now| now.tag_name() != "BODY");
-        let is_taken =
-            now.is_some_and(|now| before.is_none_or(|before| !before.is_same_node(Some(&now))));
+        let is_other =
+            |now: &Element| now.tag_name() != "BODY" && !now.matches(own).unwrap_or(false);
+        let is_before = |now: &Element| before.is_some_and(|before| before.is_same_node(Some(now)));
+        let is_taken = holder().filter(is_other).is_some_and(|now| !is_before(&now));
         if !is_taken {
             then();
         }

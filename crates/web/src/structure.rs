@@ -152,7 +152,7 @@ impl Tree {
 
     /// Gives a row the keyboard with the next frame, unless what was done meanwhile asks for it.
     fn focus(self, at: usize) {
-        keyboard::unless_taken(move || {
+        keyboard::unless_taken("[role=treeitem]", move || {
             self.scroll_to(at);
             if let Some(row) = document().get_element_by_id(&format!("row-{at}")) {
                 let row: web_sys::HtmlElement = JsCast::unchecked_into(row);
