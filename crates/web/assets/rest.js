@@ -1,33 +1,40 @@
 // The rest of the code: what is not run until a first drag (`xtask/bindgen/src/split.rs`). It is fetched when the page
-// stands, or at its first call.
+// stands, or at its first call; a later visit begins with it.
 
+import { keepRest } from "./kept.js"
 import { isWorker, showCrash } from "./page.js"
 import { initSync } from "./web.js"
 
 const address = new URL("web_rest.wasm", import.meta.url)
 const AGAIN_MS = 5000
 let there
+// compiled, and not in its place yet
+let code
 
 const isMissing = () => !there && "is_divided" in initSync()
 
+// Takes what was compiled before the first part ran, for the first call.
+export const haveRest = (rest) => (code = rest)
+
 // Fetches it while the page goes on; where the server does not answer, later again. Returns whether it has come.
 export async function fetchRest() {
-  if (!isMissing()) return Boolean(there)
   try {
-    takeRest(await WebAssembly.compileStreaming(fetch(address)))
-    return true
+    if (isMissing()) takeRest(code ?? (await WebAssembly.compileStreaming(fetch(address))))
   } catch (error) {
     // what is of another build never fits; its first call says so
     if (error instanceof WebAssembly.LinkError) return false
     await new Promise((resolve) => setTimeout(resolve, AGAIN_MS))
     return fetchRest()
   }
+  if (there) keepRest()
+  return Boolean(there)
 }
 
-// Fetches it at once: the code that calls it waits.
+// Has it at once: the code that calls it waits.
 export function loadRest() {
   if (!isMissing()) return
   try {
+    if (code) return takeRest(code)
     const request = new XMLHttpRequest()
     request.open("GET", address, false)
     // the only way to bytes that does not give way to the page

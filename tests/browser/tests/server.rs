@@ -81,6 +81,17 @@ async fn the_page_comes_compressed_and_in_two_parts_each_once() {
     assert_eq!(parts, json!([["web_bg.wasm", true], ["web_rest.wasm", true]]));
 }
 
+#[tokio::test]
+async fn a_document_that_needs_both_parts_does_not_wait_for_the_second_when_it_was_there_before() {
+    let visit = Visit::open(Some("resistor-grid.thing")).await;
+    visit.until("localStorage.getItem('thinglab/rest')").await;
+    visit.client.refresh().await.expect("the page's address answers");
+    visit.until("window.__thinglab?.state().grips.length").await;
+    let ways = "return performance.getEntriesByType('resource')
+        .filter(r => r.name.endsWith('rest.wasm')).map(r => r.initiatorType)";
+    assert_eq!(visit.script(ways).await, json!(["fetch"]));
+}
+
 /// The same numbers in every run, that look as if they were drawn.
 fn drawn(seed: &mut u64) -> u64 {
     *seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
