@@ -7,7 +7,7 @@
 //! {path, classes}, `draw` {path, svg, undrawn, unpictured}, `fmt` {files: [{path, changed, error}]}, with the `text` of
 //! standard input. What cannot be read at all is {error}. The shapes of their parts are those of `session::view`.
 
-use crate::documents::{self, OpenError, Opened, find, is_standard_input, open, open_sparingly};
+use crate::documents::{self, OpenError, Opened, Source, find, is_standard_input, open};
 use crate::family::Format;
 use crate::rows::{self, Row};
 use presentation::annotations::{self, Moved};
@@ -269,9 +269,10 @@ pub(crate) enum Rows {
 /// Opens a document and prints its values: to six digits in an engineer's units, or exactly with `--json`.
 ///
 /// # Errors
-/// If the file cannot be read.
-pub(crate) fn run(path: &Path, which: Rows, form: Form) -> Result<Report, OpenError> {
-    let mut opened = open_sparingly(path)?;
+/// If the file cannot be read, or a value not set.
+pub(crate) fn run(source: &Source, which: Rows, form: Form) -> Result<Report, OpenError> {
+    let path = &source.file;
+    let mut opened = source.open_sparingly()?;
     let mut words = String::new();
     let diagnostics = opened.session.text(opened.id).diagnostics;
     for d in &diagnostics {
@@ -328,8 +329,12 @@ fn mark(row: &ValueRow, arbitrary: &BTreeSet<String>) -> char {
 ///
 /// # Errors
 /// If the file cannot be read.
-pub(crate) fn explain(path: &Path, about: Option<&str>, form: Form) -> Result<Report, OpenError> {
-    let mut opened = open(path)?;
+pub(crate) fn explain(
+    source: &Source,
+    about: Option<&str>,
+    form: Form,
+) -> Result<Report, OpenError> {
+    let mut opened = source.open()?;
     let about = match about.map(session::parse_path) {
         Some(None) => {
             let words =
@@ -418,8 +423,8 @@ pub(crate) fn recognise(path: &Path, parts: &[String], form: Form) -> Result<Rep
 ///
 /// # Errors
 /// If the file cannot be read.
-pub(crate) fn analyse(path: &Path, form: Form) -> Result<Report, OpenError> {
-    let mut opened = open(path)?;
+pub(crate) fn analyse(source: &Source, form: Form) -> Result<Report, OpenError> {
+    let mut opened = source.open()?;
     let analysis = opened.session.analysis(opened.id);
     let mut words = format!("degrees of freedom: {}\n", analysis.freedom);
     for motion in &analysis.motions {
@@ -506,13 +511,14 @@ fn format_of(output: &Path) -> Result<Format, OpenError> {
 /// # Errors
 /// If the file cannot be read or written, or is of another kind.
 pub(crate) fn draw(
-    path: &Path,
+    source: &Source,
     output: Option<&Path>,
     dimensions: Dimensions,
     form: Form,
 ) -> Result<Report, OpenError> {
     let format = output.map_or(Ok(Format::Svg), format_of)?;
-    let opened = open(path)?;
+    let path = &source.file;
+    let opened = source.open()?;
     let written = drawn(&opened, dimensions, format);
     // what nobody asks for is not made: a large drawing takes its time
     let svg = match form {

@@ -79,6 +79,50 @@ impl Opened {
     pub(crate) fn meaning(&self) -> String {
         self.session.sources(self.id).join("\n")
     }
+    /// Sets a value: `PATH=VALUE`.
+    ///
+    /// # Errors
+    /// If it is written otherwise, or the document refuses it.
+    fn set(&mut self, setting: &str) -> Result<(), OpenError> {
+        let refused = |why: &str| OpenError::Refused(format!("--set {setting}: {why}"));
+        let (path, value) = setting
+            .split_once('=')
+            .ok_or_else(|| refused("write PATH=VALUE, such as `r1.resistance=2 kohm`"))?;
+        let change = self.session.set_typed(self.id, path.trim(), value.trim());
+        change.map(drop).map_err(|refusal| refused(&refusal.message))
+    }
+}
+
+/// A document, and what is set in it before it is looked at. The file stays as it is.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Source {
+    /// The document; `-` is standard input.
+    pub(crate) file: PathBuf,
+    /// Sets a value first, such as `r1.resistance=2 kohm`, as typing it in the lab does; may stand several times.
+    #[arg(long, value_name = "PATH=VALUE")]
+    set: Vec<String>,
+}
+
+impl Source {
+    /// Opens it.
+    ///
+    /// # Errors
+    /// If it cannot be read as text, or a value cannot be set.
+    pub(crate) fn open(&self) -> Result<Opened, OpenError> {
+        let mut opened = open(&self.file)?;
+        for setting in &self.set {
+            opened.set(setting)?;
+        }
+        Ok(opened)
+    }
+    /// Opens it to be looked at, in as little room as it takes.
+    ///
+    /// # Errors
+    /// As [`Source::open`].
+    pub(crate) fn open_sparingly(&self) -> Result<Opened, OpenError> {
+        // what an edit needs is there only where all is
+        if self.set.is_empty() { open_by(&self.file, Session::open_sparingly) } else { self.open() }
+    }
 }
 
 /// Opens one file.
@@ -87,14 +131,6 @@ impl Opened {
 /// If it cannot be read as text.
 pub(crate) fn open(path: &Path) -> Result<Opened, OpenError> {
     open_by(path, Session::open)
-}
-
-/// Opens one file to be looked at, in as little room as it takes.
-///
-/// # Errors
-/// If it cannot be read as text.
-pub(crate) fn open_sparingly(path: &Path) -> Result<Opened, OpenError> {
-    open_by(path, Session::open_sparingly)
 }
 
 /// Returns true for `-`, which stands for what comes in by standard input.

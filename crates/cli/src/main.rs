@@ -6,7 +6,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 use commands::{Form, FormatMode, Leniency, Report};
-use documents::OpenError;
+use documents::{OpenError, Source};
 
 mod commands;
 mod disk;
@@ -54,16 +54,16 @@ enum Command {
     ///
     /// Marks: `=` given in the text, `!` anchored, `~` arbitrary, as nothing decides it.
     Run {
-        /// The document; `-` is standard input.
-        file: PathBuf,
+        #[command(flatten)]
+        source: Source,
         /// Lists everything, where things are drawn and what pictures compute as well.
         #[arg(long)]
         all: bool,
     },
     /// Explains the plan of a document, or why one value is what it is.
     Explain {
-        /// The document.
-        file: PathBuf,
+        #[command(flatten)]
+        source: Source,
         /// The path of the value, such as q.side1.p1.x.
         path: Option<String>,
     },
@@ -77,13 +77,13 @@ enum Command {
     },
     /// Says what is free in a document, what says nothing new, and what cannot hold together.
     Analyse {
-        /// The document.
-        file: PathBuf,
+        #[command(flatten)]
+        source: Source,
     },
     /// Draws a document as SVG, or as DXF where the file that it is written to ends in `.dxf`.
     Draw {
-        /// The document.
-        file: PathBuf,
+        #[command(flatten)]
+        source: Source,
         /// Where to write; standard output without it.
         #[arg(short, long)]
         output: Option<PathBuf>,
@@ -129,19 +129,19 @@ fn main() -> ExitCode {
             let checks = if *verbose { commands::Checks::All } else { commands::Checks::Failed };
             commands::test(files, checks, form)
         }
-        Command::Run { file, all } => {
+        Command::Run { source, all } => {
             let rows = if *all { commands::Rows::All } else { commands::Rows::OfLaw };
-            commands::run(file, rows, form)
+            commands::run(source, rows, form)
         }
-        Command::Explain { file, path } => commands::explain(file, path.as_deref(), form),
+        Command::Explain { source, path } => commands::explain(source, path.as_deref(), form),
         Command::Recognise { file, parts } => commands::recognise(file, parts, form),
-        Command::Analyse { file } => commands::analyse(file, form),
-        Command::Draw { file, output, dimensions } => {
+        Command::Analyse { source } => commands::analyse(source, form),
+        Command::Draw { source, output, dimensions } => {
             let dimensions = match dimensions {
                 true => commands::Dimensions::Shown,
                 false => commands::Dimensions::LeftOut,
             };
-            commands::draw(file, output.as_deref(), dimensions, form)
+            commands::draw(source, output.as_deref(), dimensions, form)
         }
         Command::Family(arguments) => family::run(arguments, form),
         Command::Plot(arguments) => plot::run(arguments, form),

@@ -1,7 +1,7 @@
 //! `thinglab plot`: numbers over a value that is swept through a range, as CSV or as a chart.
 
 use crate::commands::{Form, Report};
-use crate::documents::{OpenError, open};
+use crate::documents::{OpenError, Source};
 use serde_json::json;
 use session::plotting::{Request, Sweep};
 use std::path::PathBuf;
@@ -11,8 +11,8 @@ const CHART: (f64, f64) = (720.0, 420.0);
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct Arguments {
-    /// The document.
-    file: PathBuf,
+    #[command(flatten)]
+    source: Source,
     /// What is shown: paths or expressions; a number makes a curve, a place its locus.
     #[arg(required = true)]
     show: Vec<String>,
@@ -41,8 +41,9 @@ pub(crate) struct Arguments {
 /// # Errors
 /// If the file cannot be read or written, or there is nothing to plot.
 pub(crate) fn run(arguments: &Arguments, form: Form) -> Result<Report, OpenError> {
-    let Arguments { file, show, sweep, from, to, over, steps, output } = arguments;
-    let opened = open(file)?;
+    let Arguments { source, show, sweep, from, to, over, steps, output } = arguments;
+    let file = &source.file;
+    let opened = source.open()?;
     let [of, from, to] = [sweep, from, to].map(Clone::clone);
     let sweep = Some(Sweep { of, from, to, steps: *steps });
     let request = Request { show: show.clone(), over: over.clone(), sweep };

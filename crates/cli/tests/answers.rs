@@ -295,3 +295,25 @@ fn a_file_that_is_not_there_is_an_answer_in_json_too() {
     assert!(told["error"].as_str().is_some_and(|e| e.starts_with("no-such.thing: ")), "{told}");
     assert_eq!(said.status.code(), Some(2));
 }
+
+#[test]
+fn a_value_may_be_set_for_one_run_and_the_file_stays() {
+    let text = "use electrical\nv: Voltage = 9 V\nr: Resistance = 300 ohm\n\
+                i: Current = v / r\na: Real = 3\nb: Real = a + 1\n";
+    let run = |about: &[&str]| asked("set-for-one-run", text, "run", about);
+    let told = run(&["--set", "v = 12 V", "--set", "r=2 kohm", "--json"]);
+    let told: serde_json::Value = serde_json::from_slice(&told.stdout).expect("it is JSON");
+    let values = told["values"].as_array().expect("a list of them");
+    let of = |path: &str| values.iter().find(|row| row["path"] == path).map(|row| &row["number"]);
+    assert_eq!(of("i").and_then(serde_json::Value::as_f64), Some(0.006), "{told}");
+    let kept = std::fs::read_to_string(std::env::temp_dir().join("thinglab-set-for-one-run.thing"));
+    assert_eq!(kept.expect("it is there"), text);
+    for (setting, wanted) in
+        [("v", "write PATH=VALUE"), ("w=3", "no part or message `w`"), ("r=3 V", "Resistance")]
+    {
+        let refused = run(&["--set", setting]);
+        assert_eq!(refused.status.code(), Some(2), "{setting}: {refused:?}");
+        let said = String::from_utf8_lossy(&refused.stderr);
+        assert!(said.contains(wanted) && said.contains(setting), "{said}");
+    }
+}

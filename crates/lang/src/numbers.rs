@@ -67,7 +67,9 @@ pub fn show_limit(
     quantity: Quantity<'_>,
     document: &Document,
 ) -> (String, String) {
-    let spelling = spelling_for(limit, quantity, document);
+    // a limit that is nothing beside the way to it is read in the unit of the beginning
+    let is_nothing = limit.abs() <= 4.0 * RULE_TOLERANCE * from.abs();
+    let spelling = spelling_for(if is_nothing { from } else { limit }, quantity, document);
     let shown = |x: f64| in_unit(x, quantity.dimension, &spelling, document);
     (short_of(shown(limit), shown(from)), spelling)
 }
@@ -225,9 +227,25 @@ pub fn read_literal(
             }
             Some(Primitive::Integer) => d.hint("a whole number is wanted"),
             Some(Primitive::Real(_)) if d.code == "not-a-value" => d.hint("a number is wanted"),
+            None => match wanted.and_then(|class| made_of(class, document)) {
+                Some(hint) => d.hint(hint),
+                None => d,
+            },
             _ => d,
         }
     })
+}
+
+/// Says what a thing is made of that has no value of its own; nothing where it has no parts.
+fn made_of(class: ClassId, document: &Document) -> Option<String> {
+    let ClassKind::Composite = document.classes[class].kind else { return None };
+    let layout = document.layout(class);
+    let parts: Vec<&str> = layout.iter().map(|&part| document.field_name(part).as_str()).collect();
+    match parts.as_slice() {
+        [] => None,
+        ["x", "y"] => Some(String::from("a place is wanted, as `(3, 4)`")),
+        parts => Some(format!("it is made of {}: set one of these", parts.join(", "))),
+    }
 }
 
 /// The prefixes of the short form, each with that of a unit; not `m` and `T`, which are units of other quantities.

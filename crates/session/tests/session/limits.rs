@@ -64,6 +64,14 @@ fn a_limit_that_is_never_reached_is_told_as_that() {
     desk.set("x", 0.001).expect("short of it anything can be set");
 }
 
+#[test]
+fn a_limit_that_is_nothing_beside_its_way_is_told_in_the_unit_of_the_beginning() {
+    let mut desk =
+        Desk::of("use electrical\nr: Resistance = 100 ohm\nconstraint more: r > 0 ohm\n");
+    let refusal = desk.type_in("r", "-5").expect_err("there is no such resistance");
+    assert_eq!(refusal.message, "refused: r has to stay short of 0 ohm; more would not hold");
+}
+
 /// A chain of bars of length 1 from an anchored place, each at an angle that is up to `rough` off the first axis.
 fn chain(bars: u32, rough: f64) -> String {
     let mut text = String::from("use geometry\np0: Point = (0, 0)\nanchor p0\n");

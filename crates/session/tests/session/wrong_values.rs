@@ -105,6 +105,15 @@ fn a_word_that_is_no_unit_is_told_as_one() {
 }
 
 #[test]
+fn a_number_for_a_thing_of_several_parts_is_told_what_it_is_made_of() {
+    let mut desk = Desk::of("use geometry\nl: ConstantLengthLine { p2 = (3, 4) }\n");
+    let mut refused =
+        |path: &str| desk.type_in(path, "30 deg").expect_err("it is no number").message;
+    assert_eq!(refused("l"), "`30 deg` is no value; it is made of p1, p2, size: set one of these");
+    assert_eq!(refused("l.p2"), "`30 deg` is no value; a place is wanted, as `(3, 4)`");
+}
+
+#[test]
 fn what_is_allowed_of_a_parameter_stands_where_it_is_written() {
     let desk = Desk::of(
         "program P(d: Length in 1 mm..9 mm = 2 mm, e: Length = 3 mm) {\n    a = d + e\n}\np: P\n",
