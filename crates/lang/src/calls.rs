@@ -322,11 +322,9 @@ impl Lowerer<'_> {
                 let message = format!("{} is {found}, wanted {wanted}", labels[0]);
                 let place = Place { file: scope.file, span: arg.expr.span() };
                 let d = Diagnostic::error(code_for(&arg.kind, kind), place, message);
-                let is_direction = arg.kind == Kind::PLAIN && *kind == Kind::LENGTH;
-                self.report(match is_direction {
-                    true => {
-                        d.hint("a direction of plain numbers has no class: `r * (cos(a), sin(a))`")
-                    }
+                let is_plain = arg.kind == Kind::PLAIN && *kind == Kind::LENGTH;
+                self.report(match is_plain {
+                    true => d.hint(self.plain_for_length(&arg.expr)),
                     false => d,
                 });
                 return None;

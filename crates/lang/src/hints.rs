@@ -384,6 +384,23 @@ impl Lowerer<'_> {
         });
     }
 
+    /// Says how a plain number that is given for a length becomes one: that of a direction, or another.
+    pub(crate) fn plain_for_length(&self, value: &Expr) -> String {
+        let mut words = value.syntax().descendants_with_tokens().filter_map(|e| e.into_token());
+        if words.any(|token| matches!(token.text(), "cos" | "sin")) {
+            return "a direction of plain numbers has no class: `r * (cos(a), sin(a))`".into();
+        }
+        match self.plain_as_length(value) {
+            alone if alone == PLAIN_AS_LENGTH => {
+                let written = value.syntax().text().to_string();
+                let whole = matches!(value, Expr::Name(_) | Expr::Field(_) | Expr::Call(_));
+                let factor = if whole { written } else { format!("({written})") };
+                format!("`1 * {factor}` is a length where one is wanted")
+            }
+            declared => declared,
+        }
+    }
+
     /// Returns true if a plain number stands in a tuple where a part of a class is a length.
     fn wants_length(&self, class: ClassId, items: &[Kind]) -> bool {
         let document = &self.document;

@@ -249,7 +249,7 @@ impl Lowerer<'_> {
                 None => format!("a power is `{power}`"),
             };
             d = d.hint(hint).fix(format!("write {power}"), [(place, power)]);
-        } else if let Some(hint) = per_unit(word) {
+        } else if let Some(hint) = per_unit(word).or_else(|| remainder(word)) {
             d = d.hint(hint);
         } else if let Some((brackets, hint)) = bracketed_unit(word) {
             // all of it is one mistake
@@ -756,6 +756,22 @@ fn bracketed_unit(word: &ast::Word) -> Option<(Span, String)> {
     expr::units::read_quantity(digits.text(), &written)?;
     let hint = format!("a unit has no brackets: `{} {written}`", digits.text());
     Some((brackets.span(), hint))
+}
+
+/// Says of a remainder that is written as a function that it stands between its numbers.
+fn remainder(word: &ast::Word) -> Option<String> {
+    if !matches!(word.text(), "mod" | "modulo" | "fmod" | "rem") {
+        return None;
+    }
+    let call = word.token.parent()?.ancestors().find_map(ast::CallExpr::cast)?;
+    let factor = |arg: ast::Arg| {
+        let written = arg.syntax().text().to_string();
+        let whole = arg.value().is_some_and(|e| !matches!(e, Expr::Binary(_)));
+        if whole { written } else { format!("({written})") }
+    };
+    let args: Vec<String> = call.args()?.args().map(factor).collect();
+    let [of, by] = args.as_slice() else { return None };
+    Some(format!("the remainder is `{of} mod {by}`"))
 }
 
 /// Returns a count of arguments in words.

@@ -169,6 +169,12 @@ fn for_rest(p: &mut Parser<'_>, scope: Scope) {
 /// `repeat 5 times with … { … } until c`
 fn repeat_rest(p: &mut Parser<'_>, scope: Scope) {
     p.bump_keyword();
+    if p.at_word(0, "while") || p.at_word(0, "until") {
+        let hint = "a loop goes on while something holds, `while c { … }`, or until it does, \
+                    `repeat { … } until c`";
+        p.expected_hint("expected-word", "a count or the body", Some(hint.into()));
+        return while_rest(p, scope);
+    }
     if !p.at(LBrace) && !p.at_word(0, "with") {
         let first = p.pos();
         expression(p);
