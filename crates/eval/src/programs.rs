@@ -9,11 +9,12 @@ use crate::fault::{Fault, FaultKind};
 use crate::replay::{Asked, Measures, Row};
 use base::Name;
 use kernel::program::{Block, Carried, Program, Says, Step};
-use kernel::{Argument, ClassId, OriginId, Term, ThingId};
+use kernel::{ClassId, OriginId, Term, ThingId};
 use std::rc::Rc;
 
 mod bounds;
 mod demands;
+mod ending;
 pub use demands::allowed_table;
 
 /// How many terms a run may evaluate, that of the programs it calls included.
@@ -678,78 +679,6 @@ impl<'a> Run<'_, 'a> {
 
     fn leave(&self) {
         self.evaluator.blocks.set(self.evaluator.blocks.get() - 1);
-    }
-
-    /// Says why a run ends at a step.
-    fn ended(
-        &self,
-        step: &'a Step,
-        frame: &Frame<'a>,
-        term: Option<&'a Term>,
-        fault: Fault,
-    ) -> Ended {
-        let why = match fault.kind {
-            FaultKind::Run(why) if why == Why::TooLong => why,
-            FaultKind::Endless => Why::TooLong,
-            _ => Why::Failed,
-        };
-        let mut path = String::new();
-        for (name, turn) in &self.way {
-            path += if name.is_empty() { "block" } else { name.as_str() };
-            if let Some(turn) = turn {
-                path += &format!("[{turn}]");
-            }
-            path.push('.');
-        }
-        path += if step.name.is_empty() { "block" } else { step.name.as_str() };
-        let operands = match (why, term) {
-            (Why::Failed, Some(term)) => self.operands(term, frame),
-            _ => Vec::new(),
-        };
-        let is_called = matches!(fault.kind, FaultKind::Run(_));
-        let reason = match fault.kind {
-            FaultKind::Unnamed => format!("{}: another branch ran", fault.message),
-            _ => fault.message,
-        };
-        Ended { why, step: path, operands, reason, is_called, origin: step.origin }
-    }
-
-    /// Returns what a construction or call was given; of one that another one was to supply, and did not, what that was
-    /// given.
-    fn operands(&self, term: &'a Term, frame: &Frame<'a>) -> Vec<(String, String)> {
-        let arguments: &'a [Argument] = match term {
-            Term::Send { arguments, .. }
-            | Term::Call { arguments, .. }
-            | Term::Make { arguments, .. } => arguments,
-            _ => return Vec::new(),
-        };
-        let fails = |a: &&'a Argument| self.evaluator.term(&a.value, frame).is_err();
-        if let Some(failed) = arguments.iter().find(fails) {
-            return self.operands(&failed.value, frame);
-        }
-        let operand = |(i, argument): (usize, &'a Argument)| {
-            let name = match (&argument.label, called(&argument.value)) {
-                (_, Some(name)) => name,
-                (Some(label), None) => label.to_string(),
-                (None, None) => format!("operand {}", i + 1),
-            };
-            let value = self.evaluator.term(&argument.value, frame).ok()?;
-            Some((name, self.evaluator.in_words_briefly(&value)))
-        };
-        arguments.iter().enumerate().filter_map(operand).collect()
-    }
-}
-
-/// How an operand is written, where that is short: `ring`, `-ring`, `ring.center`.
-fn called(term: &Term) -> Option<String> {
-    match term {
-        Term::Local(name) => Some(name.to_string()),
-        Term::Send { to, name, .. } if **to == Term::Me => Some(name.to_string()),
-        Term::Send { to, name, arguments, .. } if arguments.is_empty() => {
-            let of = called(to)?;
-            Some(if *name == "reversed" { format!("-{of}") } else { format!("{of}.{name}") })
-        }
-        _ => None,
     }
 }
 
