@@ -12,22 +12,26 @@ pub struct Draft {
     pub version: String,
     /// When it was kept, in milliseconds since 1970.
     pub kept: f64,
+    /// Where in it a program was recorded, as the session says it.
+    pub left: Option<String>,
     /// The text.
     pub text: String,
 }
 
 impl Draft {
-    /// As the browser keeps it: version and time have a line of their own.
+    /// As the browser keeps it: version, time and where something was recorded have a line of their own.
     pub fn written(&self) -> String {
-        format!("{} {}\n{}", self.version, self.kept, self.text)
+        let left = self.left.as_ref().map(|left| format!(" {left}")).unwrap_or_default();
+        format!("{} {}{left}\n{}", self.version, self.kept, self.text)
     }
 
     /// Reads what [`Draft::written`] wrote; nothing where it is something else.
     pub fn read(kept: &str) -> Option<Self> {
         let (head, text) = kept.split_once('\n')?;
-        let (version, kept) = head.split_once(' ').unwrap_or((head, "0"));
-        let (version, text) = (String::from(version), String::from(text));
-        Some(Self { version, kept: kept.parse().unwrap_or(0.0), text })
+        let mut head = head.splitn(3, ' ');
+        let version = String::from(head.next()?);
+        let kept = head.next().and_then(|kept| kept.parse().ok()).unwrap_or(0.0);
+        Some(Self { version, kept, left: head.next().map(String::from), text: String::from(text) })
     }
 }
 
@@ -101,9 +105,11 @@ mod tests {
     #[test]
     fn a_draft_is_read_as_it_was_written() {
         for text in ["", "x: Real\n", "\nfirst line empty", "a\r\nb\n\n"] {
-            let (version, kept) = (String::from("absent"), 1.75e12);
-            let draft = Draft { version, kept, text: String::from(text) };
-            assert_eq!(Draft::read(&draft.written()), Some(draft));
+            for left in [None, Some(String::from("Comb [1 0] teeth.#0.then.axis"))] {
+                let (version, kept) = (String::from("absent"), 1.75e12);
+                let draft = Draft { version, kept, left, text: String::from(text) };
+                assert_eq!(Draft::read(&draft.written()), Some(draft));
+            }
         }
         assert_eq!(Draft::read("no line"), None);
     }

@@ -40,7 +40,7 @@ pub(crate) fn apply(
     let change = apply_by(open, host, command, Mover::Lab)?;
     crate::drafting::settle(open);
     if let Command::Set(_) | Command::Move(_) = command {
-        crate::drafting::keep_own(open, &before);
+        crate::drafting::keep_own(open, host, &before);
     }
     Ok(change)
 }
@@ -458,7 +458,7 @@ pub(crate) fn keep(
     if let Some(step) = open.done.last_mut() {
         step.came = came;
     }
-    crate::drafting::keep_own(open, &before);
+    crate::drafting::keep_own(open, host, &before);
     let mut modes = limits::modes(&open.state, &modes);
     modes.extend(limits::sides(&before, &open.state));
     Ok(Change { modes, ..change(label, &before, &open.state) })

@@ -111,8 +111,6 @@ pub(crate) struct Recording {
     pub(crate) removing: Option<remove::Removing>,
     /// What of a step is changed.
     pub(crate) changing: Option<changing::Changing>,
-    /// The example as its text declared it, while the program is visited by other values.
-    pub(crate) own_values: Option<String>,
 }
 
 impl Home {

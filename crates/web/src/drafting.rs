@@ -183,6 +183,7 @@ impl Lab {
         let prompt = self.ask_of_shown(session::Session::prompt).flatten();
         self.show_prompt(prompt);
         self.drafting.turned.update(|n| *n += 1);
+        self.keep_place();
     }
 
     /// Shows something over the picture: what would be made, or what a step made.
@@ -449,33 +450,6 @@ impl Lab {
         });
     }
 
-    fn record(self, name: &str) {
-        self.flush_text();
-        self.draft_end();
-        self.fits.set_value(false);
-        if self.settle(self.tell(|session, id| session.record(id, name))) {
-            self.show_waiting();
-        }
-    }
-
-    fn stop_recording(self) {
-        self.draft_end();
-        let steps = self.ask_of_shown(|session, id| session.steps(id, None)).flatten();
-        match self.tell(session::Session::stop_recording) {
-            Some(Err(refusal)) => self.notice.set(Some(Notice::Refused(refusal))),
-            stopped => {
-                self.settle(stopped);
-                self.drafting.parameter.set(NewParameter::default());
-                // its steps stay in sight, and its values to be tried
-                self.select(steps.map(|steps| steps.example));
-                self.drafting.lit.set(None);
-                self.show_made(drawing::Drawing::default());
-            }
-        }
-        self.drafting.turned.update(|n| *n += 1);
-        keyboard::rest_at("[data-draft='more'], input[name='program']");
-    }
-
     /// Does something about a block that is demonstrated, and shows what is waited for then.
     fn about_block(
         self,
@@ -576,10 +550,12 @@ impl Lab {
 
     /// Begins to change a part of what a step says; records the program again where that has ended.
     fn change_operand(self, steps: &StepsView, (step, slot): (&str, &str)) {
+        let selected = self.selected.get_untracked();
         if !steps.is_recorded {
             self.record(&steps.program);
         }
-        self.ask_prompt(|session, id| session.begin_change(id, (step, slot)));
+        let selected = selected.as_deref();
+        self.ask_prompt(|session, id| session.begin_change(id, (step, slot), selected));
         let says = self.drafting.prompt.with_untracked(|p| match p.as_ref()?.wants.clone() {
             Wants::Change(says) if p.as_ref()?.is_value => Some(says),
             _ => None,

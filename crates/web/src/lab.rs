@@ -180,6 +180,8 @@ pub struct Lab {
     pub draft: RwSignal<Option<Offered>>,
     /// Whether the browser has refused to keep the latest draft.
     is_unkept: StoredValue<bool>,
+    /// Where something was recorded when the latest draft was kept.
+    kept_at: StoredValue<Option<String>>,
     /// What the server is still to keep.
     journal: StoredValue<Journal>,
     /// Whether the explanation panel is open.
@@ -369,6 +371,7 @@ impl Lab {
             conflict: RwSignal::new(None),
             draft: RwSignal::new(None),
             is_unkept: StoredValue::new(false),
+            kept_at: StoredValue::new(None),
             journal: StoredValue::default(),
             why: RwSignal::new(false),
             palette: RwSignal::new(false),

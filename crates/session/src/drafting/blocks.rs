@@ -157,16 +157,17 @@ pub(crate) fn begin(
     Ok(change)
 }
 
-/// Enters the loops and branches that are open in the text of what is recorded: a recording that was broken off goes on
-/// in them.
+/// Enters the loops and branches that are open in the text of what is recorded, from where it goes on now: a recording
+/// that was broken off goes on in them.
 pub(crate) fn resume(open: &mut Open) {
     let (state, since) = (open.state.clone(), open.done.len());
     let kept = choice::example_span(open, &state.text);
     let kept = kept.map(|span| own_values::before(&state.text, span.start)).unwrap_or_default();
-    let mut kept = kept.into_iter().map(|(_, own)| own);
+    let of_cases = |kept: &own_values::Kept| kept.meanwhile == own_values::Meanwhile::OtherCase;
+    let mut kept = kept.into_iter().filter(of_cases).map(|kept| kept.own);
     let Some(recording) = &mut open.recording else { return };
     let source = text::Source::now(&state);
-    let mut address = String::new();
+    let mut address = text::address_of(&Home::of(Some(recording)));
     while let Some(body) = text::block(&source, &recording.program, &address) {
         let steps = text::steps_of(&body);
         let home = Home::of(Some(recording));

@@ -24,6 +24,8 @@ use syntax::ast::Value;
 pub(crate) struct Changing {
     /// The step, by its address.
     step: String,
+    /// The turns of the loops around it in which it is looked at.
+    turns: Vec<u32>,
     /// What of it.
     slot: String,
     /// What it is now.
@@ -37,7 +39,7 @@ pub(crate) struct Changing {
 impl Changing {
     /// What is waited for.
     pub(crate) fn prompt(&self) -> Prompt {
-        let Self { step, slot, says, is_value, is_place } = self;
+        let Self { step, slot, says, is_value, is_place, .. } = self;
         let says = &steps::as_typed(says, "").unwrap_or_else(|| says.clone());
         let how = match (is_value, is_place) {
             (true, _) => "type another value, or measure one",
@@ -144,7 +146,11 @@ fn curve_of(state: &State, example: &Name, (address, turns): (&str, &[u32])) -> 
 ///
 /// # Errors
 /// Nothing is recorded, a block is demonstrated; the step says nothing of that name.
-pub(crate) fn begin(open: &mut Open, (address, slot): (&str, &str)) -> Result<(), Refusal> {
+pub(crate) fn begin(
+    open: &mut Open,
+    (address, slot): (&str, &str),
+    selected: Option<&str>,
+) -> Result<(), Refusal> {
     let recording = blocks::recorded(open)?;
     if recording.blocks.iter().any(|block| block.kind != blocks::Kind::Visited) {
         return Err(words::refuse(
@@ -152,7 +158,7 @@ pub(crate) fn begin(open: &mut Open, (address, slot): (&str, &str)) -> Result<()
         ));
     }
     let (program, example) = (recording.program.clone(), recording.example.clone());
-    let turns = visit::turns_in(&Home::of(Some(recording)), address);
+    let turns = visit::turns_looked_at(&Home::of(Some(recording)), (&example, address), selected);
     let state = open.state.clone();
     let none = || words::refuse(format!("{} has no {slot}", text::told(address)));
     let source = text::Source::now(&state);
@@ -165,7 +171,8 @@ pub(crate) fn begin(open: &mut Open, (address, slot): (&str, &str)) -> Result<()
     if let Some(recording) = &mut open.recording {
         recording.removing = None;
         let (step, slot) = (address.to_string(), slot.to_string());
-        recording.changing = Some(Changing { step, slot, says: found.first, is_value, is_place });
+        let says = found.first;
+        recording.changing = Some(Changing { step, turns, slot, says, is_value, is_place });
     }
     Ok(())
 }
@@ -173,11 +180,10 @@ pub(crate) fn begin(open: &mut Open, (address, slot): (&str, &str)) -> Result<()
 /// Where the step that is changed reads its names.
 pub(crate) fn home(open: &Open) -> Option<Home> {
     let recording = open.recording.as_ref()?;
-    let Changing { step, slot, .. } = recording.changing.as_ref()?;
+    let Changing { step, turns, slot, .. } = recording.changing.as_ref()?;
     let source = text::Source::now(&open.state);
     let (_, is_within) = find(&source, &recording.program, (step, slot))?;
-    let turns = visit::turns_in(&Home::of(Some(recording)), step);
-    home_of(&source, (&recording.program, &recording.example), (step, &turns), is_within)
+    home_of(&source, (&recording.program, &recording.example), (step, turns), is_within)
 }
 
 /// Gives what is changed another object or value: as it is typed, or as a pointer finds it.

@@ -8,8 +8,9 @@
 
 use super::blocks::{self, Block, Kind};
 use super::outcome::{self, Worth};
+use super::own_values::{self, Meanwhile};
 use super::view::{OpenKind, Prompt, Wants};
-use super::{Around, Home, own_values, recording, text};
+use super::{Around, Home, recording, text};
 use crate::document::Open;
 use crate::host::Host;
 use crate::state::State;
@@ -278,7 +279,7 @@ pub(crate) fn second(open: &mut Open, host: &dyn Host, is_same: bool) -> Result<
         && let Some(own) = &choice.example
         && let Some(now) = example_span(open, &edited)
     {
-        edited = own_values::with(&edited, now.start, own);
+        edited = own_values::with(&edited, now.start, (Meanwhile::OtherCase, own));
     }
     let change = match edited == open.state.text {
         true => Change::default(),
@@ -329,7 +330,7 @@ pub(crate) fn end(open: &mut Open, host: &dyn Host) -> Result<Change, Refusal> {
     edited = without_empty(&text::Source::of(edited), &program, (&address, &choice.condition))?;
     let mut own = choice.example;
     if is_turned_twice && let Some(now) = example_span(open, &edited) {
-        let (without, kept) = own_values::taken(&edited, now.start);
+        let (without, kept) = own_values::taken(&edited, now.start, Meanwhile::OtherCase);
         (edited, own) = (without, own.or(kept));
     }
     if let Some(own) = own

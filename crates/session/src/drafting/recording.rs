@@ -277,7 +277,6 @@ pub(crate) fn begin(open: &mut Open, host: &dyn Host, name: &str) -> Result<Chan
         returns: None,
         removing: None,
         changing: None,
-        own_values: None,
     });
     open.dialogue = None;
     blocks::resume(open);

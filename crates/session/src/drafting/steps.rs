@@ -28,7 +28,8 @@ pub(crate) fn view(open: &Open, home: &Home, thing: Option<&str>) -> Option<Step
     if let Home::Program { way, .. } = &mut around {
         way.truncate(visited.count());
     }
-    let rows = found.rows(&open.state, &around, &evaluator);
+    let selected = thing.and_then(|thing| thing.strip_prefix(&found.example)?.strip_prefix('.'));
+    let rows = found.rows(&open.state, (&around, selected), &evaluator);
     let selected = thing.and_then(|thing| row_of(&rows, &found.path, thing));
     Some(StepsView { rows, selected, ..found.head(open, home, &evaluator) })
 }
@@ -89,14 +90,20 @@ impl<'s> Found<'s> {
         Some(Self { program, name, example, path, written })
     }
 
-    fn rows<'a>(&self, state: &'a State, home: &Home, evaluator: &Evaluator<'a>) -> Vec<StepRow> {
+    fn rows<'a>(
+        &self,
+        state: &'a State,
+        (home, selected): (&Home, Option<&str>),
+        evaluator: &Evaluator<'a>,
+    ) -> Vec<StepRow> {
         let Some((source, body, _)) = &self.written else { return Vec::new() };
         let (program, example) = (self.name.clone(), self.example.as_str().into());
         let drawn = Drawn { source, program, example };
         let thing = state.structure.follow(DOCUMENT, &self.path).ok();
         let run = thing.and_then(|thing| evaluator.run(thing).ok()?);
         let ended = run.and_then(|run| run.ended.clone());
-        let mut rows = Rows { state, evaluator, drawn, home, ended, rows: Vec::new() };
+        let looked_at = (home, selected);
+        let mut rows = Rows { state, evaluator, drawn, looked_at, ended, rows: Vec::new() };
         rows.block(&text::steps_of(body), ("", true), (&self.path, &[]), 0);
         rows.rows
     }
@@ -142,10 +149,10 @@ impl<'s> Found<'s> {
                 let before = recording.before.clone().unwrap_or_default();
                 text::joined(&text::address_of(home), &before)
             }),
-            by_others: recording.is_some_and(|recording| {
-                let own = recording.own_values.as_ref();
-                own.is_some_and(|own| super::choice::example_text(open).as_ref() != Some(own))
-            }),
+            by_others: recording.is_some() && {
+                let own = visit::own_values(open, &state.text);
+                own.is_some() && own != super::choice::example_text(open)
+            },
             example: self.example.clone(),
         }
     }
@@ -213,8 +220,8 @@ struct Rows<'e, 'a> {
     state: &'a State,
     evaluator: &'e Evaluator<'a>,
     drawn: Drawn<'e>,
-    /// Where the program is visited, if it is.
-    home: &'e Home,
+    /// Where the program is visited, if it is, and the path to what is selected of what it made.
+    looked_at: (&'e Home, Option<&'e str>),
     /// Where and why the drawing of the example ended early, if it did.
     ended: Option<eval::Ended>,
     rows: Vec<StepRow>,
@@ -230,8 +237,15 @@ impl<'a> Rows<'_, 'a> {
             .then(|| ended.to_string())
     }
 
+    /// The turn that is looked at of a loop with so many loops around it, by its address.
+    fn turn_of(&self, (address, around): (&str, usize)) -> Option<u32> {
+        let (home, selected) = self.looked_at;
+        let made = || visit::turns_on_the_way(selected?, address).get(around).copied();
+        visit::turn_of(home, address).or_else(made)
+    }
+
     /// Lists the steps of a block: its address, and whether it is come to. `made` leads to what it made in the example,
-    /// in such turns of the loops around it: those that are visited, else the first.
+    /// in such turns of the loops around it: those that are visited, else those that made what is selected, else the first.
     fn block(
         &mut self,
         steps: &[StepNode],
@@ -249,7 +263,7 @@ impl<'a> Rows<'_, 'a> {
             let is_made = is_come_to && step.name.is_some();
             let answer = is_made.then(|| self.evaluator.at(&made).ok()).flatten();
             let is_failed = step.name.is_some() && answer.is_none();
-            let visited = visit::turn_of(self.home, &address);
+            let turn = self.turn_of((&address, turns.len()));
             let formula = self.formula(step);
             self.rows.push(StepRow {
                 path: address.clone(),
@@ -264,7 +278,7 @@ impl<'a> Rows<'_, 'a> {
                 doubt: answer.as_ref().and_then(|answer| {
                     doubts::of(&self.state.lowered.document, self.evaluator, answer)
                 }),
-                value: answer.map(|answer| match (&answer, visited) {
+                value: answer.map(|answer| match (&answer, turn) {
                     (Answer::List(turns), Some(turn)) => turn_in_words(turn, turns.len()),
                     // an empty list does not tell what it is of
                     (Answer::List(items), None)
@@ -281,7 +295,7 @@ impl<'a> Rows<'_, 'a> {
             });
             let Some(value) = &step.value else { continue };
             let is_loop = matches!(value, Value::Repeat(_) | Value::While(_) | Value::For(_));
-            let turn = is_loop.then(|| visited.unwrap_or(0));
+            let turn = is_loop.then(|| turn.unwrap_or(0));
             let made = turn.map_or(made.clone(), |turn| made.then(kernel::Step::Index(turn)));
             let turns: Vec<u32> = turns.iter().copied().chain(turn).collect();
             for (segment, steps) in text::inner_steps(value) {

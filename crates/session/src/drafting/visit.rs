@@ -4,11 +4,13 @@
 //! drawn there is inserted before that step.
 
 use super::blocks::{self, Block, Kind};
+use super::own_values::{self, Meanwhile};
 use super::view::Go;
-use super::{Around, Home, scene, steps, text};
+use super::{Around, Home, Recording, recording, scene, steps, text};
 use crate::document::Open;
+use crate::host::Host;
 use crate::state::State;
-use crate::view::{Pointer, Refusal};
+use crate::view::{Change, Pointer, Refusal};
 use crate::words;
 use base::Name;
 use eval::{Answer, Evaluator, Standing};
@@ -160,6 +162,58 @@ pub(crate) fn go(open: &mut Open, go: &Go) -> Result<(), Refusal> {
     Ok(())
 }
 
+/// Says where recording goes on, so that [`return_to`] finds it in the same text: the program, the turns of the loops
+/// around, and the address of the step that comes next; at the end of a block the address of the block, with a dot.
+pub(crate) fn left_at(open: &Open) -> Option<String> {
+    let recording = open.recording.as_ref()?;
+    let visited = recording.blocks.iter().take_while(|block| block.kind == Kind::Visited);
+    let way: Vec<&Around> = visited.map(|block| &block.around).collect();
+    let before = match recording.blocks.get(way.len()) {
+        // what is demonstrated there is found by what is open in the text
+        Some(demonstrated) => demonstrated.before.as_deref(),
+        None => recording.before.as_deref(),
+    };
+    let turns: Vec<String> = way.iter().filter_map(|a| Some(a.turn?.to_string())).collect();
+    let block = way.iter().fold(String::new(), |at, around| text::joined(&at, &around.address));
+    let end = if block.is_empty() { "" } else { "." };
+    let at = before.map_or_else(|| format!("{block}{end}"), |before| text::joined(&block, before));
+    Some(format!("{} [{}] {at}", recording.program, turns.join(" ")))
+}
+
+/// Goes on recording where [`left_at`] says that it was left; at the program's end where there is no such place.
+///
+/// # Errors
+/// There is no such program.
+pub(crate) fn return_to(open: &mut Open, host: &dyn Host, left: &str) -> Result<Change, Refusal> {
+    let (program, rest) = left.split_once(" [").unwrap_or((left, ""));
+    let (turns, at) = rest.split_once("] ").unwrap_or_default();
+    let source = text::Source::now(&open.state);
+    if text::program(&source, program).is_none() {
+        return Err(words::refuse(format!("there is no program {program}")));
+    }
+    let change = recording::begin(open, host, program)?;
+    let Some(Recording { program, example, blocks, .. }) = &open.recording else {
+        return Ok(change);
+    };
+    // what is demonstrated at the end of the program was found already
+    if !blocks.is_empty() || at.is_empty() {
+        return Ok(change);
+    }
+    let source = text::Source::now(&open.state);
+    let turns: Vec<u32> = turns.split(' ').filter_map(|turn| turn.parse().ok()).collect();
+    let (block, is_end) = at.strip_suffix('.').map_or((at, false), |block| (block, true));
+    let first = text::block(&source, program, block).map(|body| text::steps_of(&body));
+    let first = first.and_then(|steps| Some(text::joined(block, &steps.first()?.segment)));
+    let address = if is_end { first } else { Some(at.into()) };
+    let home = address.and_then(|at| home_of(&source, (program, example), &at, &turns));
+    let Some(Home::Program { program, example, way, before }) = home else { return Ok(change) };
+    let before = before.filter(|_| !is_end);
+    enter(open, Home::Program { program, example, way, before });
+    blocks::resume(open);
+    blocks::settle(open);
+    Ok(change)
+}
+
 /// Makes a home that which is visited.
 pub(crate) fn enter(open: &mut Open, to: Home) {
     let Home::Program { way, before, .. } = to else { return };
@@ -294,19 +348,46 @@ pub(crate) fn turns_on_the_way(path: &str, address: &str) -> Vec<u32> {
     path.split('.').zip(names).map_while(index).flatten().collect()
 }
 
+/// The turns in which a step of a thing's program is looked at, of the loops around it, with its own where it is a loop:
+/// those that are visited, else those that `selected` is made in, a path.
+pub(crate) fn turns_looked_at(
+    home: &Home,
+    (example, step): (&str, &str),
+    selected: Option<&str>,
+) -> Vec<u32> {
+    let is_visited = matches!(home, Home::Program { example: own, .. } if *own == *example);
+    let visited = if is_visited { turns_in(home, step) } else { Vec::new() };
+    let made =
+        |path: &str| Some(turns_on_the_way(path.strip_prefix(example)?.strip_prefix('.')?, step));
+    match visited.is_empty() {
+        true => selected.and_then(made).unwrap_or_default(),
+        false => visited,
+    }
+}
+
 /// Keeps what the example was of its own in the state before, where the program is visited and the example has got other
-/// values, by whatever hand.
-pub(crate) fn keep_own(open: &mut Open, before: &State) {
-    let is_asked = open.recording.as_ref().is_some_and(|r| r.own_values.is_none());
-    if !is_asked || !is_inside(open) {
+/// values, by whatever hand: in the text, so that it outlives the page. It is no step of its own.
+pub(crate) fn keep_own(open: &mut Open, host: &dyn Host, before: &State) {
+    let now = &open.state.text;
+    if !is_inside(open) || own_values(open, now).is_some() {
         return;
     }
-    let of =
-        |text: &str| super::choice::example_span(open, text).map(|span| text[span].to_string());
-    let (own, now) = (of(&before.text), of(&open.state.text));
-    if let Some(recording) = open.recording.as_mut().filter(|_| own != now) {
-        recording.own_values = own;
+    let of = |text: &str| super::choice::example_span(open, text);
+    let (Some(was), Some(is)) = (of(&before.text), of(now)) else { return };
+    let own = &before.text[was];
+    if *own != now[is.clone()] {
+        let kept = own_values::with(now, is.start, (Meanwhile::Visit, own));
+        open.read(kept, host);
     }
+}
+
+/// What a text keeps of the example's own, while it is visited by other values.
+pub(crate) fn own_values(open: &Open, text: &str) -> Option<String> {
+    if !own_values::is_kept(text, Meanwhile::Visit) {
+        return None;
+    }
+    let declared = super::choice::example_span(open, text)?;
+    own_values::taken(text, declared.start, Meanwhile::Visit).1
 }
 
 /// Whether something is visited: what is drawn does not go to the end of the program.

@@ -1,6 +1,7 @@
 //! Programs at the boundary: visited, and their steps told, replaced and deleted.
 
 use super::hands::{home, prompt, replaced, turn_of};
+use super::own_values::{self, Meanwhile};
 use super::view::{Go, Prompt, StepOperand, StepsView, Turn};
 use super::{
     Home, blocks, changing, choice, patterns, recording, remove, scene, steps, text, visit,
@@ -51,19 +52,39 @@ impl Session {
     /// Nothing is recorded.
     pub fn own_values(&mut self, id: DocumentId) -> Result<Change, Refusal> {
         let (open, beside) = self.beside_others(id);
-        let Some(own) = blocks::recorded(open)?.own_values.take() else {
+        blocks::recorded(open)?;
+        let kept = |text: &str| {
+            let declared = choice::example_span(open, text)?;
+            let (edited, own) = own_values::taken(text, declared.start, Meanwhile::Visit);
+            let now = choice::example_span(open, &edited)?;
+            own.map(|own| (edited, now, own))
+        };
+        let Some((mut edited, now, own)) = kept(&open.state.text) else {
             return Ok(Change::default());
         };
-        let Some(now) = choice::example_span(open, &open.state.text) else {
-            return Ok(Change::default());
-        };
-        let mut edited = open.state.text.clone();
         edited.replace_range(now, &own);
         if edited == open.state.text {
             return Ok(Change::default());
         }
         let change = recording::retext(open, &beside, edited, "own values".into())?;
         blocks::settle(open);
+        Ok(*self.with_reach(id, change))
+    }
+
+    /// Says where recording goes on, for [`Session::return_to`] with the same text: after the page has gone.
+    pub fn left_at(&self, id: DocumentId) -> Option<String> {
+        visit::left_at(self.document(id))
+    }
+
+    /// Goes on recording where [`Session::left_at`] said that it was left; at the program's end where the text has no such
+    /// place. What is demonstrated goes on from what is open in the text.
+    ///
+    /// # Errors
+    /// There is no such program.
+    pub fn return_to(&mut self, id: DocumentId, left: &str) -> Result<Change, Refusal> {
+        let (open, beside) = self.beside_others(id);
+        super::hands::not_in_a_pane(open)?;
+        let change = visit::return_to(open, &beside, left)?;
         Ok(*self.with_reach(id, change))
     }
 
@@ -79,15 +100,7 @@ impl Session {
         let open = self.document(id);
         let state = &open.state;
         let Some(program) = steps::program_of(state, example) else { return Vec::new() };
-        let home = home(open);
-        let is_visited = matches!(&home, Home::Program { example: own, .. } if *own == *example);
-        let mut turns = if is_visited { visit::turns_in(&home, step) } else { Vec::new() };
-        if turns.is_empty()
-            && let Some((_, made)) =
-                selected.and_then(|path| path.split_once('.')).filter(|(of, _)| *of == example)
-        {
-            turns = visit::turns_on_the_way(made, step);
-        }
+        let turns = visit::turns_looked_at(&home(open), (example, step), selected);
         changing::list(state, (&program, &example.into()), (step, &turns))
     }
 
@@ -100,7 +113,8 @@ impl Session {
         Some((example.into(), step))
     }
 
-    /// Begins to change a part of what a step says: another object or value is waited for.
+    /// Begins to change a part of what a step says: another object or value is waited for, in such turns of loops as
+    /// [`Session::step_operands`] tells of.
     ///
     /// # Errors
     /// Nothing is recorded, a block is demonstrated; the step says nothing of that name.
@@ -108,9 +122,10 @@ impl Session {
         &mut self,
         id: DocumentId,
         (step, slot): (&str, &str),
+        selected: Option<&str>,
     ) -> Result<Option<Prompt>, Refusal> {
         let open = self.document_mut(id);
-        changing::begin(open, (step, slot))?;
+        changing::begin(open, (step, slot), selected)?;
         open.picking = super::Picking::default();
         Ok(prompt(open))
     }

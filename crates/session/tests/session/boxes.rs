@@ -378,7 +378,7 @@ fn each_place_of_a_spline_is_asked_about_and_changed_by_itself() {
     let mut desk = wave();
     let rows = desk.session.steps(desk.id, None).expect("it is recorded").rows;
     assert_eq!(rows[0].words, "spline: (0, 0), (20, 15), (width, 0)");
-    desk.session.begin_change(desk.id, ("spline", "second")).expect("it has three");
+    desk.session.begin_change(desk.id, ("spline", "second"), None).expect("it has three");
     enter(&mut desk, "@5,-20");
     assert_eq!(value(&desk, "wave.spline.places[1]"), "(25, -5)");
     // it is found by its curve, which is near its middle where its places are not
@@ -483,9 +483,9 @@ fn a_curve_by_poles_is_drawn_with_its_weights() {
     enter(&mut desk, "nurbs.at(parameter: 0.5)");
     assert_eq!(value(&desk, "bow.point"), "(6.6667, 6.6667)");
     // each pole and the weights are changed by themselves
-    desk.session.begin_change(desk.id, ("nurbs", "weights")).expect("it has some");
+    desk.session.begin_change(desk.id, ("nurbs", "weights"), None).expect("it has some");
     enter(&mut desk, "1, 3 * pull, 1");
-    desk.session.begin_change(desk.id, ("nurbs", "second")).expect("it has three");
+    desk.session.begin_change(desk.id, ("nurbs", "second"), None).expect("it has three");
     enter(&mut desk, "20,20");
     assert!(
         desk.text()

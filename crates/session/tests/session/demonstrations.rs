@@ -7,14 +7,14 @@ use session::view::Pointer;
 
 /// An operand: typed, or picked.
 #[derive(Clone, Copy)]
-enum By<'t> {
+pub(crate) enum By<'t> {
     Typed(&'t str),
     At(f64, f64),
 }
 use By::{At, Typed};
 
 /// Draws by a construction.
-fn draw(desk: &mut Desk, tool: &str, operands: &[By<'_>]) -> String {
+pub(crate) fn draw(desk: &mut Desk, tool: &str, operands: &[By<'_>]) -> String {
     drawn(desk, (tool, false), operands)
 }
 
@@ -484,7 +484,7 @@ p: P
 fn a_step_cannot_speak_of_itself() {
     let mut desk = Desk::recording("Mark", &[]);
     draw(&mut desk, "Circle", &[Typed("0, 0"), Typed("3")]);
-    desk.session.begin_change(desk.id, ("circle", "center")).expect("it has a centre");
+    desk.session.begin_change(desk.id, ("circle", "center"), None).expect("it has a centre");
     let pointer = Pointer { at: (3.0, 0.0), reach: 0.4, ..Pointer::default() };
     let refused = desk.session.point(desk.id, &pointer).expect_err("it is the circle's own");
     assert_eq!(
@@ -756,7 +756,7 @@ fn gone_on(desk: &Desk) -> Desk {
     again
 }
 
-fn open_in(desk: &Desk) -> Vec<String> {
+pub(crate) fn open_in(desk: &Desk) -> Vec<String> {
     let open = desk.session.steps(desk.id, None).expect("it is recorded").open;
     open.into_iter().map(|block| block.words).collect()
 }
@@ -894,7 +894,7 @@ fn undo_of_the_other_branch_leads_back_into_the_first() {
 }
 
 /// Rows of holes, each row begun by the hole to which the turn behind it goes on.
-fn sheet() -> Desk {
+pub(crate) fn sheet() -> Desk {
     let mut desk = Desk::of(
         "use geometry
 program Sheet(pitch: Length = 10) {

@@ -258,7 +258,7 @@ fn a_step_is_moved_to_another_place_that_is_picked_or_typed() {
     enter(&mut desk, "100,5");
     made(enter(&mut desk, "3"));
     let change = |desk: &mut Desk| {
-        desk.session.begin_change(desk.id, ("circle", "center")).expect("it has a centre");
+        desk.session.begin_change(desk.id, ("circle", "center"), None).expect("it has a centre");
     };
     change(&mut desk);
     point(&mut desk, 40.0, 50.0);

@@ -382,26 +382,26 @@ fn answers_and_conditions_of_a_loop_are_opened_again() {
     assert_eq!(slots, wanted);
     assert_eq!(desk.session.comes_to(desk.id, "rings.turns").as_deref(), Some("6 turns"));
     desk.session.record(desk.id, "Rings").expect("it is recorded again");
-    let prompt = desk.session.begin_change(desk.id, ("turns", "until")).expect("it is one");
+    let prompt = desk.session.begin_change(desk.id, ("turns", "until"), None).expect("it is one");
     assert!(prompt.is_some_and(|p| p.is_value && p.wants == Wants::Change("ring.radius < minimum".into())));
     let refused = desk.session.enter(desk.id, "ring.radius <").expect_err("it is no condition");
     assert!(!refused.message.is_empty());
     desk.session.enter(desk.id, "ring.radius < 2 * minimum").expect("it is one");
     assert_eq!(desk.session.comes_to(desk.id, "rings.turns").as_deref(), Some("5 turns"));
     // a recurrence answer is picked on the drawing: from the hole of the turn before
-    desk.session.begin_change(desk.id, ("turns", "next size")).expect("it is one");
+    desk.session.begin_change(desk.id, ("turns", "next size"), None).expect("it is one");
     desk.session.enter(desk.id, "hole.radius / 2").expect("it is a number");
     assert!(desk.text().contains("size = hole.radius / 2"), "{}", desk.text());
     desk.undo();
     desk.undo();
     assert_eq!(desk.text(), RINGS);
     // an object with which a turn has no outcome is refused, another one taken
-    desk.session.begin_change(desk.id, ("turns.ring", "second")).expect("it is one");
+    desk.session.begin_change(desk.id, ("turns.ring", "second"), None).expect("it is one");
     let at = |x, y| Pointer { at: (x, y), reach: 2.0, ..Pointer::default() };
     let refused = desk.session.point(desk.id, &at(30.0, 0.0)).expect_err("both are the floor");
     assert!(refused.message.contains("the lines are parallel"), "{}", refused.message);
     assert_eq!(desk.text(), RINGS);
-    desk.session.begin_change(desk.id, ("turns.dot", "with")).expect("it is one");
+    desk.session.begin_change(desk.id, ("turns.dot", "with"), None).expect("it is one");
     let turn = desk.session.point(desk.id, &at(-60.0, 40.0)).expect("the hole lies there");
     assert!(matches!(turn, Turn::Made { .. }), "{turn:?}");
     assert!(desk.text().contains("Circle.concentric(with: hole, radius: 1)"), "{}", desk.text());

@@ -23,6 +23,7 @@ mod following;
 mod ghosts;
 mod instances;
 mod kinds;
+mod leaving;
 mod lessons;
 mod limits;
 mod mentioning;

@@ -1,6 +1,8 @@
 //! The steps of a program as the page lists them.
 
 use crate::desk::Desk;
+use session::drafting::view::Go;
+use session::view::Pointer;
 
 #[test]
 fn the_step_that_drew_what_is_selected_is_told() {
@@ -64,7 +66,7 @@ fn an_undo_leaves_the_question_that_a_deletion_asked() {
     desk.redo();
     assert_eq!((desk.text(), desk.session.prompt(desk.id)), (text, None));
     // what of a step is changed, too
-    desk.session.begin_change(desk.id, ("circle2", "radius")).expect("it has one");
+    desk.session.begin_change(desk.id, ("circle2", "radius"), None).expect("it has one");
     desk.undo();
     assert_eq!(desk.session.prompt(desk.id), None);
 }
@@ -79,4 +81,61 @@ fn a_pattern_of_one_has_no_further_figures() {
     assert_eq!(says(&desk).as_deref(), Some("3 figures"));
     desk.type_in("ring.count", "1").expect("one hole");
     assert_eq!(says(&desk).as_deref(), Some("0 figures"));
+}
+
+#[test]
+fn the_steps_and_what_they_say_are_those_of_the_turn_that_made_what_is_selected() {
+    let mut desk = Desk::of(
+        "use geometry
+program Rings(radius: Length = 40) {
+    wall = Axis.vertical(x: 0)
+    turns = repeat 3 times with under = Axis.horizontal(y: 0), size = radius {
+        ring = Circle.tangent(under, wall, radius: size)
+        dots = repeat 2 times with r = size {
+            dot = Circle.concentric(with: ring, radius: r / 4)
+            next r = r / 2
+        }
+        next under = -ring, size = ring.radius / 2
+    }
+}
+rings: Rings
+",
+    );
+    assert_eq!(desk.wrong(), []);
+    let told = |desk: &Desk, selected: &str| {
+        let steps = desk.session.steps(desk.id, Some(selected)).expect("a program draws it");
+        let of = |name: &str| {
+            let row = steps.rows.iter().find(|row| row.name == name);
+            row.and_then(|row| row.value.clone()).unwrap_or_default()
+        };
+        [of("turns"), of("dots"), of("dot")]
+    };
+    let radius = |desk: &Desk, step: &str, selected: &str| {
+        let all = desk.session.step_operands(desk.id, ("rings", step), Some(selected));
+        all.into_iter().find(|o| o.slot == "radius").and_then(|o| o.value).expect("a number")
+    };
+    let first = told(&desk, "rings");
+    assert_eq!(first[..2], ["3 turns", "2 turns"]);
+    assert!(first[2].contains("radius 10"), "{first:?}");
+    let dot = "rings.turns[2].dots[1].dot";
+    let third = told(&desk, dot);
+    assert_eq!(third[..2], ["turn 3 of 3", "turn 2 of 2"]);
+    assert!(third[2].contains("radius 1.25"), "{third:?}");
+    assert_eq!(told(&desk, "rings.turns[1].ring")[..2], ["turn 2 of 3", "2 turns"]);
+    assert_eq!(radius(&desk, "turns.dots.dot", dot), "1.25");
+    // what is picked for one of them is of that turn
+    desk.session.record(desk.id, "Rings").expect("it is recorded");
+    for (selected, is_there) in [("rings.turns[0].ring", false), (dot, true)] {
+        let step = ("turns.dots.dot", "with");
+        desk.session.begin_change(desk.id, step, Some(selected)).expect("it is one");
+        // the top of the third ring
+        let top = Pointer { at: (-10.0, 134.85), reach: 0.5, ..Pointer::default() };
+        let turn = desk.session.point(desk.id, &top);
+        assert_eq!(turn.is_ok(), is_there, "{selected}: {turn:?}");
+        desk.session.give_up(desk.id);
+    }
+    // what is visited comes before what is selected
+    desk.session.visit(desk.id, &Go::UntilDrawn("turns[1].dots[0].dot".into())).expect("drawn");
+    assert_eq!(told(&desk, dot)[..2], ["turn 2 of 3", "turn 1 of 2"]);
+    assert_eq!(radius(&desk, "turns.dots.dot", dot), "5");
 }

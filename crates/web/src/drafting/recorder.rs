@@ -1,11 +1,11 @@
 //! Begins and ends recording, defines parameters, and demonstrates blocks.
 
 use super::parameter;
-use crate::keyboard::focus;
-use crate::lab::Lab;
+use crate::keyboard::{self, focus};
+use crate::lab::{Drawer, Lab, Notice};
 use crate::words;
 use leptos::prelude::*;
-use session::drafting::view::{Ends, OpenBlock, OpenKind, StepsView};
+use session::drafting::view::{Ends, NewParameter, OpenBlock, OpenKind, StepsView};
 
 /// Recording, from its name to its end.
 #[component]
@@ -105,5 +105,46 @@ fn Blocks(lab: Lab, open: Vec<OpenBlock>) -> impl IntoView {
         {lines.collect_view()}
         {set}
         <div class="line blocks">{ends}{begins}</div>
+    }
+}
+
+impl Lab {
+    pub(super) fn record(self, name: &str) {
+        self.flush_text();
+        self.draft_end();
+        self.fits.set_value(false);
+        if self.settle(self.tell(|session, id| session.record(id, name))) {
+            self.show_waiting();
+        }
+    }
+
+    /// Goes on recording where that was left, once its text is there again.
+    pub fn return_to(self, left: &str) {
+        let done = self.tell(|session, id| session.return_to(id, left));
+        // in a text that was changed meanwhile there may be no such program: nothing is recorded then
+        if let Some(Ok(_)) = &done {
+            self.settle(done);
+            self.open_drawer(Drawer::Draw);
+            self.show_waiting();
+        }
+    }
+
+    fn stop_recording(self) {
+        self.draft_end();
+        let steps = self.ask_of_shown(|session, id| session.steps(id, None)).flatten();
+        match self.tell(session::Session::stop_recording) {
+            Some(Err(refusal)) => self.notice.set(Some(Notice::Refused(refusal))),
+            stopped => {
+                self.settle(stopped);
+                self.drafting.parameter.set(NewParameter::default());
+                // its steps stay in sight, and its values to be tried
+                self.select(steps.map(|steps| steps.example));
+                self.drafting.lit.set(None);
+                self.show_made(drawing::Drawing::default());
+            }
+        }
+        self.drafting.turned.update(|n| *n += 1);
+        self.keep_place();
+        keyboard::rest_at("[data-draft='more'], input[name='program']");
     }
 }

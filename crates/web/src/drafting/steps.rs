@@ -336,8 +336,11 @@ fn Operands(lab: Lab, steps: StepsView, row: StepRow) -> impl IntoView {
         lab.values.track();
         // another turn may be visited
         lab.drafting.turned.track();
+        // what is selected is of a turn, too
+        let selected = lab.selected.get();
+        let selected = selected.as_deref();
         let ask = |(steps, step): &(StepsView, String)| {
-            lab.ask_of_shown(|s, id| s.step_operands(id, (&steps.example, step), None))
+            lab.ask_of_shown(|s, id| s.step_operands(id, (&steps.example, step), selected))
         };
         own.with_value(ask).unwrap_or_default()
     });

@@ -1,6 +1,8 @@
 //! Drafts: unsaved texts, kept in the browser outside the bundle's memory and by the server on disk, for when the page
 //! or the whole browser goes without warning.
 //!
+//! A draft says where a program was recorded, too: brought back, the recording goes on there.
+//!
 //! Each tab keeps drafts of its own: two that show one document do not write over each other. Those of tabs that have
 //! gone are offered, one after the other, until somebody has decided about each. A draft remembers which state of the
 //! file it began from: brought back over a file that has changed since, it is not saved over that unasked.
@@ -10,7 +12,7 @@ use crate::{js, server, theme, words};
 use js_sys::Array;
 use leptos::prelude::*;
 use presentation::drafts::{Draft, Journal, place, place_of};
-use session::Command;
+use session::{Command, Session};
 
 /// A draft that is offered, and where it is kept.
 #[derive(Clone, PartialEq, Debug)]
@@ -90,16 +92,28 @@ impl Lab {
     pub(super) fn keep_draft(self, text: &str) {
         let Some(path) = self.current.get_untracked() else { return };
         let place = own_place(&path);
+        let left = self.ask_of_shown(Session::left_at).flatten();
+        self.kept_at.set_value(left.clone());
         let draft = self.document.with_untracked(|document| {
             let document = document.as_ref().filter(|document| document.saved != text)?;
             let (version, text) = (document.version.clone(), String::from(text));
-            Some(Draft { version, kept: js_sys::Date::now(), text }.written())
+            Some(Draft { version, kept: js_sys::Date::now(), left, text }.written())
         });
         let is_kept = self.put_draft(&place, draft.as_deref());
         if draft.is_some() && !is_kept && !self.is_unkept.get_value() {
             self.notice.set(Some(Notice::Said(String::from(words::DRAFT_NOT_KEPT))));
         }
         self.is_unkept.set_value(draft.is_some() && !is_kept);
+    }
+
+    /// Keeps the draft with where something is recorded, where that is elsewhere than before.
+    pub fn keep_place(self) {
+        let left = self.ask_of_shown(Session::left_at).flatten();
+        if self.kept_at.with_value(|kept| *kept != left)
+            && let Some(text) = self.ask_of_shown(|session, id| session.text(id).source)
+        {
+            self.keep_draft(&text);
+        }
     }
 
     /// Forgets what this tab keeps of a document that stands under another name now.
@@ -162,6 +176,9 @@ impl Lab {
             self.update_document(|document| document.version = draft.version);
             // from now on this tab keeps it
             self.apply(&Command::Text(draft.text));
+            if let Some(left) = draft.left {
+                self.return_to(&left);
+            }
         }
         // where there is no room for both, the older one stays until this one is saved
         if !restore || !self.is_unkept.get_value() {
