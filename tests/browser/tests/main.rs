@@ -4,6 +4,8 @@
 #[path = "."]
 mod in_the_browser {
     mod access;
+    mod broken_off;
+    mod by_keys;
     mod drafting;
     mod editing;
     mod hand;

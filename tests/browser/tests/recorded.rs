@@ -7,7 +7,7 @@ use browser::drafting::{
 use browser::hands::{self, key, state, text_of};
 
 /// Begins a program with its parameters, each with its example.
-async fn record(visit: &Visit, program: &str, parameters: &[(&str, &str)]) {
+pub(crate) async fn record(visit: &Visit, program: &str, parameters: &[(&str, &str)]) {
     press(visit, "#tab-draw").await;
     visit.actions.set(0);
     fill(visit, "input[name='program']", program).await;
@@ -461,98 +461,6 @@ async fn a_flange_counts_its_holes_by_a_plain_number_and_is_applied_by_its_quest
     visit.picture("flange").await;
 }
 
-/// Presses keys, and says that the keyboard is somewhere then.
-async fn keys(visit: &Visit, all: &str) {
-    hands::keys(visit, all).await;
-    tokio::time::sleep(std::time::Duration::from_millis(120)).await;
-    let held = visit.script("return document.activeElement.tagName").await;
-    assert_ne!(held, "BODY", "nobody has the keyboard after {all:?}");
-}
-
-/// Begins a construction by what narrows them.
-async fn sought(visit: &Visit, words: &str) {
-    hands::chord(visit, &[key::ALT], '7').await;
-    visit.until("document.activeElement.name === 'construction'").await;
-    keys(visit, words).await;
-    visit.until("document.querySelector('.constructions .best')").await;
-    keys(visit, &key::ENTER.to_string()).await;
-}
-
-/// Begins to record by the keyboard.
-async fn recorded_by_keys(program: &str, parameters: &[(&str, &str)]) -> Visit {
-    let visit = hands::begin().await;
-    hands::chord(&visit, &[key::ALT], '7').await;
-    visit.until("document.activeElement.name === 'program'").await;
-    keys(&visit, &format!("{program}{}", key::ENTER)).await;
-    for (name, example) in parameters {
-        visit.until("document.activeElement.name === 'parameter'").await;
-        keys(&visit, &format!("{name}{}{example}{}", key::TAB, key::ENTER)).await;
-        visit.until(&format!("document.querySelector(\"[data-parameter='{name}']\")")).await;
-    }
-    visit
-}
-
-#[tokio::test]
-async fn a_washer_is_recorded_by_the_keyboard_alone() {
-    let visit = recorded_by_keys("Washer", &[("inner", "84"), ("outer", "160")]).await;
-    sought(&visit, "circle").await;
-    for typed in ["0,0", "inner / 2", "circle.center", "outer / 2"] {
-        visit.until("document.activeElement.name === 'operand'").await;
-        keys(&visit, &format!("{typed}{}", key::ENTER)).await;
-    }
-    has(&visit, "circle2 = Circle(center: circle.center, radius: outer / 2)").await;
-    keys(&visit, &key::ESCAPE.to_string()).await;
-    hands::press_by_keys(&visit, "at.dataset.draft === 'stop'", key::ENTER).await;
-    visit.until("document.querySelector(\"[data-draft='more']\")").await;
-    keys(&visit, &key::TAB.to_string()).await;
-}
-
-#[tokio::test]
-async fn figure_7_6_is_recorded_by_the_keyboard_alone() {
-    let visit = recorded_by_keys("Rings", &[("radius", "40"), ("minimum", "2")]).await;
-    let enter = key::ENTER;
-    for tool in ["horizontal line", "vertical line at"] {
-        sought(&visit, tool).await;
-        asked(&visit, "type a value").await;
-        keys(&visit, &format!("0{enter}{}", key::ESCAPE)).await;
-    }
-    hands::press_by_keys(&visit, "at.dataset.draft === 'repeat'", enter).await;
-    visit.until("document.querySelector(\"[data-draft='until']\")").await;
-    keys(&visit, &key::TAB.to_string()).await;
-    sought(&visit, "circle touches two curves radius").await;
-    for typed in ["axis", "axis2", "radius"] {
-        keys(&visit, &format!("{typed}{enter}")).await;
-    }
-    has(&visit, "circle = Circle.tangent(").await;
-    sought(&visit, "circle around another radius").await;
-    for typed in ["circle", "circle.radius / 2"] {
-        keys(&visit, &format!("{typed}{enter}")).await;
-    }
-    has(&visit, "circle2 = Circle.concentric(").await;
-    keys(&visit, &key::ESCAPE.to_string()).await;
-    hands::press_by_keys(&visit, "at.dataset.draft === 'until'", enter).await;
-    for (asks, answer) in
-        [("was axis:", "-circle"), ("was axis2", "axis2"), ("was radius", "circle.radius / 2")]
-    {
-        asked(&visit, asks).await;
-        keys(&visit, &format!("{answer}{enter}")).await;
-    }
-    asked(&visit, "after the last turn").await;
-    keys(&visit, &format!("circle.radius < minimum{enter}")).await;
-    let turns = "document.querySelector(\"[data-step='turns']\").innerText";
-    visit.until(&format!("{turns}.includes('6 turns')")).await;
-    // it is visited until something is drawn that the arrow keys go to
-    hands::press_by_keys(&visit, "at.dataset.visit === 'picked'", enter).await;
-    visit.until("document.activeElement.id === 'picture'").await;
-    keys(&visit, &key::DOWN.to_string()).await;
-    let found = "axis: Enter visits the program until it is drawn.";
-    visit.until(&format!("document.body.innerText.includes({found:?})")).await;
-    visit.picture("visited-by-keys").await;
-    keys(&visit, &enter.to_string()).await;
-    visit.until("document.querySelector('[aria-current=step]').innerText.includes('axis')").await;
-    keys(&visit, &key::TAB.to_string()).await;
-}
-
 #[tokio::test]
 async fn a_washer_is_recorded_on_a_narrow_page() {
     let visit = Visit::open_empty().await;
@@ -661,45 +569,6 @@ async fn boxes_are_drawn_by_one_drag_each_and_caught_by_one_for_a_loop() {
     has(&visit, "for element in [rectangle] {").await;
     press(&visit, "[data-set='rectangle2'][aria-pressed='false']").await;
     has(&visit, "for element in [rectangle, rectangle2] {").await;
-}
-
-#[tokio::test]
-async fn a_recording_that_was_broken_off_goes_on_in_its_loop() {
-    let visit = Visit::open_empty().await;
-    visit.until("document.getElementById('picture')?.width > 10").await;
-    hands::use_library(&visit, "contours").await;
-    record(&visit, "Flange", &[("pitch", "20")]).await;
-    // a slot at the top, and three more around the middle
-    construct(&visit, "Contour.slot(from,to,radius)").await;
-    for typed in ["30<90", "@20<0", "4"] {
-        enter(&visit, typed).await;
-    }
-    construct(&visit, ":pattern(about,count)").await;
-    pick(&visit, 10.0, 34.0).await;
-    enter(&visit, "0,0").await;
-    enter(&visit, "4").await;
-    has(&visit, "=> contour.turned(about: Point(0, 0), by: nth * 360 deg / 4)").await;
-    press(&visit, "[data-draft='repeat']").await;
-    construct(&visit, "Circle").await;
-    enter(&visit, "50,5").await;
-    enter(&visit, "3").await;
-    has(&visit, "circle = Circle(center: Point(50, 5), radius: 3)").await;
-    visit.leave_and_return().await;
-    visit.until("document.querySelector('.notice .primary')").await;
-    press(&visit, ".notice .primary").await;
-    record(&visit, "Flange", &[]).await;
-    press(&visit, "[data-draft='times']").await;
-    asked(&visit, "was (50, 5)").await;
-    // so far on from the hole of the turn before
-    enter(&visit, "@pitch,0").await;
-    asked(&visit, "how many turns").await;
-    enter(&visit, "3").await;
-    has(&visit, "repeat 3 times with center = Point(50, 5)").await;
-    visit
-        .until("document.querySelector(\"[data-step='turns']\").innerText.includes('3 turns')")
-        .await;
-    visit.picture("flange").await;
-    press(&visit, "[data-draft='stop']").await;
 }
 
 #[tokio::test]

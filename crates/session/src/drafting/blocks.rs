@@ -66,6 +66,62 @@ impl Recording {
         self.before = steps.iter().any(|step| step.segment == before).then_some(before);
     }
 
+    /// Goes on where it was once steps go, by their addresses: before the next one that stays, and in blocks that are
+    /// called otherwise then.
+    pub(crate) fn leave_out(&mut self, source: &text::Source, gone: &[String]) {
+        let mut address = String::new();
+        for at in 0..=self.blocks.len() {
+            let body = text::block(source, &self.program, &address);
+            let steps = body.map(|body| text::steps_of(&body)).unwrap_or_default();
+            let goes =
+                |step: &text::StepNode| gone.contains(&text::joined(&address, &step.segment));
+            let after = |segment: &str| {
+                let from = steps.iter().position(|step| step.segment == segment)?;
+                let stays = from + steps[from..].iter().position(|step| !goes(step))?;
+                let unnamed =
+                    steps[..stays].iter().filter(|s| s.name.is_none() && !goes(s)).count();
+                let Some(name) = &steps[stays].name else {
+                    return Some((stays > from, format!("#{unnamed}")));
+                };
+                Some((stays > from, name.clone()))
+            };
+            let Some(block) = self.blocks.get_mut(at) else {
+                self.before = self.before.as_deref().and_then(after).map(|(_, next)| next);
+                return;
+            };
+            block.before = block.before.as_deref().and_then(after).map(|(_, next)| next);
+            let own = block.around.address.clone();
+            let segment = block.around.segment();
+            match after(segment) {
+                Some((false, now)) => {
+                    block.around.address = format!("{now}{}", &own[segment.len()..])
+                }
+                // the block goes, too
+                Some((true, _)) | None => {
+                    self.before = block.before.take();
+                    self.blocks.truncate(at);
+                    return;
+                }
+            }
+            address = text::joined(&address, &own);
+        }
+    }
+
+    /// The steps that are demonstrated, by their addresses, each with whether that waits for an answer.
+    pub(crate) fn demonstrated(&self) -> Vec<(String, bool)> {
+        let mut around = String::new();
+        let one = |block: &Block| {
+            let step = text::joined(&around, block.around.segment());
+            around = text::joined(&around, &block.around.address);
+            match &block.kind {
+                Kind::Loop(it) => Some((step, it.is_drawn())),
+                Kind::Choice(choice) => Some((step, choice.prompt().is_some())),
+                Kind::Visited => None,
+            }
+        };
+        self.blocks.iter().filter_map(one).collect()
+    }
+
     /// Leaves turns that are no longer come to for the last that is.
     fn keep_turns(&mut self, state: &State) {
         for at in 0..self.blocks.len() {
@@ -130,6 +186,29 @@ pub(crate) fn recorded(open: &mut Open) -> Result<&mut Recording, Refusal> {
     settle(open);
     let none = || words::refuse("nothing is recorded: record a program first".into());
     open.recording.as_mut().ok_or_else(none)
+}
+
+/// Returns what is recorded where what a step says may be changed, or it may go. While a block is demonstrated, that holds
+/// of the steps before it and in it.
+///
+/// # Errors
+/// Nothing is recorded; the step is demonstrated, or it is asked how one goes on.
+pub(crate) fn changeable<'o>(open: &'o mut Open, step: &str) -> Result<&'o mut Recording, Refusal> {
+    let recording = recorded(open)?;
+    for (demonstrated, is_asked) in recording.demonstrated() {
+        let told = text::told(&demonstrated);
+        if is_asked {
+            return Err(words::refuse(format!(
+                "{told} waits for an answer: give it first, or undo it"
+            )));
+        }
+        if demonstrated == step {
+            return Err(words::refuse(format!(
+                "{told} is still being drawn: end it first, or undo it"
+            )));
+        }
+    }
+    Ok(recording)
 }
 
 /// Begins a block: writes it where drawing goes on, and enters it.

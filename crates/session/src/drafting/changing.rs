@@ -145,18 +145,13 @@ fn curve_of(state: &State, example: &Name, (address, turns): (&str, &[u32])) -> 
 /// Begins to change a part of what a step says.
 ///
 /// # Errors
-/// Nothing is recorded, a block is demonstrated; the step says nothing of that name.
+/// Nothing is recorded, the step is demonstrated, or it is asked how one goes on; it says nothing of that name.
 pub(crate) fn begin(
     open: &mut Open,
     (address, slot): (&str, &str),
     selected: Option<&str>,
 ) -> Result<(), Refusal> {
-    let recording = blocks::recorded(open)?;
-    if recording.blocks.iter().any(|block| block.kind != blocks::Kind::Visited) {
-        return Err(words::refuse(
-            "a repeat or an `if` is still being drawn: end it first, or undo it".into(),
-        ));
-    }
+    let recording = blocks::changeable(open, address)?;
     let (program, example) = (recording.program.clone(), recording.example.clone());
     let turns = visit::turns_looked_at(&Home::of(Some(recording)), (&example, address), selected);
     let state = open.state.clone();

@@ -54,6 +54,22 @@ impl Removing {
         self.asked.retain(|asked| asked.answer.is_some() || !gone.contains(&asked.step));
     }
 
+    /// Makes sure that what is demonstrated stays, and what it was begun by: a condition, a set.
+    fn leaves_whole(&self, demonstrated: &[(String, bool)]) -> Result<(), Refusal> {
+        for (step, _) in demonstrated {
+            let told = text::told(step);
+            let end_first = "is still being drawn: end it first, or undo it";
+            if self.gone.iter().any(|gone| step == gone || step.starts_with(&format!("{gone}."))) {
+                return Err(words::refuse(format!("{told} {end_first}")));
+            }
+            if let Some(asked) = self.asked.iter().find(|asked| asked.step == *step) {
+                let message = format!("{told} was begun by {}, and {end_first}", asked.of);
+                return Err(words::refuse(message));
+            }
+        }
+        Ok(())
+    }
+
     /// Whether what goes first stands in a step: what that says of it stands behind its turn.
     fn is_around(&self, step: &str) -> bool {
         self.gone[0].strip_prefix(step).is_some_and(|rest| rest.starts_with('.'))
@@ -103,24 +119,20 @@ impl Removing {
 /// Begins to delete a step; what speaks of it is asked about. Where nothing does, it goes at once.
 ///
 /// # Errors
-/// Nothing is recorded, a block is demonstrated, there is no such step.
+/// Nothing is recorded, there is no such step; it is demonstrated, or what is was begun by it.
 pub(crate) fn begin(
     open: &mut Open,
     host: &dyn Host,
     address: &str,
 ) -> Result<Option<Change>, Refusal> {
-    let recording = blocks::recorded(open)?;
-    if recording.blocks.iter().any(|block| block.kind != blocks::Kind::Visited) {
-        return Err(words::refuse(
-            "a repeat or an `if` is still being drawn: end it first, or undo it".into(),
-        ));
-    }
-    let program = recording.program.clone();
+    let recording = blocks::changeable(open, address)?;
+    let (program, demonstrated) = (recording.program.clone(), recording.demonstrated());
     let source = text::Source::now(&open.state);
     let none = || words::refuse(format!("{program} has no step {address}"));
     text::step_at(&source, &program, address).ok_or_else(none)?;
     let mut removing = Removing { gone: Vec::new(), asked: Vec::new() };
     removing.go_along(&source, &program, address);
+    removing.leaves_whole(&demonstrated)?;
     open.dialogue = None;
     keep(open, Some(removing));
     finish(open, host)
@@ -184,6 +196,7 @@ pub(crate) fn along(open: &mut Open, host: &dyn Host) -> Result<Option<Change>, 
     let at = removing.open_question().ok_or_else(none)?;
     let source = text::Source::now(&open.state);
     answer_at(&mut removing, (&source, &program), at, &Answer::Along);
+    removing.leaves_whole(&blocks::recorded(open)?.demonstrated())?;
     keep(open, Some(removing));
     finish(open, host)
 }
@@ -329,5 +342,10 @@ fn finish(open: &mut Open, host: &dyn Host) -> Result<Option<Change>, Refusal> {
     let edited = steps::without(&text::Source::of(edited), &program, &removing.gone)?;
     let gone: Vec<&str> = removing.gone.iter().map(|gone| text::told(gone)).collect();
     let label = format!("delete {}", gone.join(", "));
-    recording::retext(open, host, edited, label).map(Some)
+    let source = text::Source::now(&open.state);
+    let mut left = blocks::recorded(open)?.clone();
+    left.leave_out(&source, &removing.gone);
+    let change = recording::retext(open, host, edited, label)?;
+    open.recording = Some(left);
+    Ok(Some(change))
 }

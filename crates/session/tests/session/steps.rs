@@ -1,7 +1,8 @@
 //! The steps of a program as the page lists them.
 
+use crate::demonstrations::{By, draw, open_in};
 use crate::desk::Desk;
-use session::drafting::view::Go;
+use session::drafting::view::{Ends, Go, Wants};
 use session::view::Pointer;
 
 #[test]
@@ -138,4 +139,96 @@ rings: Rings
     desk.session.visit(desk.id, &Go::UntilDrawn("turns[1].dots[0].dot".into())).expect("drawn");
     assert_eq!(told(&desk, dot)[..2], ["turn 2 of 3", "turn 1 of 2"]);
     assert_eq!(radius(&desk, "turns.dots.dot", dot), "5");
+}
+
+#[test]
+fn while_a_turn_or_a_branch_is_drawn_steps_before_it_and_in_it_go_and_are_changed() {
+    let mut desk = Desk::recording("Row", &[("pitch", "20"), ("wide", "60")]);
+    let step = |desk: &mut Desk, tool: &str, operands: &[&str]| {
+        let operands: Vec<By<'_>> = operands.iter().map(|o| By::Typed(o)).collect();
+        draw(desk, tool, &operands)
+    };
+    step(&mut desk, "Circle", &["0, 0", "5"]);
+    step(&mut desk, "Circle", &["0, 0", "7"]);
+    desk.session.begin_choice(desk.id).expect("it is recorded");
+    desk.session.enter(desk.id, "wide > 10").expect("a condition");
+    step(&mut desk, "Point", &["1, 1"]);
+    desk.session.end_choice(desk.id).expect("one branch is enough");
+    desk.session.begin_choice(desk.id).expect("it is recorded");
+    desk.session.enter(desk.id, "circle2.radius > 1").expect("a condition");
+    step(&mut desk, "Circle", &["circle.center", "2"]);
+    desk.session.begin_loop(desk.id, "").expect("a loop");
+    step(&mut desk, "Circle", &["pitch, 0", "3"]);
+    step(&mut desk, "Line", &["0, 0", "circle4.center"]);
+    let is_open = |desk: &Desk| {
+        let open = open_in(desk);
+        open.len() == 2 && open[0].ends_with("circle2.radius > 1") && open[1].contains("turns")
+    };
+    assert!(is_open(&desk), "{:?}", open_in(&desk));
+    // what was drawn in the turn
+    desk.session
+        .begin_change(desk.id, ("#1.then.turns.circle4", "radius"), None)
+        .expect("it is one");
+    desk.session.enter(desk.id, "pitch / 4").expect("a number");
+    assert!(desk.text().contains("circle4 = Circle(center: Point(pitch, 0), radius: pitch / 4)"));
+    desk.session.begin_delete(desk.id, "#1.then.turns.circle4").expect("it is there");
+    desk.session.enter(desk.id, "circle3").expect("a circle");
+    assert!(desk.text().contains("line = Line(Point(0, 0), circle3.center)"), "{}", desk.text());
+    assert!(!desk.text().contains("circle4"));
+    assert!(is_open(&desk), "{:?}", open_in(&desk));
+    // what was drawn before both: a whole `if`, and a circle that is asked about
+    desk.session.begin_delete(desk.id, "#0").expect("it is there");
+    assert!(!desk.text().contains("wide > 10") && is_open(&desk), "{:?}", open_in(&desk));
+    desk.session.begin_delete(desk.id, "circle").expect("it is there");
+    desk.session.enter(desk.id, "circle2").expect("a circle");
+    assert!(desk.text().contains("circle3 = Circle(center: circle2.center, radius: 2)"));
+    assert!(is_open(&desk), "{:?}", open_in(&desk));
+    // what is being drawn, and what it was begun by, stays
+    for (step, why) in [
+        ("#0", "the `if` is still being drawn: end it first, or undo it"),
+        ("#0.then.turns", "turns is still being drawn: end it first, or undo it"),
+        (
+            "circle2",
+            "the `if` was begun by circle2, and is still being drawn: end it first, or undo it",
+        ),
+    ] {
+        let refused = desk.session.begin_delete(desk.id, step).expect_err("it stays");
+        assert_eq!(refused.message, why);
+    }
+    desk.session.begin_change(desk.id, ("#0", "condition"), None).expect_err("it is being drawn");
+    // the second turn is asked about: now nothing goes
+    step(&mut desk, "Circle", &["pitch, 0", "3"]);
+    desk.session.end_turn(desk.id, Ends::Times).expect("the turn is drawn");
+    let refused =
+        desk.session.begin_delete(desk.id, "#0.then.turns.line").expect_err("it is asked");
+    assert_eq!(refused.message, "turns waits for an answer: give it first, or undo it");
+    let asked = |desk: &Desk| match desk.session.prompt(desk.id)?.wants {
+        Wants::Recurrence(asked) => Some(asked.first),
+        _ => None,
+    };
+    while let Some(first) = asked(&desk) {
+        desk.session.enter(desk.id, &first).expect("the same");
+    }
+    desk.session.enter(desk.id, "2").expect("two turns");
+    desk.session.end_choice(desk.id).expect("one branch is enough");
+    desk.session.stop_recording(desk.id).expect("nothing is open");
+    assert_eq!(desk.wrong(), [], "{}", desk.text());
+    let whole = desk.text();
+    while !desk.session.history(desk.id).0.is_empty() {
+        desk.undo();
+    }
+    while !desk.session.history(desk.id).1.is_empty() {
+        desk.redo();
+    }
+    assert_eq!(desk.text(), whole);
+}
+
+#[test]
+fn where_the_step_that_comes_next_goes_the_visit_is_before_the_one_behind_it() {
+    let mut desk = holes();
+    desk.session.visit(desk.id, &Go::To("circle2".into())).expect("it is there");
+    desk.session.begin_delete(desk.id, "circle2").expect("it is there");
+    desk.session.enter(desk.id, "circle").expect("another circle");
+    let steps = desk.session.steps(desk.id, None).expect("it is recorded");
+    assert_eq!(steps.at.as_deref(), Some("pattern"));
 }
