@@ -476,10 +476,9 @@ fn within_half_turns(degrees: f64) -> f64 {
 
 /// The place so far from another as a pointer tells: its distance has no more decimals than the pointer's place.
 fn reached(from: (f64, f64), to: (f64, f64), pointer: (f64, f64)) -> (f64, f64) {
-    let decimals = |x: f64| shortest(x).split_once('.').map_or(0, |(_, after)| after.len());
     let (dx, dy) = (to.0 - from.0, to.1 - from.1);
     let far = hypot(dx, dy);
-    let most = decimals(pointer.0).max(decimals(pointer.1));
+    let most = digits::count_decimals(pointer.0).max(digits::count_decimals(pointer.1));
     let round = base::number::rounded(far, most).parse().unwrap_or(far);
     if far > 0.0 { (from.0 + round / far * dx, from.1 + round / far * dy) } else { to }
 }

@@ -4,7 +4,7 @@
 //! they are moved together in a document of their own, so that where they lie is written as any move would be.
 
 use super::lengths::{self, Measure};
-use super::{member_of, of_classes};
+use super::{digits, member_of, of_classes};
 use crate::apply;
 use crate::by_hand::class_at;
 use crate::document::Open;
@@ -234,7 +234,10 @@ pub(crate) fn pasting(
         Relations::Own => of_classes(&open.state.text),
         Relations::All => open.state.text.clone(),
     };
-    let with = |base: &str| Open::of(&open.name, format!("{base}\n{}\n", members.join("\n")), host);
+    let with_members = |base: &str, members: &[String]| {
+        Open::of(&open.name, format!("{base}\n{}\n", members.join("\n")), host)
+    };
+    let with = |base: &str| with_members(base, &members);
     let before = Open::of(&open.name, format!("{own}\n"), host);
     let (mut base, mut trial) = (own.clone(), with(&own));
     let mut brought: Vec<String> = Vec::new();
@@ -289,7 +292,11 @@ pub(crate) fn pasting(
         }
         false => member.clone(),
     };
-    let members = clip.members.iter().zip(&members).map(said);
+    let long: Vec<String> = clip.members.iter().zip(&members).map(said).collect();
+    let short = |(was, now): (&String, &String)| digits::as_short_as(was, now, far);
+    let short: Vec<String> = members.iter().zip(&long).map(short).collect();
+    let is_short = short == long || digits::is_like(&with_members(&base, &short), &trial);
+    let members = if is_short { short } else { long };
     let members: Vec<String> = brought.into_iter().chain(members).collect();
     Ok((Command::Edit { target: Path::default(), members: members.join("\n") }, copies))
 }

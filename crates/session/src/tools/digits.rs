@@ -62,6 +62,48 @@ pub(super) fn without_noise(
     member
 }
 
+/// Whether a text, written shorter, says as well what another does: the same values but for rounding, and as much of it
+/// holds.
+pub(super) fn is_like(short: &Open, long: &Open) -> bool {
+    let (now, was) = (&short.state, &long.state);
+    let holds = short.status.satisfied || !long.status.satisfied;
+    let yields = now.gave_way.len() > was.gave_way.len();
+    let errors = now.has_errors() && !was.has_errors();
+    holds && !yields && !errors && has_values(now, &was.values, RULE_TOLERANCE)
+}
+
+/// Returns what a text says of a thing that was moved by so far, its numbers as short as they were before: those that come
+/// to as few decimals but for rounding.
+pub(super) fn as_short_as(was: &str, now: &str, far: f64) -> String {
+    /// So small a part of the largest number is rounding.
+    const ROUNDING: f64 = 1e-11;
+    /// A number may stand in a unit that is so many powers of ten larger.
+    const LARGER_UNIT: usize = 3;
+    let numbers = |text: &str| -> Vec<NumberExpr> {
+        let tree = syntax::parse(base::FileId(0), text).syntax();
+        tree.descendants().filter_map(NumberExpr::cast).collect()
+    };
+    let (before, after) = (numbers(was), numbers(now));
+    let decimals = |number: &NumberExpr| number.value().map_or(0, count_decimals);
+    let most = before.iter().map(decimals).max().unwrap_or(0);
+    let size = before.iter().chain(&after).filter_map(NumberExpr::value).fold(far.abs(), f64::max);
+    let of_far = count_decimals(far) + LARGER_UNIT;
+    let short = |(n, number): (usize, &NumberExpr)| {
+        let (digits, x) = (number.digits()?, number.value()?);
+        let its = before.get(n).filter(|_| before.len() == after.len()).map_or(most, decimals);
+        let round: f64 = rounded(x, its.max(of_far)).parse().ok()?;
+        let text = shortest(round);
+        let is_rounding = (round - x).abs() <= ROUNDING * size && text.len() < digits.text().len();
+        is_rounding.then(|| {
+            // zero has no sign
+            let span = if round == 0.0 { syntax::span_of(&signed(number)) } else { digits.span() };
+            TextEdit { span, insert: text }
+        })
+    };
+    let edits: Vec<TextEdit> = after.iter().enumerate().filter_map(short).collect();
+    syntax::edit::apply(now, &edits)
+}
+
 /// Whether the values of a state are like others of the same things: apart by no more than such a part of themselves, or
 /// of the largest coordinate of their place and of the other places of its thing.
 pub(crate) fn has_values(now: &State, was: &Values, like: f64) -> bool {
@@ -134,6 +176,16 @@ fn largest(tuple: &SyntaxNode) -> f64 {
     own.filter_map(|number| number.value()).fold(0.0, f64::max)
 }
 
+/// Returns how many decimals a number has: digits behind the point, as long as it is written without an exponent.
+pub(super) fn count_decimals(x: f64) -> usize {
+    let written = shortest(x);
+    let (digits, exponent) = written.split_once('e').unwrap_or((&written, "0"));
+    let behind = digits.split_once('.').map_or(0, |(_, behind)| behind.len());
+    let exponent: i32 = exponent.parse().unwrap_or(0);
+    let shift = usize::try_from(exponent.unsigned_abs()).unwrap_or(0);
+    if exponent < 0 { behind + shift } else { behind.saturating_sub(shift) }
+}
+
 /// Returns a number rounded to so many digits behind the first one of a larger one.
 fn decimal(x: f64, largest: f64, digits: i32) -> String {
     let first = format!("{largest:e}");
@@ -144,7 +196,7 @@ fn decimal(x: f64, largest: f64, digits: i32) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{COMPUTED, Open, SOLVED, without_noise};
+    use super::{COMPUTED, Open, SOLVED, as_short_as, count_decimals, without_noise};
     use crate::host::Host;
 
     fn shortened(text: &str) -> String {
@@ -161,6 +213,24 @@ mod tests {
         let arc = "arc1: Arc { center = (-1.0157151026e-15, 0)  start = (40, 0)  end = (0, 40) }";
         assert_eq!(shortened(arc), "arc1: Arc { center = (0, 0)  start = (40, 0)  end = (0, 40) }");
         assert_eq!(shortened("a = -50.00000000000001 mm"), "a = -50 mm");
+    }
+
+    #[test]
+    fn decimals_are_counted_in_small_numbers_too() {
+        assert_eq!([0.25, 1500.0, 2.5e-9, 3e20, 0.0].map(count_decimals), [2, 0, 10, 0, 0]);
+    }
+
+    #[test]
+    fn what_was_moved_is_as_short_as_it_was() {
+        let was = "a: Arc { center = (0, 20.25)  start = (46.0554002110016, 1) }";
+        let now = "a: Arc { center = (38.4, 58.650000000000006)  start = (84.45540021100161, 39.39999999999999) }";
+        let short = "a: Arc { center = (38.4, 58.65)  start = (84.4554002110016, 39.4) }";
+        assert_eq!(as_short_as(was, now, 38.4), short);
+        assert_eq!(as_short_as("r = 20", "r = 19.999999999999993", 40.0), "r = 20");
+        assert_eq!(as_short_as("x = 3", "x = -1.7e-15", 3.0), "x = 0");
+        // more than rounding
+        assert_eq!(as_short_as("r = 20", "r = 19.9999999", 40.0), "r = 19.9999999");
+        assert_eq!(as_short_as("r = 2e-9", "r = 2.0000000000000001e-9", 1e-9), "r = 2e-9");
     }
 
     #[test]

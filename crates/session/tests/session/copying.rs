@@ -207,6 +207,26 @@ fn copies_of_a_rectangle_are_as_large_as_it_is() {
     assert_eq!(desk.text(), TEXT);
 }
 
+/// A slot: two arcs of radius 20, tangent to two lines.
+const SLOT: &str = "use geometry\na: Arc { center = (0.1, 0)  start = (0.1, 20)  end = (0.1, -20) }\nb: Arc { center = (99.7, 0)  start = (99.7, -20)  end = (99.7, 20) }\nc: Line { p1 = (0.1, 20)  p2 = (99.7, 20) }\nd: Line { p1 = (0.1, -20)  p2 = (99.7, -20) }\nmerge a.start = c.p1\nmerge a.end = d.p1\nmerge b.end = c.p2\nmerge b.start = d.p2\nconstraint a.tangent(to: c)\nconstraint b.tangent(to: c)\nconstraint a.tangent(to: d)\nconstraint b.tangent(to: d)\nconstraint c.horizontal\nconstraint a.radius = 20\n";
+
+#[test]
+fn numbers_of_a_constrained_copy_are_as_short_as_their_models() {
+    for relations in [Relations::Own, Relations::All] {
+        let mut desk = Desk::of(SLOT);
+        for _ in 0..3 {
+            let (command, _) = copy(&desk, &["a", "b", "c", "d"], relations).expect("it stands");
+            desk.apply(&command).expect("it can be made");
+            holds(&desk);
+        }
+        let text = desk.text();
+        let numbers = text.split(|c: char| !c.is_ascii_digit() && c != '.');
+        let longest = numbers.max_by_key(|number| number.len()).expect("numbers");
+        assert!(longest.len() <= 6, "{longest}: {text}");
+        assert_eq!(desk.wrong(), []);
+    }
+}
+
 /// Pastes all of a text into another, and returns what that is then.
 fn pasted(from: &str, into: &str) -> Desk {
     let mut desk = Desk::of(into);

@@ -686,3 +686,14 @@ fn what_is_drawn_among_atoms_is_not_rounded_away() {
     click(&mut desk, &at(2.5e-9, 1e-9));
     assert_eq!((desk.place("line.p1"), desk.place("line.p2")), ((2e-9, 2e-9), (2.5e-9, 1e-9)));
 }
+
+#[test]
+fn a_circle_drawn_by_hand_on_a_very_small_sheet_has_a_radius() {
+    let mut desk = Desk::of("use geometry\np: Point = (0, 0)\nq: Point = (3e-9, 1e-9)\n");
+    desk.session.take_tool(desk.id, "Circle").expect("geometry has circles");
+    let at = |x: f64, y: f64| Pointer { reach: 5e-11, alone: true, ..pointer(x, y) };
+    click(&mut desk, &at(2e-9, 2e-9));
+    click(&mut desk, &at(2.3e-9, 2.4e-9));
+    assert_eq!(desk.number("circle.radius"), 5e-10, "{}", desk.text());
+    holds(&desk);
+}
