@@ -9,7 +9,8 @@ use drawing::Shape;
 
 impl Tool {
     /// Returns the next place along the picture that the present stage would join, or lie in the middle of; none past
-    /// the last. A pointer that is near a stop stands at it.
+    /// the last, but where something is begun, which may end at any, behind the last comes the first. A pointer that is
+    /// near a stop stands at it.
     pub(crate) fn stop(
         &self,
         state: &State,
@@ -42,9 +43,13 @@ impl Tool {
             Some((_, n)) => (&stops[n + 1..], &stops[..n]),
             None => (&stops[..], &stops[..]),
         };
+        let goes_round = now.is_some() && last.is_some();
+        let round = |rest| if goes_round { rest } else { &[][..] };
         match along {
-            Along::Next => ahead.iter().copied().find(holds),
-            Along::Back => behind.iter().rev().copied().find(holds),
+            Along::Next => ahead.iter().chain(round(behind)).copied().find(holds),
+            Along::Back => {
+                behind.iter().rev().chain(round(ahead).iter().rev()).copied().find(holds)
+            }
         }
     }
 }

@@ -109,6 +109,9 @@ fn a_tool_goes_by_keys_from_corner_to_corner_and_from_middle_to_middle() {
     // what the line begins at is no place for its end
     click(&mut desk, &pointer(50.0, 0.0));
     assert_eq!(stop(&desk, stops[3], Along::Next), Some(stops[5]));
+    // what is begun may end at any: behind the last comes the first
+    assert_eq!(stop(&desk, stops[5], Along::Next), Some(stops[0]));
+    assert_eq!(stop(&desk, stops[0], Along::Back), Some(stops[5]));
     click(&mut desk, &pointer(50.0, 75.0));
     holds(&desk);
     // two free lines, and one between their middles
