@@ -97,8 +97,8 @@ pub fn shift(notes: &[Note], key: &str, way: Pixels, moved: &mut Moved) {
 enum Seen {
     Place(Pixels),
     Way(Pixels, Pixels),
-    /// A centre, a radius, and the direction of the middle of an arc.
-    Round(Pixels, f64, f64),
+    /// A centre, a radius, the direction of the middle of an arc, and that in which signs stand.
+    Round(Pixels, f64, [f64; 2]),
 }
 
 impl Seen {
@@ -170,14 +170,16 @@ fn seen<'a>(all: &'a [Annotation], picture: &PictureView, view: &View) -> BTreeM
             Shape::Dot(p) => Some(Seen::Place(screen(*p))),
             Shape::Segment(a, b) => Some(Seen::Way(screen(*a), screen(*b))),
             Shape::Circle { center, radius } => {
-                Some(Seen::Round(screen(*center), radius * view.scale, -FRAC_PI_4))
+                let turns = [-FRAC_PI_4, PI - FRAC_PI_4];
+                Some(Seen::Round(screen(*center), radius * view.scale, turns))
             }
             Shape::Arc { center, radius, start, sweep } => {
                 let turn = start + sweep / 2.0;
                 let on = Point { x: center.x + cos(turn), y: center.y + sin(turn) };
                 let (from, to) = (screen(*center), screen(on));
                 let turn = atan2(to.1 - from.1, to.0 - from.0);
-                Some(Seen::Round(from, radius * view.scale, turn))
+                // opposite of its middle there is nothing of it
+                Some(Seen::Round(from, radius * view.scale, [turn, turn]))
             }
             // what is said of it stands at its first edge
             Shape::Polyline { points, .. } => match points.as_slice() {
@@ -346,7 +348,7 @@ impl Desk<'_> {
                 let far = (a.0 - b.0) * dx + (a.1 - b.1) * dy;
                 vec![note(0, self.length((*a, along(*b, (dx, dy), far)), said))]
             }
-            (Shows::Radius, [Seen::Round(center, radius, turn)]) => {
+            (Shows::Radius, [Seen::Round(center, radius, [turn, _])]) => {
                 vec![note(0, self.radius((*center, *radius, *turn), said))]
             }
             (Shows::Angle([is_turned, is_other_turned]), [Seen::Way(a, b), Seen::Way(c, d)]) => {
@@ -441,9 +443,9 @@ impl Desk<'_> {
                 let n = self.nth(at, false);
                 (at.0 + BESIDE + 22.0 * n, at.1 - BESIDE)
             }
-            Seen::Round(center, radius, turn) => {
+            Seen::Round(center, radius, [_, turn]) => {
                 let n = self.nth(center, false);
-                let turn = turn + PI + 22.0 * n / radius.max(22.0);
+                let turn = turn + 22.0 * n / radius.max(22.0);
                 along(center, (cos(turn), sin(turn)), radius - BESIDE)
             }
         }
@@ -610,6 +612,20 @@ mod tests {
         assert!(off.0.abs() < 1e-9 && off.1.abs() < 1e-9, "{angle:?}");
         // the arc, and the first line continued
         assert_eq!(angle.lines.len(), 2);
+    }
+
+    #[test]
+    fn the_sign_of_an_arc_stands_beside_the_arc_rather_than_where_there_is_none() {
+        let mut picture = corner();
+        let center = Point { x: 0.0, y: 0.0 };
+        let (start, sweep) = (std::f64::consts::FRAC_PI_2, std::f64::consts::PI);
+        picture.drawing.elements[0].shape = Shape::Arc { center, radius: 20.0, start, sweep };
+        let view = View { scale: 2.0, x: 200.0, y: 300.0, ..View::default() };
+        let tangent = annotation("c1", Shows::Relation, "T", &["a"]);
+        let all = notes(&[tangent], &picture, &view, &Moved::new());
+        let [note] = all.as_slice() else { panic!("one note: {all:?}") };
+        // the arc runs through (160, 300) on the screen
+        assert!(hypot(note.at.0 - 160.0, note.at.1 - 300.0) < 20.0, "{note:?}");
     }
 
     #[test]
