@@ -3,16 +3,20 @@
 //! In: a state, and at most six of its things. Out: every class in scope whose stored parts they could
 //! be, one to one by class, so that all its constraints and merges are true of them. A thing of every
 //! such class is made for the test, filled with the values of the selected parts, and thrown away.
+//! Numbers of the class that nobody selects are its parameters: what its rules say that they are.
 
 use crate::prototype::Lone;
 use crate::state::State;
 use crate::view::{Recognised, Refusal};
 use crate::words;
 use base::Name;
-use base::number::close;
-use eval::Evaluator;
+use base::number::{close, significant};
+use eval::{Answer, Evaluator};
+use expr::Dimension;
+use kernel::quantity::to_bare;
 use kernel::{
-    Class, ClassId, ClassKind, Document, PartRole, Path, Step, Strength, ThingId, Value, Values,
+    BinaryOperator, Class, ClassId, ClassKind, Document, PartRef, PartRole, Path, Primitive,
+    SlotId, Step, Strength, Term, ThingId, Value, Values,
 };
 
 /// How many parts can be asked about: their orders are all tried.
@@ -45,16 +49,27 @@ pub(crate) fn recognise(state: &State, paths: &[Path]) -> Result<Vec<Recognised>
     let classes = document.classes.iter().filter(|&(id, c)| is_candidate(state, id, c));
     let mut found: Vec<Recognised> = Vec::new();
     for (class, _) in classes {
-        let fields = document.layout(class);
-        let stored = fields.iter().all(|f| f.role == PartRole::Part);
+        let (mut fields, mut told) = fields(document, class);
+        let stored = fields.iter().chain(&told).all(|f| f.role == PartRole::Part);
         if !stored || fields.len() != things.len() {
-            continue;
+            // numbers may be selected as other parts are
+            let all = document.layout(class);
+            let stored = all.iter().all(|f| f.role == PartRole::Part);
+            if told.is_empty() || !stored || all.len() != things.len() {
+                continue;
+            }
+            (fields, told) = (all, Vec::new());
         }
         let wanted: Vec<ClassId> = fields.iter().map(|&f| document.field_class(f)).collect();
         let fits = |field: usize, thing: ThingId| {
             document.is_a(state.structure.things[thing].class, wanted[field])
         };
-        let Some(trial) = Trial::new(document, class) else { continue };
+        let told = told.iter().map(|&f| document.field_name(f).clone()).collect();
+        let Some(trial) = Trial::new(document, class, told) else { continue };
+        // a class that only says what its parameters are is true of anything
+        if !trial.told.is_empty() && trial.rules as usize <= trial.told.len() {
+            continue;
+        }
         let ways: &[&[bool]] = match things.len() {
             0..=MOST_TURNED => &[&[false], &[false, true]],
             _ => &[&[false]],
@@ -66,12 +81,13 @@ pub(crate) fn recognise(state: &State, paths: &[Path]) -> Result<Vec<Recognised>
             let parts: Vec<(String, String)> = parts.collect();
             let turned = order.iter().map(|&way| chosen.turned(way).cloned());
             let turned: Vec<Option<[Name; 2]>> = turned.collect();
+            let given = trial.filled(&chosen, &order).map_or_else(Vec::new, |(_, told)| told);
             let class = &document.classes[class];
             found.push(Recognised {
                 class: class.name.to_string(),
                 doc: class.doc.clone(),
                 constraints: trial.rules,
-                members: members(state, &class.name, &parts, &turned),
+                members: members(state, &class.name, (&parts, &turned), &given),
                 parts,
             });
         }
@@ -81,14 +97,18 @@ pub(crate) fn recognise(state: &State, paths: &[Path]) -> Result<Vec<Recognised>
 }
 
 /// Writes a thing of a class whose parts are those selected; they stand first, so that they keep their
-/// values. What runs the other way is joined end by end.
+/// values. What runs the other way is joined end by end. Its parameters are given what they are.
 fn members(
     state: &State,
     class: &Name,
-    parts: &[(String, String)],
-    turned: &[Option<[Name; 2]>],
+    (parts, turned): (&[(String, String)], &[Option<[Name; 2]>]),
+    given: &[(Name, f64)],
 ) -> String {
     let name = free_name(state, class);
+    let given: Vec<String> =
+        given.iter().map(|(name, x)| format!("{name} = {}", significant(*x, 12))).collect();
+    let body =
+        if given.is_empty() { String::new() } else { format!(" {{ {} }}", given.join("; ")) };
     let merges = parts.iter().zip(turned).map(|((field, part), turned)| match turned {
         Some([a, b]) => {
             format!(
@@ -97,7 +117,20 @@ fn members(
         }
         None => format!("merge {part} = {name}.{field}\n"),
     });
-    std::iter::once(format!("{name}: {class}\n")).chain(merges).collect()
+    std::iter::once(format!("{name}: {class}{body}\n")).chain(merges).collect()
+}
+
+/// The parts of a class that things can be, and the numbers beside them, which are its parameters.
+fn fields(document: &Document, class: ClassId) -> (Vec<PartRef>, Vec<PartRef>) {
+    let is_number = |f: &PartRef| {
+        let class = &document.classes[document.field_class(*f)];
+        matches!(class.kind, ClassKind::Primitive(Primitive::Real(_)))
+    };
+    let all = document.layout(class);
+    match all.iter().all(is_number) {
+        true => (all, Vec::new()),
+        false => all.into_iter().partition(|f| !is_number(f)),
+    }
 }
 
 /// The things that are asked about.
@@ -186,15 +219,20 @@ struct Trial {
     lone: Lone,
     /// How many constraints and merges the class says of its parts.
     rules: u32,
+    /// What its parameters are called.
+    told: Vec<Name>,
 }
 
+/// The values of a trial, and what its parameters are, as they are written without a unit.
+type Filled = (Values, Vec<(Name, f64)>);
+
 impl Trial {
-    fn new(document: &Document, class: ClassId) -> Option<Self> {
+    fn new(document: &Document, class: ClassId, told: Vec<Name>) -> Option<Self> {
         let lone = Lone::of(document, class)?;
         let line = document.primary_line(class);
         let merges: usize = line.iter().map(|&c| document.classes[c].merges.len()).sum();
         let own = lone.structure.constraints.iter().filter(|c| c.owner == lone.thing).count();
-        Some(Self { lone, rules: (merges + own) as u32 })
+        Some(Self { lone, rules: (merges + own) as u32, told })
     }
 
     /// Finds the first order of the things in which they could be the parts, field by field.
@@ -228,10 +266,28 @@ impl Trial {
 
     /// Returns true if all that the class says is true of the things as its parts.
     fn holds(&self, chosen: &Chosen<'_>, order: &[(usize, bool)]) -> bool {
+        let Some((values, _)) = self.filled(chosen, order) else { return false };
+        let evaluator = Evaluator::new(&self.lone.document, &self.lone.structure, &values);
+        self.lone.structure.constraints.iter().all(|&c| {
+            let written = &self.lone.document.classes[c.class].constraints[c.index as usize];
+            written.strength != Strength::Required
+                || !self.lone.structure.is_on(c)
+                || evaluator.test(c).is_ok_and(|verdict| verdict.holds)
+        })
+    }
+
+    /// Returns the values of the trial with the things as its parts; nothing where they cannot be, or no rule says what a
+    /// parameter is.
+    fn filled(&self, chosen: &Chosen<'_>, order: &[(usize, bool)]) -> Option<Filled> {
         let state = chosen.state;
         let mut values = Values::new(self.lone.structure.slots.len());
         let mut filled = vec![false; self.lone.structure.slots.len()];
-        for (field, &way) in self.lone.structure.parts(self.lone.thing).zip(order) {
+        let is_told = |&field: &ThingId| {
+            let name = self.lone.structure.field_name(&self.lone.document, field);
+            name.is_some_and(|name| self.told.contains(name))
+        };
+        let fields = self.lone.structure.parts(self.lone.thing).filter(|field| !is_told(field));
+        for (field, &way) in fields.zip(order) {
             let thing = chosen.things[way.0];
             let is_filled = match chosen.turned(way) {
                 None => self.fill(state, field, thing, &mut values, &mut filled),
@@ -244,15 +300,63 @@ impl Trial {
                 }),
             };
             if !is_filled {
-                return false;
+                return None;
             }
         }
-        let evaluator = Evaluator::new(&self.lone.document, &self.lone.structure, &values);
-        self.lone.structure.constraints.iter().all(|&c| {
-            let written = &self.lone.document.classes[c.class].constraints[c.index as usize];
-            written.strength != Strength::Required
-                || !self.lone.structure.is_on(c)
-                || evaluator.test(c).is_ok_and(|verdict| verdict.holds)
+        let mut unknown: Vec<(Name, SlotId)> = Vec::new();
+        for name in &self.told {
+            let part = self.lone.structure.part_named(self.lone.thing, name)?;
+            let slot = self.lone.structure.slot_of(part)?;
+            // what is one with a number of another part is known
+            if !filled[slot.0 as usize] {
+                unknown.push((name.clone(), slot));
+            }
+        }
+        let mut given: Vec<(Name, f64)> = Vec::new();
+        while !unknown.is_empty() {
+            let told = |(n, (name, _)): (usize, &(Name, SlotId))| {
+                Some((n, self.told_by_rule(name, &unknown, &values)?))
+            };
+            let (n, (x, dimension)) = unknown.iter().enumerate().find_map(told)?;
+            let (name, slot) = unknown.remove(n);
+            values.put(slot, Value::Number(x));
+            given.push((name, to_bare(&self.lone.document, x, dimension)));
+        }
+        Some((values, given))
+    }
+
+    /// Returns the number that a rule of the class says that a parameter is, as `a.radius = radius` does; nothing where
+    /// that comes of numbers that are not known yet.
+    fn told_by_rule(
+        &self,
+        name: &Name,
+        unknown: &[(Name, SlotId)],
+        values: &Values,
+    ) -> Option<(f64, Dimension)> {
+        let (document, structure) = (&self.lone.document, &self.lone.structure);
+        let evaluator = Evaluator::new(document, structure, values);
+        let is_it =
+            |term: &Term| term.path().is_some_and(|path| path.0 == [Step::Part(name.clone())]);
+        let own = structure.constraints.iter().filter(|c| c.owner == self.lone.thing);
+        own.filter(|&&c| structure.is_on(c)).find_map(|c| {
+            let written = &document.classes[c.class].constraints[c.index as usize];
+            let Term::Binary(BinaryOperator::Equal, a, b) = &*written.rule else { return None };
+            let other = match (is_it(a), is_it(b)) {
+                (false, true) => a,
+                (true, false) => b,
+                (true, true) | (false, false) => return None,
+            };
+            let (answer, read) =
+                evaluator.listening(|| evaluator.evaluate(other, self.lone.thing).ok());
+            let is_known = unknown.iter().all(|(_, slot)| !read.contains(slot));
+            match answer? {
+                Answer::Number(x, dimension)
+                    if is_known && written.strength == Strength::Required =>
+                {
+                    Some((x, dimension))
+                }
+                _ => None,
+            }
         })
     }
 

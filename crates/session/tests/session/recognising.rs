@@ -91,3 +91,35 @@ b: Disc {{ center = (30, 0)  rim = (50, 0) }}
     assert_eq!(found(&Desk::of(&text("(0, 0)", "(30, 40)"))), Some(members.into()));
     assert_eq!(found(&Desk::of(&text("(30, 40)", "(0, 0)"))), None);
 }
+
+#[test]
+fn a_class_with_a_parameter_is_recognised_in_parts_of_another_size() {
+    let mut desk = Desk::of(
+        "use geometry
+unit mm
+class Elbow {
+    side, turn: Length = 20
+    a, b: Line
+    merge a.p2 = b.p1
+    constraint a.length = side
+    constraint turn = 2 * side
+    constraint b.length = turn
+    constraint a.horizontal
+}
+k: Line { p1 = (0, 0)  p2 = (30, 0) }
+l: Line { p1 = (30, 0)  p2 = (30, 60) }
+",
+    );
+    let found = desk.session.recognise(desk.id, &[at("l"), at("k")]).expect("they are there");
+    let elbow = found.iter().find(|r| r.class == "Elbow").expect("it is one with a side of 30");
+    let said = "elbow: Elbow { side = 30; turn = 60 }\nmerge k = elbow.a\nmerge l = elbow.b\n";
+    assert_eq!(elbow.members, said);
+    let members = elbow.members.clone();
+    desk.apply(&session::Command::Edit { target: session::Path::default(), members })
+        .expect("it can be made one");
+    assert_eq!(desk.place("l.p2"), (30.0, 60.0));
+    assert_eq!(desk.wrong(), []);
+    // a dimension is no more than its value: everything would be one
+    let alone = desk.session.recognise(desk.id, &[at("k")]).expect("it is there");
+    assert!(alone.iter().all(|r| r.class != "LineLength"), "{alone:?}");
+}
