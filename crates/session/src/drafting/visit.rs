@@ -288,7 +288,19 @@ fn until_drawn(
     source: &text::Source,
 ) -> Option<Home> {
     let (address, turns) = place_of(source, program, drawn)?;
-    home_of(source, (program, example), &address, &turns)
+    let home = home_of(source, (program, example), &address, &turns)?;
+    // what a turn began with, and a turn as a whole: that turn from its beginning
+    let around = turns_around(&home, &address).len();
+    let value = text::step_at(source, program, &address)?.value;
+    if let Some(Value::Repeat(_) | Value::While(_) | Value::For(_)) = &value
+        && turns.len() > around
+        && let Some((_, inner)) = value.iter().flat_map(text::inner_steps).next()
+        && let Some(first) = inner.first()
+    {
+        let first = text::joined(&address, &first.segment);
+        return home_of(source, (program, example), &first, &turns);
+    }
+    Some(home)
 }
 
 /// The home of all of the program that is recorded.

@@ -1,6 +1,6 @@
 //! The steps of a program as the page lists them.
 
-use crate::demonstrations::{By, draw, open_in};
+use crate::demonstrations::{By, draw, open_in, sheet};
 use crate::desk::Desk;
 use session::drafting::view::{Ends, Go, Wants};
 use session::view::Pointer;
@@ -231,4 +231,20 @@ fn where_the_step_that_comes_next_goes_the_visit_is_before_the_one_behind_it() {
     desk.session.enter(desk.id, "circle").expect("another circle");
     let steps = desk.session.steps(desk.id, None).expect("it is recorded");
     assert_eq!(steps.at.as_deref(), Some("pattern"));
+}
+
+#[test]
+fn what_a_turn_began_with_is_visited_where_that_turn_begins() {
+    let mut desk = sheet();
+    for (picked, step, turns) in [
+        ("turns[2].start", "turns.circle", "turn 3 of 3"),
+        ("turns[1]", "turns.circle", "turn 2 of 3"),
+        ("turns[1].turns2[1].from", "turns.turns2.circle2", "turn 2 of 3"),
+        ("turns", "turns", "3 turns"),
+    ] {
+        desk.session.visit(desk.id, &Go::UntilDrawn(picked.into())).expect("it is drawn");
+        let steps = desk.session.steps(desk.id, None).expect("it is recorded");
+        let row = steps.rows[0].value.as_deref();
+        assert_eq!((steps.at.as_deref(), row), (Some(step), Some(turns)), "{picked}");
+    }
 }
