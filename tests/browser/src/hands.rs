@@ -311,6 +311,18 @@ pub async fn stop_by_keys(visit: &Visit, word: &str) {
 /// # Panics
 /// Where Tab does not lead there, or something lies over the element.
 pub async fn press_by_keys(visit: &Visit, element: &str, pressed: char) {
+    pressed_by(visit, (&[], element), pressed).await;
+}
+
+/// The same by Shift+Tab.
+///
+/// # Panics
+/// As [`press_by_keys`].
+pub async fn press_back_by_keys(visit: &Visit, element: &str, pressed: char) {
+    pressed_by(visit, (&[key::SHIFT], element), pressed).await;
+}
+
+async fn pressed_by(visit: &Visit, (held, element): (&[char], &str), pressed: char) {
     let seen = "(at => { const r = at.getBoundingClientRect(); \
                 return at.contains(document.elementFromPoint(r.left + r.width / 2, r.top + r.height / 2)); \
                 })(document.activeElement)";
@@ -320,7 +332,7 @@ pub async fn press_by_keys(visit: &Visit, element: &str, pressed: char) {
             visit.until(seen).await;
             return chord(visit, &[], pressed).await;
         }
-        chord(visit, &[], key::TAB).await;
+        chord(visit, held, key::TAB).await;
     }
     panic!("Tab does not lead to {element}");
 }

@@ -1,6 +1,6 @@
 //! Recordings and visits that are broken off by a page that goes, and go on in the next one.
 
-use crate::recorded::record;
+use super::recorded::record;
 use browser::Visit;
 use browser::drafting::{asked, construct, enter, has, pick, press, set};
 use browser::hands::{self, state};
@@ -47,7 +47,7 @@ async fn a_recording_that_was_broken_off_goes_on_in_its_loop() {
 async fn a_visit_by_other_values_goes_on_where_it_was_when_its_tab_was_shut() {
     let visit = Visit::open_empty().await;
     visit.until("document.getElementById('picture')?.width > 10").await;
-    record(&visit, "Sheet", &[("pitch", "10"), ("size", "3")]).await;
+    record(&visit, "Sheet", &[("pitch", "60"), ("size", "25")]).await;
     press(&visit, "[data-draft='repeat']").await;
     construct(&visit, "Circle").await;
     enter(&visit, "0,0").await;
@@ -65,20 +65,20 @@ async fn a_visit_by_other_values_goes_on_where_it_was_when_its_tab_was_shut() {
     let own = state(&visit).await["text"].clone();
     // the third turn, by other values of both parameters
     press(&visit, "[data-visit='picked']").await;
-    pick(&visit, 23.0, 0.0).await;
+    pick(&visit, 145.0, 0.0).await;
     let turn = "document.querySelector('[data-step=turns]').innerText.includes('turn 3 of 3')";
     let is_next = "document.querySelector(\"[data-step='turns.circle'].next\")";
     let is_there = format!("{turn} && {is_next}");
     visit.until(&is_there).await;
-    set(&visit, "pitch", "14").await;
-    set(&visit, "size", "4").await;
+    set(&visit, "pitch", "70").await;
+    set(&visit, "size", "30").await;
     has(&visit, "sheet: Sheet {").await;
     has(&visit, "its own values, while it is visited by others").await;
     visit.leave_and_return().await;
     visit.until("document.querySelector('.notice .primary')").await;
     press(&visit, ".notice .primary").await;
     visit.until(&is_there).await;
-    for (parameter, value) in [("pitch", "14"), ("size", "4")] {
+    for (parameter, value) in [("pitch", "70"), ("size", "30")] {
         visit
             .until(&format!(
                 "document.querySelector(\"[name='value-{parameter}']\").value == {value}"

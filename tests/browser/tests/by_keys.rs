@@ -125,12 +125,12 @@ async fn a_comb_is_recorded_by_the_keyboard_alone_and_applied_by_another_value()
         asked(&visit, asks).await;
         keys(&visit, &enter.to_string()).await;
     }
-    // the condition by the keys of the calculator
+    // the condition by the keys of the calculator, which stands before the field
     asked(&visit, "after the last turn").await;
     keys(&visit, "line4.p2.x").await;
-    hands::press_by_keys(&visit, "at.dataset.key === '≥'", enter).await;
-    hands::press_by_keys(&visit, "at.dataset.parameter === 'long'", enter).await;
-    hands::press_by_keys(&visit, "at.dataset.key === 'give'", enter).await;
+    hands::press_back_by_keys(&visit, "at.dataset.key === '≥'", enter).await;
+    hands::press_by_keys(&visit, "at.dataset.value === 'long'", enter).await;
+    hands::press_back_by_keys(&visit, "at.dataset.key === 'give'", enter).await;
     has(&visit, "until line4.p2.x >= long").await;
     let turns = "document.querySelector(\"[data-step='turns']\").innerText";
     visit.until(&format!("{turns}.includes('5 turns')")).await;
