@@ -137,11 +137,14 @@ async fn a_comb_is_recorded_by_the_keyboard_alone_and_applied_by_another_value()
     hands::press_by_keys(&visit, "at.dataset.draft === 'stop'", enter).await;
     visit.until("document.querySelector(\"[data-draft='more']\")").await;
     // once more, by other values
-    sought(&visit, "comb").await;
-    visit.picture("comb-applied-by-keys").await;
-    for (asks, typed) in [("pitch", "12"), ("tooth", "8"), ("long", "84")] {
+    hands::press_by_keys(&visit, "at.name === 'construction'", 'c').await;
+    keys(&visit, "omb").await;
+    visit.until("document.querySelector('.constructions .best')").await;
+    keys(&visit, &enter.to_string()).await;
+    for (asks, typed) in [("pitch", "12"), ("tooth", "8"), ("long", "84"), ("at", "0,40")] {
         asked(&visit, asks).await;
         keys(&visit, &format!("{typed}{enter}")).await;
     }
+    has(&visit, "comb2: ").await;
     visit.picture("comb-by-keys").await;
 }
