@@ -1,7 +1,7 @@
 //! A class by example: some things of the document become the parts of a new class, and one thing of it.
 //!
 //! What speaks of these things alone goes into the class: their constraints, merges and anchors. What speaks of
-//! others too stays, and reaches them through the new thing. Of each part, value, constraint and merge a person
+//! others too stays, and reaches them through the new thing. Of each part, value, constraint, merge and anchor a person
 //! decides whether it is of the class, of this one thing only, or, where it says a number, a parameter.
 
 use crate::by_hand::class_at;
@@ -156,6 +156,7 @@ fn kind(member: &Member) -> Option<ItemKind> {
         Member::Part(_) => Some(ItemKind::Part),
         Member::Constraint(_) => Some(ItemKind::Constraint),
         Member::Merge(_) => Some(ItemKind::Merge),
+        Member::Anchor(_) => Some(ItemKind::Anchor),
         _ => None,
     }
 }
@@ -385,8 +386,8 @@ fn sort(
     if let Some(bound) = bound(state, member) {
         return written.members.push(bound);
     }
-    let Some(_) = kind(member) else { return written.members.push(text.trim().into()) };
-    let scope = scopes.next().unwrap_or_default();
+    let Some(kind) = kind(member) else { return written.members.push(text.trim().into()) };
+    let scope = scopes.next().unwrap_or(kind.usual());
     let mut changes = Vec::new();
     if let (Scope::Parameter, Some(said)) = (scope, number_said(state, member)) {
         let name = written.parameter(&said.name, &said.class, &said.value);
@@ -394,7 +395,7 @@ fn sort(
     }
     let mut merges = Vec::new();
     for given in givens(state, member) {
-        let its = scopes.next().unwrap_or_default();
+        let its = scopes.next().unwrap_or(ItemKind::Value.usual());
         let gone = || {
             let gone = delete_member(&given.node);
             let span = Span::new(gone.span.start - start, gone.span.end - start);

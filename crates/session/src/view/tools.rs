@@ -159,6 +159,18 @@ pub enum ItemKind {
     Constraint,
     /// A merge.
     Merge,
+    /// An anchor.
+    Anchor,
+}
+
+impl ItemKind {
+    /// Of what it is unless somebody decides otherwise: where things of a class are held, all would lie on one another.
+    pub fn usual(self) -> Scope {
+        match self {
+            Self::Part | Self::Value | Self::Constraint | Self::Merge => Scope::Class,
+            Self::Anchor => Scope::Own,
+        }
+    }
 }
 
 /// One thing that has to be decided of a class by example.
@@ -177,7 +189,7 @@ pub struct ClassItem {
 pub struct ClassPlan {
     /// The class's name.
     pub name: String,
-    /// Of what each item is, in the order of the items; the class, where there are fewer.
+    /// Of what each item is, in the order of the items; what is usual, where there are fewer.
     pub scopes: Vec<Scope>,
     /// The parts by which a thing of it is placed, in this order.
     pub attachers: Vec<kernel::Path>,

@@ -91,3 +91,29 @@ fn a_part_of_this_one_only_is_no_part_of_the_others() {
     let rows = desk.session.values(desk.id);
     assert!(rows.iter().all(|row| !row.path.starts_with("wedge2.hole")), "{}", desk.text());
 }
+
+#[test]
+fn a_second_linkage_does_not_lie_on_the_first_where_that_is_anchored() {
+    let mut desk = Desk::of(
+        "use geometry
+ground: Line { p1 = (0, 0)  p2 = (160, 0) }
+anchor ground
+crank: Line { p2 = (0, 40) }
+merge crank.p1 = ground.p1
+constraint crank.length = 40
+",
+    );
+    let paths = ["ground", "crank"].map(at);
+    let items = desk.session.class_items(desk.id, &paths);
+    let anchor = items.iter().find(|item| item.kind == ItemKind::Anchor).expect("it is asked");
+    assert_eq!((anchor.says.as_str(), anchor.kind.usual()), ("anchor ground", Scope::Own));
+    let plan = ClassPlan { name: "Drive".into(), ..ClassPlan::default() };
+    let made = desk.session.class_of(desk.id, &paths, &plan).expect("it can be one");
+    desk.apply(&made.0).expect("it can be made");
+    assert!(desk.text().contains("drive: Drive {\n    anchor ground\n}"), "{}", desk.text());
+    assert_eq!(desk.session.status(desk.id).freedom, 1);
+    let another = desk.session.insertion(desk.id, "Drive").expect("the bin has it");
+    desk.apply(&another).expect("there is room");
+    assert_ne!(desk.place("drive2.ground.p1"), (0.0, 0.0), "{}", desk.text());
+    assert_eq!(desk.wrong(), []);
+}
