@@ -568,7 +568,8 @@ fn restructured(open: &mut Open, host: &dyn Host, command: &Command) -> Result<C
             return Err(refusal);
         }
     }
-    let change = step_to(open, words::command_label(command), state, planner);
+    let label = crate::rules::step_label(&before, command);
+    let change = step_to(open, label, state, planner);
     let class_of_one = done.class_of_one.filter(|_| class.is_none()).map(|p| p.to_string());
     Ok(Change { class_of_one, class, along: done.along, ..change })
 }

@@ -2,8 +2,8 @@
 //! told what it says.
 
 use crate::state::State;
-use crate::words::{constraint_path, rule_alone, source_name};
-use kernel::{ConstraintInstance, DOCUMENT};
+use crate::words::{command_label, constraint_name, constraint_path, rule_alone, source_name};
+use kernel::{Command, ConstraintInstance, DOCUMENT, Path, Step};
 use plan::Source;
 
 /// The longest rule that is told, in letters.
@@ -41,6 +41,24 @@ pub(crate) fn unnamed(state: &State, index: u32) -> Option<String> {
         DOCUMENT => said,
         owner => format!("{said} of {}", state.structure.path(document, owner)),
     })
+}
+
+/// Returns what the undo list calls a command: what it does with a constraint without a name, by what that says.
+pub(crate) fn step_label(state: &State, command: &Command) -> String {
+    let said = |path: &Path| {
+        let (Step::Part(name), owner) = path.0.split_last()? else { return None };
+        let owner = state.structure.follow(DOCUMENT, &Path(owner.to_vec())).ok()?;
+        let all = state.structure.constraints.iter().enumerate();
+        let mut own = all.filter(|(_, instance)| instance.owner == owner);
+        let document = &state.lowered.document;
+        let (index, _) = own.find(|(_, one)| constraint_name(document, **one) == **name)?;
+        unnamed(state, u32::try_from(index).ok()?)
+    };
+    let Command::Enable { path, on } = command else { return command_label(command) };
+    match said(path) {
+        Some(said) => format!("switch {said} {}", if *on { "on" } else { "off" }),
+        None => command_label(command),
+    }
 }
 
 /// Whether a constraint is one of those that a loop makes of one line.

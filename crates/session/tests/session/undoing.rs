@@ -208,3 +208,16 @@ fn two_that_are_deleted_apart_are_undone_by_their_names() {
     desk.apply(&command).expect("they can go");
     assert_eq!(desk.undo_label().as_deref(), Some("delete a, c"));
 }
+
+#[test]
+fn a_constraint_without_a_name_is_told_by_what_it_says_in_the_list_of_steps() {
+    let mut desk = Desk::of(
+        "use geometry\na: Line { p1 = (0, 0)  p2 = (30, 40) }\nconstraint a.length = 50\nconstraint level: a.horizontal\n",
+    );
+    let label = |desk: &Desk| desk.undo_label();
+    let off = |path: &str| Command::Enable { path: at(path), on: false };
+    desk.apply(&off("constraint1")).expect("it can be off");
+    assert_eq!(label(&desk).as_deref(), Some("switch “length of a = 50” off"));
+    desk.apply(&off("level")).expect("it can be off");
+    assert_eq!(label(&desk).as_deref(), Some("switch level off"));
+}
