@@ -70,7 +70,7 @@ pub fn named_things(rows: &[StructureRow]) -> Vec<String> {
     rows.iter().filter(is_named).map(|row| row.path.clone()).collect()
 }
 
-/// What has the words that are wanted in its label; then what has them in its own name; then what has each of
+/// What has the words that are wanted in its label, where a word begins or within one; then what has them in its own name; then what has each of
 /// them somewhere; then what has all their letters in order, the shortest first: an action in its label, a
 /// document, whose title may be long, in its path.
 ///
@@ -87,7 +87,8 @@ pub fn matching<A: Clone>(
         let (label, name, short) =
             (label.to_lowercase(), name.to_lowercase(), short.to_lowercase());
         match () {
-            () if label.contains(&wanted) => Some((0, 0)),
+            () if has_word_with(&label, &wanted) => Some((0, 0)),
+            () if label.contains(&wanted) => Some((0, 1)),
             () if name.contains(&wanted) => Some((1, 0)),
             () if wanted.split_whitespace().all(|word| label.contains(word)) => Some((2, 0)),
             () => scattered(&short, &wanted).then_some((3, short.len())),
@@ -127,6 +128,14 @@ pub fn matching<A: Clone>(
     let mut found: Vec<_> = all.filter_map(|(rank, choice)| Some((rank?, choice))).collect();
     found.sort_by_key(|(rank, _)| *rank);
     found.into_iter().map(|(_, choice)| choice).collect()
+}
+
+/// Whether a word of a label begins so.
+fn has_word_with(label: &str, wanted: &str) -> bool {
+    let begins = |(at, _): (usize, &str)| {
+        !label[..at].chars().next_back().is_some_and(char::is_alphanumeric)
+    };
+    label.match_indices(wanted).any(begins)
 }
 
 fn scattered(label: &str, wanted: &str) -> bool {
@@ -208,6 +217,9 @@ mod tests {
         };
         assert_eq!(first("zoom in"), "zoom-in");
         assert_eq!(first("undo"), "undo");
+        // at the beginning of a word before within one
+        assert_eq!(first("in"), "insert");
+        assert_eq!(first("do"), "new");
         assert_eq!(first("load bridge"), "gallery/bridge.thing");
         assert_eq!(first("under load"), "gallery/bridge.thing");
         assert_eq!(first("ftp"), "fit");

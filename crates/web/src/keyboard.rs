@@ -1,11 +1,68 @@
 //! Where the keyboard is: what gets it, and what has it again when something that had it is gone.
 
-use leptos::prelude::{document, request_animation_frame};
+use crate::lab::Lab;
+use leptos::ev::KeyboardEvent;
+use leptos::prelude::{GetUntracked, Set, WithUntracked, document, request_animation_frame};
 use wasm_bindgen::JsCast;
 use web_sys::{Element, HtmlElement};
 
 /// The row of the structure that Tab leads to.
 const STOP_OF_TREE: &str = "[role=treeitem][tabindex='0']";
+
+/// Which part of the page keys go to.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum KeysAt {
+    /// The picture, or nothing.
+    Picture,
+    /// The tree of the structure.
+    Structure,
+    /// The bin.
+    Bin,
+    /// The strip of what fits the selection.
+    Strip,
+    /// Anything else.
+    Elsewhere,
+}
+
+/// Follows keys: what the status line says is for who uses them, until a pointer is pressed.
+pub fn follow_key(lab: Lab, e: &KeyboardEvent) {
+    // held down with the pointer, these are no keys of their own
+    if !["Shift", "Control", "Alt", "Meta"].contains(&e.key().as_str()) {
+        set_keys(lab, Some(keys_at()));
+    }
+}
+
+/// Follows who has the keyboard, while keys are what is used.
+pub fn follow_focus(lab: Lab) {
+    if lab.keys.with_untracked(Option::is_some) {
+        set_keys(lab, Some(keys_at()));
+    }
+}
+
+/// A pointer is used instead.
+pub fn follow_pointer(lab: Lab) {
+    set_keys(lab, None);
+}
+
+fn set_keys(lab: Lab, now: Option<KeysAt>) {
+    if lab.keys.get_untracked() != now {
+        lab.keys.set(now);
+    }
+}
+
+fn keys_at() -> KeysAt {
+    let Some(held) = holder().filter(|held| held.tag_name() != "BODY") else {
+        return KeysAt::Picture;
+    };
+    let is_in = |selector| held.closest(selector).is_ok_and(|found| found.is_some());
+    match () {
+        () if is_in("#picture") => KeysAt::Picture,
+        () if is_in("[role=tree]") => KeysAt::Structure,
+        () if is_in(".bin") => KeysAt::Bin,
+        () if is_in(".strip") => KeysAt::Strip,
+        () => KeysAt::Elsewhere,
+    }
+}
 
 /// Gives the keyboard to the first element of a selector, if there is one.
 pub fn focus(selector: &str) {
@@ -121,7 +178,7 @@ fn stop_at(all: &[HtmlElement], at: usize) {
 
 /// What a key does in a list that is one stop: down and up lead from row to row, right and left from button to button,
 /// Home and End to the ends.
-pub fn go_in(list: &str, e: &web_sys::KeyboardEvent) {
+pub fn go_in(list: &str, e: &KeyboardEvent) {
     let all = buttons(list);
     let held = holder();
     let is_held = |b: &HtmlElement| held.as_ref().is_some_and(|held| b.is_same_node(Some(held)));
@@ -150,6 +207,22 @@ pub fn go_in(list: &str, e: &web_sys::KeyboardEvent) {
         stop_at(&all, to);
         focus_element(&all[to]);
     }
+}
+
+/// What an arrow key does in a row of buttons, each of which is a stop of Tab: it leads to the next one.
+pub fn go_beside(list: &str, e: &KeyboardEvent) {
+    let all = buttons(list);
+    let held = holder();
+    let is_held = |b: &HtmlElement| held.as_ref().is_some_and(|held| b.is_same_node(Some(held)));
+    let Some(at) = all.iter().position(is_held) else { return };
+    let to = match e.key().as_str() {
+        "ArrowRight" | "ArrowDown" => (at + 1) % all.len(),
+        "ArrowLeft" | "ArrowUp" => (at + all.len() - 1) % all.len(),
+        _ => return,
+    };
+    e.prevent_default();
+    e.stop_propagation();
+    focus_element(&all[to]);
 }
 
 /// Gives the keyboard to the first button of a list that is one stop.

@@ -11,6 +11,7 @@ use crate::drafting::Drafting;
 use crate::files::Files;
 use crate::first;
 use crate::js;
+use crate::keyboard::KeysAt;
 use crate::menu::{self, Menu};
 use crate::player::Player;
 use crate::plot::Plotting;
@@ -200,6 +201,8 @@ pub struct Lab {
     pub cursor: RwSignal<Option<(f64, f64)>>,
     /// Where on the sheet a key has brought the tool in the hand; nothing once the pointer has moved it.
     pub keyed: RwSignal<Option<(f64, f64)>>,
+    /// Where keys go; nothing while a pointer was used last.
+    pub keys: RwSignal<Option<KeysAt>>,
     /// Whether the tool was taken out of the bin with the button held down.
     pub carried: StoredValue<bool>,
     /// What the thing that is dragged would be joined with.
@@ -381,6 +384,7 @@ impl Lab {
             typed: RwSignal::new(String::new()),
             cursor: RwSignal::new(None),
             keyed: RwSignal::new(None),
+            keys: RwSignal::new(None),
             carried: StoredValue::new(false),
             dropping: RwSignal::new(None),
             player: Player::default(),

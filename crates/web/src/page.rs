@@ -55,6 +55,7 @@ pub fn Page() -> impl IntoView {
             lab.renew_document();
         }),
         window_event_listener(ev::keydown, move |e| {
+            keyboard::follow_key(lab, &e);
             if !e.default_prevented() && actions::key(lab, &e) {
                 e.prevent_default();
             }
@@ -84,7 +85,9 @@ pub fn Page() -> impl IntoView {
     });
     let shown = Memo::new(move |_| lab.current.get());
     view! {
-        <div class="page">
+        <div class="page" on:keydown:capture=move |e| keyboard::follow_key(lab, &e)
+            on:pointerdown:capture=move |_| keyboard::follow_pointer(lab)
+            on:focusin=move |_| keyboard::follow_focus(lab)>
             <Show when=move || shown.with(Option::is_some)>
                 <a class="skip" href="#picture" on:click=move |e: ev::MouseEvent| {
                     e.prevent_default();

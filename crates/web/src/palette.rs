@@ -30,8 +30,19 @@ fn Open(lab: Lab) -> impl IntoView {
         let wanted = wanted.get();
         let actions = ACTIONS.iter().map(|action| (action, action.id, action.label));
         let actions: Vec<palette::Named<&'static Action>> = actions.collect();
-        lab.listed
-            .with(|listed| drawn.with(|drawn| palette::matching(&wanted, &actions, listed, drawn)))
+        let mut found = lab
+            .listed
+            .with(|listed| drawn.with(|drawn| palette::matching(&wanted, &actions, listed, drawn)));
+        if wanted.is_empty() {
+            // who looks what there is sees first what can be done now
+            let place = |choice: &Choice<&'static Action>| match choice {
+                Choice::Do(action) if untrack(|| (action.enabled)(lab)).is_ok() => 0,
+                Choice::Do(_) => 1,
+                Choice::Draw(_) | Choice::Insert(_) | Choice::Select(_) | Choice::Open(_) => 2,
+            };
+            found.sort_by_key(place);
+        }
+        found
     });
     leptos::task::spawn_local(async move {
         // Without the list there are still the actions.

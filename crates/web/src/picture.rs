@@ -33,8 +33,12 @@ const MARGIN: f64 = 56.0;
 /// So many pixels of its lower edge stay free, unless it is lower than this.
 const BELOW: f64 = 64.0;
 const LOW: f64 = 420.0;
+/// How high the strip of what fits a selection is.
+const STRIP: f64 = 48.0;
 /// How much of its right side the document covers of the picture of a class, in a window wider than this.
 const INSET: f64 = 212.0;
+/// The same of what is decided of a class by example.
+const EXAMPLE: f64 = 372.0;
 const NARROW: f64 = 900.0;
 
 /// The picture of the open document.
@@ -447,11 +451,15 @@ fn look(lab: Lab, view: View) {
     }
 }
 
-/// How much of the right side of a picture the document covers that a shown class is of.
+/// How much of the right side of a picture is covered: by what is decided of a class by example, or by the document that
+/// a shown class is of.
 fn covered(lab: Lab) -> f64 {
     let width = window().inner_width().ok().and_then(|width| width.as_f64());
-    let is_wide = width.is_some_and(|width| width > NARROW);
-    if is_wide && lab.prototype.with_untracked(Option::is_some) { INSET } else { 0.0 }
+    match width.is_some_and(|width| width > NARROW) {
+        true if lab.attachers.with_untracked(Option::is_some) => EXAMPLE,
+        true if lab.prototype.with_untracked(Option::is_some) => INSET,
+        true | false => 0.0,
+    }
 }
 
 /// How far what is fitted stays from the sides of a canvas of that size.
@@ -479,7 +487,7 @@ fn zoom_as_asked(lab: Lab, size: (f64, f64), left: StoredValue<Option<Left>>) {
     let room = Room::of(lab, size);
     match asked {
         Zoom::Over(all) => {
-            look(lab, lab.view.get_untracked().with_in_sight(all, size, margin));
+            look(lab, lab.view.get_untracked().with_in_sight(all, (room.width, size.1), margin));
         }
         Zoom::Fit => {
             // what is drawn must not move under a hand that holds a tool
@@ -558,12 +566,14 @@ struct Room {
 impl Room {
     /// What waits or is offered lies over the lower edge, a lesson over the upper one.
     fn of(lab: Lab, (width, height): (f64, f64)) -> Self {
-        let width = width - covered(lab);
+        let width = width - covered(lab).min(width / 2.0);
         let card = lab.card.get_untracked();
         if height <= LOW {
-            // a lesson leaves half of a low picture at least
-            let above = card.min(height / 2.0);
-            return Self { width, above, height: height - above };
+            // a lesson, and what is offered of a selection, leave half of a low picture at least
+            let below = if lab.selected.with_untracked(Option::is_some) { STRIP } else { 0.0 };
+            let below = below.min(height / 4.0);
+            let above = card.min(height / 2.0 - below);
+            return Self { width, above, height: height - above - below };
         }
         let above = card.min((height - LOW).max(height / 4.0));
         Self { width, above, height: height - BELOW - above }

@@ -4,6 +4,7 @@ use crate::actions::{self, ACTIONS, Action, Group};
 use crate::annotated::Sizing;
 use crate::lab::{Lab, Notice, Zoom};
 use crate::{icons, keyboard, words};
+use drawing::Bounds;
 use leptos::prelude::*;
 use presentation::palette::Makeable;
 use presentation::typing::{adds, pointed};
@@ -252,6 +253,12 @@ impl Lab {
                     Some(pointer) => {
                         self.set_cursor(pointer.at);
                         self.tool_set(&pointer);
+                        // a place that was typed may lie anywhere
+                        if pointer.is_typed {
+                            let p = drawing::Point { x: pointer.at.0, y: pointer.at.1 };
+                            let all = self.drawn_box().map_or(Bounds::at(p), |drawn| drawn.with(p));
+                            self.zoom.set(Some(Zoom::Over(all)));
+                        }
                     }
                     None => self.say_refused(self.typed.with_untracked(|t| words::no_length(t))),
                 }
@@ -259,7 +266,10 @@ impl Lab {
             }
             "Tab" => {
                 let along = if far { Along::Back } else { Along::Next };
-                let pointer = self.keyboard_pointer(size);
+                // before keys or a pointer have been anywhere it begins with the first
+                let is_nowhere = self.cursor.with_untracked(Option::is_none);
+                let nowhere = || self.pointer_at((-1e6, -1e6), 12.0, false);
+                let pointer = if is_nowhere { nowhere() } else { self.keyboard_pointer(size) };
                 let stop = self.ask_of_shown(|session, id| session.tool_stop(id, &pointer, along));
                 let Some(at) = stop.flatten() else { return false };
                 self.set_cursor(at);

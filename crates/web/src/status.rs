@@ -2,6 +2,7 @@
 
 use crate::annotated::Sizing;
 use crate::apart::apart;
+use crate::keyboard::KeysAt;
 use crate::lab::{Kind, Lab, Notice};
 use crate::marked::marked;
 use crate::player::NowPlaying;
@@ -57,13 +58,10 @@ pub fn StatusLine(
                 .replace(words::CLICK, words::TOUCH);
             return lab.tool.with(Option::is_some).then(|| typed.unwrap_or(first));
         }
-        let has_keys = lab.cursor.with(Option::is_none) || lab.keyed.with(Option::is_some);
-        let hint = match has_keys {
-            true => format!("{hint}; {}", words::TOOL_KEYS),
-            false => hint,
-        };
-        let sizes =
-            (lab.annotated.sizing.get() != Sizing::Off).then(|| String::from(words::SIZING));
+        let has_keys = lab.cursor.with(Option::is_none) || lab.keys.with(Option::is_some);
+        let hint = if has_keys { words::tool_by_keys(&hint) } else { hint };
+        let sizes = (lab.annotated.sizing.get() != Sizing::Off)
+            .then(|| String::from(if has_keys { words::SIZING_BY_KEYS } else { words::SIZING }));
         lab.tool.with(Option::is_some).then(|| typed.unwrap_or(hint)).or(sizes)
     });
     let swept = move || {
@@ -73,8 +71,8 @@ pub fn StatusLine(
     let wanted =
         move || lab.drafting.prompt.with(|prompt| prompt.as_ref().map(|p| p.words.clone()));
     let idle = move || {
-        let is_bare = lab.selected.with(Option::is_none) && lab.document.with(Option::is_some);
-        (is_bare && !js::coarse()).then(|| String::from(words::BAND_HINT))
+        let is_there = lab.document.with(Option::is_some) && !js::coarse();
+        is_there.then(|| String::from(idle_hint(lab)))
     };
     let heard = Memo::new(move |_| {
         let held = drag.get().or_else(swept).or_else(wanted).or_else(|| said.get());
@@ -100,6 +98,24 @@ pub fn StatusLine(
                 {move || heard.get().map(|said| marked(&said))}
             </span>
         </footer>
+    }
+}
+
+/// What can be done next with nothing in the hand: by keys where they go, or by the pointer.
+fn idle_hint(lab: Lab) -> &'static str {
+    let is_selected = lab.selected.with(Option::is_some);
+    let is_empty = || lab.picture.with(|picture| picture.drawing.elements.is_empty());
+    match lab.keys.get() {
+        Some(_) if !lab.status.with(|status| status.satisfied) => words::KEYS_OF_CONFLICT,
+        Some(KeysAt::Bin) => words::KEYS_IN_BIN,
+        Some(KeysAt::Strip) => words::KEYS_IN_STRIP,
+        Some(KeysAt::Structure) => words::KEYS_IN_TREE,
+        Some(KeysAt::Picture | KeysAt::Elsewhere) if is_selected => words::KEYS_OF_SELECTION,
+        Some(KeysAt::Picture) if is_empty() => words::KEYS_OF_EMPTY,
+        Some(KeysAt::Picture) => words::KEYS_IN_PICTURE,
+        Some(KeysAt::Elsewhere) => words::KEYS_ELSEWHERE,
+        None if is_selected => words::HAND_HINT,
+        None => words::BAND_HINT,
     }
 }
 

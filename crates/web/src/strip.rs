@@ -47,7 +47,8 @@ pub fn Strip(
     view! {
         <Show when=is_shown>
             <div class="strip" role="toolbar" aria-label=words::CONSTRAIN
-                on:pointerleave=move |_| lab.foresee(None)>
+                on:pointerleave=move |_| lab.foresee(None)
+                on:keydown=|e| keyboard::go_beside(".strip", &e)>
                 // a finger has no key that selects besides
                 <Show when=move || lab.touch.get()>
                     <button class="adding" title=words::ALSO_HELP aria-pressed=move || lab.adding.get().to_string()

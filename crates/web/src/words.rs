@@ -92,8 +92,6 @@ pub const TOOLS: &str = "Tools";
 pub const STATUS: &str = "Status";
 pub const RESIZE: &str = "Resize";
 pub const PICTURE_HELP: &str = "Tab chooses a point, the arrow keys move it, F fits the picture.";
-/// What keys do with a tool that a key has moved.
-pub const TOOL_KEYS: &str = "Enter: there; Tab: next point or middle; 120,40: a place";
 
 pub const OPEN_GALLERY: &str = "Gallery";
 pub const SAVE: &str = "Save";
@@ -138,9 +136,6 @@ pub const SELECT_ALL: &str = "Select everything";
 pub const NOTHING_COPIED: &str = "nothing was copied";
 pub const NO_THINGS_COPIED: &str = "the clipboard holds no text that says something of things";
 pub const NOTHING_THERE: &str = "the document has no things";
-/// What the mouse does with nothing in the hand.
-pub const BAND_HINT: &str =
-    "drag over things to select them; Space and drag: move the sheet; wheel: zoom";
 pub const CLASS_OF: &str = "Make a class of it";
 pub const NUMBER: &str = "Number with a slider";
 pub const ASK_NUMBER: &str = "A number with its name, such as turn = 30 deg";
@@ -225,7 +220,7 @@ pub const NO_DOCUMENT: &str = "no document is open";
 pub const NOTHING_SELECTED: &str = "nothing is selected";
 pub const NOT_A_CONSTRAINT: &str = "the selection is not a constraint";
 pub const IS_A_CONSTRAINT: &str = "a constraint has no value to lock";
-pub const ONE_SELECTED: &str = "only one thing is selected; hold Ctrl to choose another";
+pub const ONE_SELECTED: &str = "only one thing is selected; Ctrl+click, or in the structure Ctrl+arrows and Ctrl+Space, choose another";
 pub const NOT_MERGED: &str = "the selection is not merged with anything";
 pub const NO_PATH: &str = "this has no name of its own: take it out of the text";
 pub const NO_SUCH_ACTION: &str = "No action has this name.";

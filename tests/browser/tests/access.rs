@@ -2,7 +2,9 @@
 //! narrow window.
 
 use browser::Visit;
-use browser::hands::{begin, chord, drag, grip, key, keys, place, point, show, state};
+use browser::hands::{
+    begin, chord, drag, grip, key, keys, place, point, set_place_by_keys, show, state,
+};
 use fantoccini::actions::MOUSE_BUTTON_LEFT;
 use serde_json::json;
 
@@ -113,4 +115,41 @@ async fn the_keyboard_stays_in_the_search_and_finds_the_family_by_it() {
     visit.until("document.activeElement.value === 'family'").await;
     keys(&visit, &key::ENTER.to_string()).await;
     visit.until("document.activeElement.id === 'tab-family'").await;
+}
+
+#[tokio::test]
+async fn who_uses_keys_is_told_what_they_do_where_they_go() {
+    let visit = begin().await;
+    let said =
+        |words: &str| format!("document.querySelector('.said').innerText.includes('{words}')");
+    chord(&visit, &[], '?').await;
+    visit.until("document.querySelector('.palette input') === document.activeElement").await;
+    chord(&visit, &[], key::ESCAPE).await;
+    visit.until(&said("L: a line")).await;
+    chord(&visit, &[], 'l').await;
+    visit.until(&said("Line: Enter to set its first point")).await;
+    // a place that is typed is in sight, wherever it lies
+    for place in ["-3000,-2000", "700,80"] {
+        set_place_by_keys(&visit, place).await;
+    }
+    visit.until("window.__thinglab.state().text.includes('p1 = (-3000, -2000)')").await;
+    visit.until(&said("Line: Enter to set its second point")).await;
+    visit
+        .until(
+            "(r => window.__thinglab.state().grips.every(g => g.px > r.left && g.py > r.top && g.px < r.right && g.py < r.bottom))(document.getElementById('picture').getBoundingClientRect())",
+        )
+        .await;
+    chord(&visit, &[], key::ESCAPE).await;
+    chord(&visit, &[], key::ESCAPE).await;
+    visit.until(&said("K: what can hold of it")).await;
+    chord(&visit, &[key::ALT], '2').await;
+    visit.until(&said("Ctrl+Space: another as well")).await;
+    chord(&visit, &[], 'k').await;
+    visit.until("document.activeElement.dataset.offer === 'horizontal'").await;
+    visit.until(&said("so it shall be")).await;
+    chord(&visit, &[], key::RIGHT).await;
+    visit.until("document.activeElement.dataset.offer === 'vertical'").await;
+    // the pointer has hints of its own
+    point(&visit, (400.0, 600.0), MOUSE_BUTTON_LEFT).await;
+    visit.until(&said("wheel: zoom")).await;
 }

@@ -767,7 +767,7 @@ pub const ACTIONS: &[Action] = &[
         group: Group::Go,
         contexts: &[],
         label: words::PALETTE,
-        keys: &["Ctrl+K", "Ctrl+Shift+P"],
+        keys: &["Ctrl+K", "Ctrl+Shift+P", "?", "F1"],
         enabled: |_| Ok(()),
         run: |lab| lab.palette.update(|open| *open = !*open),
     },

@@ -5,6 +5,7 @@
 use super::sheet_point;
 use crate::actions::Context;
 use crate::js;
+use crate::keyboard;
 use crate::lab::Lab;
 use crate::menu;
 use crate::sheet::View;
@@ -316,6 +317,7 @@ impl Hand {
     fn pointer(self, at: (f64, f64)) -> Pointer {
         let alone = self.state.with_value(|state| state.shift);
         self.lab.cursor.set(Some(at));
+        keyboard::follow_pointer(self.lab);
         if self.lab.keyed.with_untracked(Option::is_some) {
             self.lab.keyed.set(None);
         }

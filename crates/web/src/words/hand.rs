@@ -4,6 +4,43 @@
 pub const EMPTY_SHEET: &str = "The sheet is empty. Draw with a tool of the rail, take a part out of the bin, or choose a construction under Draw.";
 /// What the mouse does while things are given sizes.
 pub const SIZING: &str = "Dimension: click a line or a circle, type; a second click before that: between both; Enter sets it; Esc: done";
+/// What the mouse does with nothing in the hand.
+pub const BAND_HINT: &str =
+    "drag over things to select them; Space and drag: move the sheet; wheel: zoom; ?: all keys";
+/// What it does with what is selected.
+pub const HAND_HINT: &str = "Ctrl+click: another as well; double-click: its value; right click: what can be done with it; ?: all keys";
+/// What keys do on an empty sheet.
+pub const KEYS_OF_EMPTY: &str = "L: a line; C: a circle; I: a part out of the bin; Alt+7: constructions; ?: all that can be done, with its keys";
+/// What they do in the picture, with nothing selected.
+pub const KEYS_IN_PICTURE: &str = "Tab: the next point; Alt+2: the structure, to select anything; ?: all that can be done, with its keys";
+/// What they do with what is selected.
+pub const KEYS_OF_SELECTION: &str = "K: what can hold of it; D: its size; Alt+5: its values; Alt+2: choose others in the structure; Shift+F10: menu; ?: all keys";
+/// What they do in the structure.
+pub const KEYS_IN_TREE: &str = "↑ ↓ → ←: choose; Ctrl+↑ or ↓, then Ctrl+Space: another as well; K: what can hold; M: merge; Alt+5: values; ?: all keys";
+/// What they do in the bin.
+pub const KEYS_IN_BIN: &str = "Enter: the first of these where there is room; ↓: the others; Alt+2: the structure, to join and select";
+/// What they do in the strip of what fits the selection.
+pub const KEYS_IN_STRIP: &str =
+    "→ ←: the next, which shows what would move; Enter: so it shall be; Alt+1: back to the picture";
+/// What they do where something does not hold.
+pub const KEYS_OF_CONFLICT: &str =
+    "Alt+6: why it does not hold, and what would repair it; Ctrl+Z: undo; ?: all keys";
+/// What they do anywhere else.
+pub const KEYS_ELSEWHERE: &str =
+    "Alt+1: the picture; Alt+2: the structure; Ctrl+K: all that can be done, with its keys";
+
+/// What a tool wants, said to who uses keys: the pointer's words become those of keys, and what only it can do is left out.
+pub fn tool_by_keys(hint: &str) -> String {
+    /// What keys do with any tool.
+    const KEYS: &str = "arrows or Tab: next point, middle; 120,40: a place";
+    let parts: Vec<&str> = hint.split("; ").filter(|part| !part.starts_with("Shift:")).collect();
+    let (first, rest) = parts.split_first().unwrap_or((&"", &[]));
+    let first = first.replace(CLICK_OR_PRESS, "Enter").replace(CLICK, "Enter");
+    [&[first.as_str(), KEYS][..], rest].concat().join("; ")
+}
+
+/// What keys do while things are given sizes.
+pub const SIZING_BY_KEYS: &str = "Dimension: choose a line, a circle or two points in the structure (Alt+2; Ctrl+Space: another as well), then D; Esc: done";
 /// What constraints say, on the drawing.
 pub const ANNOTATIONS: &str = "Show or hide dimensions and signs";
 /// What is said once words have been moved on the drawing.
