@@ -29,6 +29,8 @@ pub fn follow_key(lab: Lab, e: &KeyboardEvent) {
     // held down with the pointer, these are no keys of their own
     if !["Shift", "Control", "Alt", "Meta"].contains(&e.key().as_str()) {
         set_keys(lab, Some(keys_at()));
+        // what had the keyboard may go with what the key does, and nothing tells
+        request_animation_frame(move || follow_focus(lab));
     }
 }
 

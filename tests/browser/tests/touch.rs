@@ -2,7 +2,7 @@
 
 use browser::Visit;
 use browser::hands::{
-    begin, drag_by_finger, grip, middle, state, text_of, touch, touch_twice, word,
+    begin, drag_by_finger, grip, middle, show, state, text_of, touch, touch_twice, word,
 };
 use browser::hands::{chord, key, keys};
 use serde_json::Value;
@@ -173,4 +173,24 @@ async fn dimension(visit: &Visit, label: &str, value: &str) {
     visit.until("document.activeElement.id === 'asked'").await;
     keys(visit, value).await;
     chord(visit, &[], key::ENTER).await;
+}
+
+#[tokio::test]
+async fn a_linkage_is_plotted_over_a_drag_by_touch_and_nothing_lies_over_its_crank() {
+    let (visit, _) = begin_on_a_phone().await;
+    let shown = show(&visit, "four-bar.thing").await;
+    touch(&visit, &[grip(&shown, "coupler.p2")]).await;
+    visit.until("window.__thinglab.state().selected === 'coupler.p2'").await;
+    press(&visit, ".handles button:last-child").await;
+    press(&visit, "#tab-plot").await;
+    press(&visit, ".plot-form button").await;
+    // what is offered of the selection leaves the low picture free
+    visit.until("document.querySelector('.strip')").await;
+    let free = "window.__thinglab.state().grips.every(g => document.elementFromPoint(g.px, g.py).id === 'picture')";
+    visit.until(free).await;
+    visit.picture("plot-on-a-phone").await;
+    let now = state(&visit).await;
+    let (center, tip) = (grip(&now, "ground.p1"), grip(&now, "crank.p2"));
+    drag_by_finger(&visit, tip, (center.0, center.1 - (tip.0 - center.0))).await;
+    visit.until("document.body.innerText.includes('CSV')").await;
 }
