@@ -96,12 +96,15 @@ pub(crate) fn recognise(state: &State, paths: &[Path]) -> Result<Vec<Recognised>
     Ok(found)
 }
 
+/// What is written of things as parts of a class: each field with its part, and the ends of those that run the other way.
+type Placed<'a> = (&'a [(String, String)], &'a [Option<[Name; 2]>]);
+
 /// Writes a thing of a class whose parts are those selected; they stand first, so that they keep their
 /// values. What runs the other way is joined end by end. Its parameters are given what they are.
 fn members(
     state: &State,
     class: &Name,
-    (parts, turned): (&[(String, String)], &[Option<[Name; 2]>]),
+    (parts, turned): Placed<'_>,
     given: &[(Name, f64)],
 ) -> String {
     let name = free_name(state, class);
