@@ -29,6 +29,8 @@ struct Tree {
     /// Rows above this depth are open unless they are toggled; 0 before there are any.
     open_depth: Memo<u32>,
     toggled: RwSignal<BTreeSet<String>>,
+    /// The rows that were opened for what is selected, and are shut again with the next selection.
+    revealed: StoredValue<BTreeSet<String>>,
     current: RwSignal<usize>,
     editing: RwSignal<Option<usize>>,
     /// The rows that no shut row hides.
@@ -54,6 +56,7 @@ impl Tree {
             lab,
             open_depth,
             toggled,
+            revealed: StoredValue::new(BTreeSet::new()),
             current: RwSignal::new(0),
             editing: RwSignal::new(None),
             visible,
@@ -112,11 +115,15 @@ impl Tree {
     }
 
     fn toggle(self, row: &StructureRow) {
-        self.toggled.update(|toggled| {
-            if !toggled.remove(&row.path) {
-                toggled.insert(row.path.clone());
-            }
-        });
+        self.revealed.update_value(|revealed| _ = revealed.remove(&row.path));
+        self.turn(&BTreeSet::from([row.path.clone()]));
+    }
+
+    /// Opens the rows of some paths that are shut, and shuts those that are open.
+    fn turn(self, paths: &BTreeSet<String>) {
+        if !paths.is_empty() {
+            self.toggled.update(|toggled| *toggled = &*toggled ^ paths);
+        }
     }
 
     /// Gives a row the keyboard and selects its thing.
@@ -277,25 +284,23 @@ pub fn Structure(
     // what is chosen beside it moves nothing: the keyboard stays at its row, as at one that speaks of it
     let chosen = Memo::new(move |_| lab.selected.get());
     Effect::new(move |_| {
-        if let Some(path) = chosen.get() {
-            let current = tree.current.get_untracked();
-            let is_seen =
-                tree.visible.with_untracked(|all| all.iter().any(|row| row.at == current));
-            let spoken_of = tree.row(current).filter(|_| is_seen).and_then(thing_of);
-            if spoken_of.as_ref() != Some(&path) {
-                // the tree may have gone with its tab
-                let is_so = move |path: &String| {
-                    chosen.try_get_untracked().flatten().as_ref() == Some(path)
-                };
-                lab.behind_hand(
-                    1,
-                    Box::new(move || {
-                        if is_so(&path) {
-                            reveal(tree, &path);
-                        }
-                    }),
-                );
-            }
+        let path = chosen.get();
+        let current = tree.current.get_untracked();
+        let is_seen = tree.visible.with_untracked(|all| all.iter().any(|row| row.at == current));
+        let spoken_of = tree.row(current).filter(|_| is_seen).and_then(thing_of);
+        if spoken_of != path || path.is_none() {
+            // the tree may have gone with its tab
+            let is_so = move |path: &Option<String>| {
+                chosen.try_get_untracked().is_some_and(|chosen| chosen == *path)
+            };
+            lab.behind_hand(
+                1,
+                Box::new(move || {
+                    if is_so(&path) {
+                        reveal(tree, path.as_deref());
+                    }
+                }),
+            );
         }
     });
     // a row that is made anew, since rows above it have come or gone, has the keyboard again
@@ -345,29 +350,58 @@ pub fn Structure(
     }
 }
 
-/// Opens what hides a thing's row, and makes it the tree's present row.
-fn reveal(tree: Tree, path: &str) {
+/// Opens what hides a thing's row, shuts what was opened for the one before, and makes it the tree's present row; of
+/// nothing, only shuts.
+fn reveal(tree: Tree, path: Option<&str>) {
+    let is_shut = |row: &StructureRow| !untrack(|| tree.is_open(row));
     let found = tree.lab.structure.with_untracked(|rows| {
-        let at = rows.iter().position(|row| row.path == path && row.kind.has_own_path())?;
-        let mut depth = rows[at].depth;
-        let mut shut = Vec::new();
-        for above in rows[..at].iter().rev() {
-            if above.depth < depth {
-                depth = above.depth;
-                if !untrack(|| tree.is_open(above)) {
-                    shut.push(above.clone());
-                }
-            }
-        }
-        Some((at, shut))
+        let is_it = |row: &StructureRow| Some(row.path.as_str()) == path && row.kind.has_own_path();
+        let at = rows.iter().position(is_it);
+        let above: Vec<StructureRow> = at.map(|at| above(rows, at).cloned().collect())?;
+        Some((at?, above))
     });
-    if let Some((at, shut)) = found {
-        shut.iter().for_each(|row| tree.toggle(row));
-        if tree.current.get_untracked() != at {
-            tree.current.set(at);
-        }
+    let (at, above) = match (path, found) {
+        // a row that is not there yet leaves the tree as it is
+        (Some(_), None) => return,
+        (Some(_), Some((at, above))) => (Some(at), above),
+        (None, _) => (None, Vec::new()),
+    };
+    let held: BTreeSet<String> = above.iter().map(|row| row.path.clone()).collect();
+    let opened: BTreeSet<String> =
+        above.iter().filter(|row| is_shut(row)).map(|row| row.path.clone()).collect();
+    let before = tree.revealed.get_value();
+    tree.turn(&(&(&before - &held) | &opened));
+    tree.revealed.set_value(&(&before & &held) | &opened);
+    // of a row that is shut away, what hides it has the keyboard
+    let now = at.unwrap_or_else(|| {
+        let current = tree.current.get_untracked();
+        tree.lab.structure.with_untracked(|rows| match rows.get(current) {
+            Some(_) => above_shut(rows, current, is_shut),
+            None => current,
+        })
+    });
+    if tree.current.get_untracked() != now {
+        tree.current.set(now);
+    }
+    if let Some(at) = at {
         request_animation_frame(move || tree.scroll_to(at));
     }
+}
+
+/// The rows that a row lies within, the innermost first.
+fn above(rows: &[StructureRow], at: usize) -> impl Iterator<Item = &StructureRow> {
+    let mut depth = rows[at].depth;
+    rows[..at].iter().rev().filter(move |row| {
+        let is_above = row.depth < depth;
+        depth = depth.min(row.depth);
+        is_above
+    })
+}
+
+/// A row, or the outermost one that is shut and hides it.
+fn above_shut(rows: &[StructureRow], at: usize, is_shut: impl Fn(&StructureRow) -> bool) -> usize {
+    let hides = above(rows, at).filter(|row| is_shut(row)).last();
+    hides.and_then(|hides| rows.iter().position(|row| row.path == hides.path)).unwrap_or(at)
 }
 
 /// The class of a row of some kind in the page's style sheet.

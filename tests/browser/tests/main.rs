@@ -11,6 +11,7 @@ mod in_the_browser {
     mod hand;
     mod jobs;
     mod lab;
+    mod looks;
     mod menus;
     mod recorded;
     mod server;

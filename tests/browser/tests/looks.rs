@@ -1,0 +1,39 @@
+//! What a visitor's eye stumbles over: words that are cut off, rows that never shut, red before a word is written.
+
+use browser::Visit;
+use browser::hands::{begin, carry, chord, drag, grip, key, keys, point, show, state};
+use fantoccini::actions::MOUSE_BUTTON_LEFT;
+use serde_json::json;
+
+/// How many rows the tree of the structure has open.
+const ROWS: &str = "return document.querySelector('[role=tree]').style.getPropertyValue('--rows')";
+
+#[tokio::test]
+async fn rows_that_a_selection_opened_are_shut_again_by_the_next() {
+    let visit = Visit::open_empty().await;
+    let opened = show(&visit, "quadrilateral.thing").await;
+    visit.until("document.querySelectorAll('[role=treeitem]').length > 20").await;
+    let first = visit.script(ROWS).await;
+    let row =
+        |path: &str| format!("document.querySelector('[role=treeitem][data-path=\"{path}\"]')");
+    for (path, side) in
+        [("q.outer.side2.p2", "q.outer.side2"), ("q.inner.side1.p1", "q.inner.side1")]
+    {
+        point(&visit, grip(&opened, path), MOUSE_BUTTON_LEFT).await;
+        visit.until(&format!("{}?.matches('.selected')", row(path))).await;
+        visit.until(&format!("{}.getAttribute('aria-expanded') === 'true'", row(side))).await;
+    }
+    assert_eq!(visit.script(&format!("return {}", row("q.outer.side2.p2"))).await, json!(null));
+    // what a hand has opened stays open
+    visit.script(&format!("{}.querySelector('.twist').click()", row("q.outer.side3"))).await;
+    visit.until(&row("q.outer.side3.p2")).await;
+    visit.script("document.getElementById('picture').focus()").await;
+    keys(&visit, &key::ESCAPE.to_string()).await;
+    visit.until(&format!("!{}", row("q.inner.side1.p1"))).await;
+    visit.until(&row("q.outer.side3.p2")).await;
+    visit.script(&format!("{}.querySelector('.twist').click()", row("q.outer.side3"))).await;
+    visit.until(&format!("!{}", row("q.outer.side3.p2"))).await;
+    assert_eq!(visit.script(ROWS).await, first);
+    // the tree is still a stop of Tab
+    visit.until("document.querySelectorAll('[role=treeitem][tabindex=\"0\"]').length === 1").await;
+}
