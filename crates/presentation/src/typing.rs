@@ -1,6 +1,6 @@
-//! What is typed for a tool while one draws: a length, an angle, a place.
+//! What is typed: for a tool while one draws, a length, an angle, a place; and into the text.
 
-use session::view::{Pointer, TypedLength};
+use session::view::{DiagnosticView, Pointer, TypedLength};
 
 /// Whether a key adds to what is typed: a digit, and what a number or an angle begins with; behind that, any sign, so
 /// that nothing which was pressed is missing from what is read.
@@ -28,13 +28,41 @@ pub fn pointed(typed: &str, pointer: Pointer) -> Option<Pointer> {
     Some(Pointer { length, angle, ..pointer })
 }
 
+/// Whether a diagnostic is of the word at whose end somebody types, a byte of the text: it is told once the word is
+/// left.
+pub fn is_of_unfinished(diagnostic: &DiagnosticView, typed_at: Option<u32>) -> bool {
+    let touches = |at| diagnostic.start <= at && at <= diagnostic.end;
+    diagnostic.file.is_empty() && typed_at.is_some_and(touches)
+}
+
 fn number(typed: &str) -> Option<f64> {
     typed.trim().parse().ok().filter(|number: &f64| number.is_finite())
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{Pointer, TypedLength, adds, pointed};
+    use super::{DiagnosticView, Pointer, TypedLength, adds, is_of_unfinished, pointed};
+
+    #[test]
+    fn a_half_typed_word_is_not_told_before_it_is_left() {
+        let of = |start, end, file: &str| DiagnosticView {
+            severity: "error".into(),
+            code: "unknown-class".into(),
+            message: String::new(),
+            hint: None,
+            file: file.into(),
+            start,
+            end,
+            line: 1,
+            column: 1,
+            labels: Vec::new(),
+            fixes: Vec::new(),
+        };
+        assert!(is_of_unfinished(&of(3, 7, ""), Some(7)));
+        assert!(!is_of_unfinished(&of(3, 7, ""), Some(8)), "a space ends it");
+        assert!(!is_of_unfinished(&of(3, 7, ""), None), "nobody types");
+        assert!(!is_of_unfinished(&of(3, 7, "geometry.thing"), Some(7)), "it is in another file");
+    }
 
     #[test]
     fn a_sign_behind_a_digit_is_never_passed_over() {

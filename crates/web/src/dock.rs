@@ -85,11 +85,9 @@ pub fn Dock(
 ) -> impl IntoView {
     let wrong = Memo::new(move |_| {
         let is_wrong = |d: &&session::view::DiagnosticView| d.severity != "recording";
-        lab.text.with(|text| text.diagnostics.iter().filter(is_wrong).count())
+        lab.told_diagnostics().iter().filter(is_wrong).count()
     });
-    let mild = Memo::new(move |_| {
-        lab.text.with(|text| text.diagnostics.iter().all(|d| d.severity != "error"))
-    });
+    let mild = Memo::new(move |_| lab.told_diagnostics().iter().all(|d| d.severity != "error"));
     let tab = move |shown: Tab| {
         view! {
             <button role="tab" id=format!("tab-{}", shown.label().to_lowercase()) aria-controls="dock"

@@ -93,6 +93,8 @@ pub struct Lab {
     pub(crate) files: StoredValue<FileSet>,
     opened: StoredValue<BTreeMap<String, Opened>>,
     pending_text: StoredValue<Option<String>>,
+    /// The byte of the text behind which somebody has just typed, until the cursor leaves it.
+    pub typed_at: RwSignal<Option<u32>>,
     typing: StoredValue<u32>,
     /// How often tables were asked for again: only what came of the last time counts.
     renewals: StoredValue<u32>,
@@ -329,6 +331,7 @@ impl Lab {
             files,
             opened: StoredValue::new(BTreeMap::new()),
             pending_text: StoredValue::new(None),
+            typed_at: RwSignal::new(None),
             typing: StoredValue::new(0),
             renewals: StoredValue::new(0),
             listing: StoredValue::new_local(views::Rows::default()),

@@ -9,6 +9,7 @@ use leptos::ev::KeyboardEvent;
 use leptos::html::{Div, Pre};
 use leptos::prelude::*;
 use presentation::rows::{path_at, span_of};
+use presentation::typing::is_of_unfinished;
 use session::view::{DeclaredView, DiagnosticView, TextView, WordView};
 use session::{Command, Session};
 use wasm_bindgen::closure::Closure;
@@ -55,6 +56,7 @@ pub fn Text(
     });
     Effect::new(move |_| {
         made.track();
+        lab.typed_at.track();
         lab.text.with(|text| {
             // What is being typed is newer than what the session knows.
             if !lab.is_typing() {
@@ -74,7 +76,7 @@ pub fn Text(
             });
         });
     });
-    let diagnostics = Memo::new(move |_| lab.text.with(|text| text.diagnostics.clone()));
+    let diagnostics = Memo::new(move |_| lab.told_diagnostics());
     view! {
         <section class="panel text" aria-label=words::TEXT>
             <header class="head">
@@ -259,9 +261,17 @@ fn options(lab: Lab) -> Object {
     let set = |name: &str, closure: JsValue| set_option(&options, name, &closure);
     set_option(&options, "text", &lab.text.with_untracked(|text| text.source.clone()).into());
     set_option(&options, "label", &words::TEXT.into());
-    let changed = Closure::<dyn FnMut(String)>::new(move |text| lab.typed_text(text));
+    // a change is told before the place of the cursor behind it
+    let is_change = StoredValue::new(false);
+    let changed = Closure::<dyn FnMut(String)>::new(move |text| {
+        is_change.set_value(true);
+        lab.typed_text(text);
+    });
     set("onChange", changed.into_js_value());
     let cursor = Closure::<dyn FnMut(u32)>::new(move |offset| {
+        let typed_at =
+            is_change.try_update_value(std::mem::take).unwrap_or(false).then_some(offset);
+        lab.type_at(typed_at);
         lab.list();
         if let Some(path) = lab.structure.with_untracked(|rows| path_at(rows, offset)) {
             lab.select(Some(path));
@@ -307,7 +317,9 @@ fn show(lab: Lab, editor: &Editor, text: &TextView) {
     let spans: Vec<u32> = tokens.iter().flat_map(|t| [t.start, t.end, number(&t.kind)]).collect();
     let classes: Array = KINDS.iter().map(|kind| JsValue::from(format!("tok-{kind}"))).collect();
     editor.set_tokens(&Uint32Array::from(&spans[..]), &classes);
-    let own = (0_u32..).zip(&text.diagnostics).filter(|(_, d)| d.file.is_empty());
+    let typed_at = lab.typed_at.get_untracked();
+    let own = (0_u32..).zip(&text.diagnostics);
+    let own = own.filter(|(_, d)| d.file.is_empty() && !is_of_unfinished(d, typed_at));
     let squiggles: Array = own.map(|(number, d)| squiggle(number, d)).collect();
     editor.set_diagnostics(&squiggles);
 }

@@ -37,3 +37,26 @@ async fn rows_that_a_selection_opened_are_shut_again_by_the_next() {
     // the tree is still a stop of Tab
     visit.until("document.querySelectorAll('[role=treeitem][tabindex=\"0\"]').length === 1").await;
 }
+
+#[tokio::test]
+async fn a_half_typed_word_is_not_red_before_it_is_left() {
+    let visit = begin().await;
+    visit.script("document.getElementById('tab-text').click()").await;
+    visit.until("document.querySelector('.cm-content')").await;
+    visit.script("document.querySelector('.cm-content').focus()").await;
+    chord(&visit, &[key::CONTROL], key::END).await;
+    keys(&visit, "a: Lin").await;
+    let known = "window.__thinglab.state().diagnostics.some(d => d.code === 'unknown-class')";
+    visit.until(known).await;
+    let red = "return document.querySelectorAll('.cm-lintRange-error, .problems, #tab-text .count').length";
+    assert_eq!(visit.script(red).await, json!(0));
+    // the status says at once that the text is not what is in force
+    visit.until("document.querySelector('.verdict').textContent.includes('one error')").await;
+    keys(&visit, &key::HOME.to_string()).await;
+    visit.until("document.querySelector('.cm-lintRange-error')").await;
+    visit
+        .until(
+            "document.querySelector('.problems li') && document.querySelector('#tab-text .count')",
+        )
+        .await;
+}

@@ -5,8 +5,10 @@ use crate::sheet::bounds;
 use crate::{js, words};
 use drawing::Bounds;
 use leptos::prelude::*;
+use presentation::typing::is_of_unfinished;
 use session::view::{
-    Caught, Change, Choice, Deed, DragState, FixView, Offer, Pointer, Question, Refusal,
+    Caught, Change, Choice, Deed, DiagnosticView, DragState, FixView, Offer, Pointer, Question,
+    Refusal,
 };
 use session::{Clip, Command, DocumentId, Path, Relations, Session};
 use std::time::Duration;
@@ -423,7 +425,7 @@ impl Lab {
         set_timeout(
             move || {
                 if self.typing.try_get_value() == Some(mine) {
-                    self.flush_text();
+                    self.hand_over_text();
                 }
             },
             TYPING_PAUSE,
@@ -436,6 +438,13 @@ impl Lab {
         pending.unwrap_or_else(|| self.text.with_untracked(|text| text.source.clone()))
     }
 
+    /// What is wrong with the text, but for the word that is being typed.
+    pub fn told_diagnostics(self) -> Vec<DiagnosticView> {
+        let typed_at = self.typed_at.get();
+        let is_told = |d: &&DiagnosticView| !is_of_unfinished(d, typed_at);
+        self.text.with(|text| text.diagnostics.iter().filter(is_told).cloned().collect())
+    }
+
     /// Whether the editor holds words that the session has not been given yet.
     pub fn is_typing(self) -> bool {
         self.pending_text.with_value(Option::is_some)
@@ -444,6 +453,19 @@ impl Lab {
     /// Ends what is pending before something else is done: what is played stops, and what was typed into the editor is
     /// handed to the session.
     pub fn flush_text(self) {
+        self.type_at(None);
+        self.hand_over_text();
+    }
+
+    /// Takes note of the byte of the text behind which somebody types; nothing once that word is left.
+    pub fn type_at(self, at: Option<u32>) {
+        if self.typed_at.get_untracked() != at {
+            self.typed_at.set(at);
+        }
+    }
+
+    /// Hands what was typed into the editor to the session.
+    fn hand_over_text(self) {
         self.stop_playing();
         let typed = self.pending_text.try_update_value(Option::take).flatten();
         if let Some(text) = typed {
