@@ -82,7 +82,9 @@ impl Lab {
         let here = self.current.get()?;
         self.listed.with(|all| {
             let mut lessons = all.iter().filter(|one| is_lesson(&one.path) && one.path > here);
-            lessons.next().map(|one| (one.path.clone(), one.title.clone()))
+            // what it is called, without what its document says of it
+            let called = |title: &str| title.split(':').next().unwrap_or(title).to_string();
+            lessons.next().map(|one| (one.path.clone(), called(&one.title)))
         })
     }
 }

@@ -60,3 +60,25 @@ async fn a_half_typed_word_is_not_red_before_it_is_left() {
         )
         .await;
 }
+
+#[tokio::test]
+async fn what_comes_after_the_first_minute_fits_its_card() {
+    let visit = Visit::open_empty().await;
+    show(&visit, "lesson-1-first-minute.thing").await;
+    let next = "document.querySelector('.lesson .primary')";
+    visit.until("document.querySelector('.lesson .place')").await;
+    let opened = state(&visit).await;
+    let from = grip(&opened, "q.outer.side2.p2");
+    drag(&visit, from, (from.0 - 30.0, from.1 + 20.0)).await;
+    visit.until("document.querySelector('.lesson .place').textContent.includes('2 of 3')").await;
+    visit.script("document.querySelector('.verdict').click()").await;
+    visit.until(next).await;
+    visit.script(&format!("{next}.click()")).await;
+    visit.until("document.querySelector('.lesson').textContent.includes('done')").await;
+    visit.until(&format!("{next}?.textContent === 'Next: A figure of your own'")).await;
+    let fits = format!(
+        "{next}.getBoundingClientRect().right <= \
+         document.querySelector('.lesson').getBoundingClientRect().right"
+    );
+    visit.until(&fits).await;
+}
