@@ -78,6 +78,8 @@ pub fn StatusLine(
         let held = drag.get().or_else(swept).or_else(wanted).or_else(|| said.get());
         held.or_else(|| hint.get()).or_else(idle)
     });
+    let is_idle = Memo::new(move |_| asked_for.with(Option::is_none));
+    let heard = Memo::new(move |_| asked_for.get().or_else(idle));
     // until then it is presumed to be as much as before
     let counting = Memo::new(move |_| {
         lab.jobs.going.with(|going| going.as_ref().is_some_and(|g| g.kind == Kind::Freedom))
@@ -94,7 +96,7 @@ pub fn StatusLine(
             </button>
             <NowPlaying lab=lab />
             <Busy lab=lab />
-            <span class="said" aria-live="polite" title=move || heard.get().map(|said| said.replace('`', ""))>
+            <span class="said" class:idle=is_idle aria-live="polite" title=move || heard.get().map(|said| said.replace('`', ""))>
                 {move || heard.get().map(|said| marked(&said))}
             </span>
         </footer>

@@ -82,3 +82,28 @@ async fn what_comes_after_the_first_minute_fits_its_card() {
     );
     visit.until(&fits).await;
 }
+
+/// Whether words are wholly seen.
+fn whole(element: &str) -> String {
+    format!("(e => e && e.scrollWidth <= e.clientWidth)(document.querySelector('{element}'))")
+}
+
+#[tokio::test]
+async fn names_values_and_the_verdict_are_not_cut_off_where_there_is_room() {
+    let visit = Visit::open_empty().await;
+    show(&visit, "washer.thing").await;
+    let row = "[role=treeitem][data-path=\"m8.thickness\"]";
+    visit.until(&format!("document.querySelector('{row}')")).await;
+    for part in [".name", ".value"] {
+        visit.until(&whole(&format!("{row} {part}"))).await;
+    }
+    visit.until(&whole("[role=treeitem][data-path=\"m8.middle\"] .value")).await;
+    // at 200 %
+    visit.client.set_window_size(720, 450).await.expect("a small window");
+    show(&visit, "quadrilateral.thing").await;
+    visit
+        .until("document.querySelector('.verdict').textContent.includes('8 degrees of freedom')")
+        .await;
+    visit.until(&whole(".verdict span")).await;
+    visit.until("document.querySelector('.said').textContent.includes('drag over')").await;
+}
