@@ -211,6 +211,7 @@ fn Numbers(lab: Lab) -> impl IntoView {
         lab.values.with_untracked(of)
     });
     let shown = RwSignal::new(Vec::new());
+    let told = Memo::new(move |_| lab.values.with(|rows| shown.with(|shown| told(rows, shown))));
     Effect::new(move |_| {
         found.track();
         show_more(lab, found, shown);
@@ -242,7 +243,7 @@ fn Numbers(lab: Lab) -> impl IntoView {
                     <For each=move || shown.get() key=Clone::clone let(row)>
                         <values::Row lab=lab at=row.0 place=Place::Inspector within=row.1 />
                         <tr><td colspan="4">
-                            {asked(lab, row.0)}
+                            {asked(lab, row.0, told)}
                             <values::Slider lab=lab at=row.0 />
                         </td></tr>
                     </For>
@@ -279,11 +280,19 @@ fn show_more(lab: Lab, found: Memo<Vec<Inspected>>, shown: RwSignal<Vec<Inspecte
 }
 
 /// What is said of a value, where something is: a program's question, a comment.
-fn asked(lab: Lab, at: usize) -> impl Fn() -> Option<AnyView> {
-    move || {
-        let doc = lab.values.with(|rows| rows.get(at).map(|row| row.doc.clone()))?;
-        (!doc.is_empty()).then(|| view! { <p class="asked quiet">{marked(&doc)}</p> }.into_any())
-    }
+fn asked(lab: Lab, at: usize, told: Memo<BTreeSet<usize>>) -> impl Fn() -> Option<AnyView> {
+    let said = Memo::new(move |_| {
+        let is_told = told.with(|told| told.contains(&at));
+        lab.values.with(|rows| rows.get(at).filter(|_| is_told).map(|row| row.doc.clone()))
+    });
+    move || said.get().map(|doc| view! { <p class="asked quiet">{marked(&doc)}</p> }.into_any())
+}
+
+/// The rows of which something is said that was not said of one above.
+fn told(rows: &[ValueRow], shown: &[Inspected]) -> BTreeSet<usize> {
+    let mut said = BTreeSet::from([""]);
+    let is_new = |at: &usize| rows.get(*at).is_some_and(|row| said.insert(&row.doc));
+    shown.iter().map(|one| one.0).filter(is_new).collect()
 }
 
 /// The constraints of the selection, each with its switch.

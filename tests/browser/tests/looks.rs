@@ -107,3 +107,13 @@ async fn names_values_and_the_verdict_are_not_cut_off_where_there_is_room() {
     visit.until(&whole(".verdict span")).await;
     visit.until("document.querySelector('.said').textContent.includes('drag over')").await;
 }
+
+#[tokio::test]
+async fn what_is_said_of_many_values_is_said_once() {
+    let visit = Visit::open_empty().await;
+    show(&visit, "warren-truss.thing").await;
+    visit.until("document.querySelectorAll('.inspector .values tr input').length > 10").await;
+    let said = "const all = [...document.querySelectorAll('.inspector .asked')].map(p => p.textContent); \
+                return [all.includes('How hard something pulls down at it.'), new Set(all).size === all.length]";
+    assert_eq!(visit.script(said).await, json!([true, true]));
+}
