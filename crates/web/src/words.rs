@@ -142,6 +142,10 @@ pub const ASK_NUMBER: &str = "A number with its name, such as turn = 30 deg";
 pub const EDIT_CLASS: &str = "Edit its class";
 pub const LEAVE_CLASS: &str = "Back to the document";
 pub const BACK_TO_DOCUMENT: &str = "Done";
+
+pub fn leave_class(document: &str) -> String {
+    format!("{LEAVE_CLASS}: {document}")
+}
 pub const EVERY_ONE_FOLLOWS: &str = "every one is like this, and follows";
 pub const NO_OWN_CLASS: &str = "its class is a library's; make a class or a kind of your own first";
 pub const NO_CLASS_SHOWN: &str = "no class is edited";

@@ -61,6 +61,95 @@ async fn gallery_document_panes_and_dialogs_have_no_serious_findings_light_and_d
     }
 }
 
+/// Presses the button that says something.
+async fn press(visit: &Visit, words: &str) {
+    let button = format!(
+        "[...document.querySelectorAll('button')] \
+         .find(b => b.innerText.trim() === '{words}' && b.offsetParent)"
+    );
+    visit.until(&button).await;
+    visit.script(&format!("{button}.click()")).await;
+}
+
+/// Two of a class, a line with a length, and a constraint of that class.
+const FRAME: &str = "use geometry
+class Elbow {
+    one, two: Line
+    merge one.p2 = two.p1
+    constraint level: one.p1.y = one.p2.y
+}
+first: Elbow { one.p1 = (0, 0)  one.p2 = (40, 0)  two.p2 = (40, 30) }
+second: Elbow { one.p1 = (0, 50)  one.p2 = (40, 50)  two.p2 = (40, 80) }
+k: Line { p1 = (60, 0)  p2 = (90, 0) }
+constraint k.length = 30
+constraint off: k.length = 40
+";
+
+#[tokio::test]
+async fn questions_menus_families_plots_and_conflicts_have_no_serious_findings() {
+    let visit = Visit::open_empty().await;
+    visit.put("frame.thing", FRAME);
+    visit.client.execute(AXE, Vec::new()).await.expect("axe is loaded");
+    for scheme in ["light", "dark"] {
+        visit.script(&format!("document.documentElement.style.colorScheme = '{scheme}'")).await;
+        show(&visit, "washer.thing").await;
+        visit.script("document.getElementById('tab-calculator').click()").await;
+        visit.until("document.querySelector('.calculator .expression')").await;
+        visit.script("document.querySelector('.calculator .expression').focus()").await;
+        keys(&visit, &format!("m8.outer / 2{}", key::ENTER)).await;
+        visit.until("document.querySelector('.calculator').innerText.includes('8 mm')").await;
+        accessible(&visit, &format!("{scheme}: calculator")).await;
+        visit.script("document.getElementById('tab-family').click()").await;
+        for view in ["Rows", "Pictures", "Map"] {
+            press(&visit, view).await;
+            visit.until(&format!("[...document.querySelectorAll('.family [aria-checked=true]')].some(b => b.innerText === '{view}')")).await;
+            accessible(&visit, &format!("{scheme}: {view} of a family")).await;
+        }
+        visit.script("document.getElementById('tab-plot').click()").await;
+        accessible(&visit, &format!("{scheme}: plot")).await;
+        visit.script("document.getElementById('tab-plot').click()").await;
+        visit.script("document.getElementById('tab-draw').click()").await;
+        visit.until("document.querySelector('.constructions, .drawing')").await;
+        accessible(&visit, &format!("{scheme}: constructions")).await;
+        visit.script("document.getElementById('tab-structure').click()").await;
+
+        show(&visit, "lesson-2-figure.thing").await;
+        visit.until("document.querySelector('.coach')").await;
+        accessible(&visit, &format!("{scheme}: a lesson")).await;
+
+        show(&visit, "frame.thing").await;
+        let row = |name: &str| {
+            format!(
+                "[...document.querySelectorAll('[role=treeitem]')].find(r => r.querySelector('.name').textContent === '{name}')"
+            )
+        };
+        visit.until(&row("level")).await;
+        visit.script(&format!("{}.click()", row("level"))).await;
+        chord(&visit, &[], key::DELETE).await;
+        visit.until("document.activeElement.closest('.asked')").await;
+        accessible(&visit, &format!("{scheme}: a question")).await;
+        chord(&visit, &[], key::ESCAPE).await;
+        visit.script("document.querySelector('.verdict').click()").await;
+        visit.until("document.querySelector('.why .repair')").await;
+        accessible(&visit, &format!("{scheme}: a conflict")).await;
+        visit.script("document.querySelector('.verdict').click()").await;
+        visit.script(&format!("{}.click()", row("k"))).await;
+        visit.until("window.__thinglab.state().selected === 'k'").await;
+        accessible(&visit, &format!("{scheme}: a selected line")).await;
+        visit.script(&format!("{}.dispatchEvent(new MouseEvent('contextmenu', {{ bubbles: true, clientX: 90, clientY: 300 }}))", row("k"))).await;
+        visit.until("document.querySelector('[role=menu]')").await;
+        accessible(&visit, &format!("{scheme}: a menu")).await;
+        chord(&visit, &[], key::ESCAPE).await;
+        visit.script(&format!("{}.click()", row("first"))).await;
+        visit.until("window.__thinglab.state().selected === 'first'").await;
+        chord(&visit, &[key::SHIFT], 'E').await;
+        visit.until("document.querySelector('.class-inset')").await;
+        accessible(&visit, &format!("{scheme}: a class that is edited")).await;
+        visit.script("document.querySelector('.class-inset').click()").await;
+        visit.until("!document.querySelector('.class-inset')").await;
+    }
+}
+
 #[tokio::test]
 async fn the_bin_is_one_stop_of_tab_and_arrows_lead_from_tile_to_tile() {
     let visit = Visit::open(None).await;
