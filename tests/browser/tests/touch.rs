@@ -5,7 +5,7 @@ use browser::hands::{
     begin, drag_by_finger, grip, middle, show, state, text_of, touch, touch_twice, word,
 };
 use browser::hands::{chord, key, keys};
-use serde_json::Value;
+use serde_json::{Value, json};
 
 /// A place of the picture as parts of its width and height.
 struct Picture {
@@ -73,6 +73,16 @@ fn number(state: &Value, path: &str) -> f64 {
     let rows = state["values"].as_array().expect("values are a list");
     let row = rows.iter().find(|row| row["path"] == path);
     row.and_then(|row| row["number"].as_f64()).unwrap_or_else(|| panic!("no number {path}"))
+}
+
+#[tokio::test]
+async fn what_an_action_is_called_is_not_cut_off_by_the_reason_why_it_cannot_be_done() {
+    let (visit, _) = begin_on_a_phone().await;
+    visit.script("document.querySelector('.search').click()").await;
+    visit.until("document.querySelectorAll('.palette li[aria-disabled=true]').length > 9").await;
+    let cut = "return [...document.querySelectorAll('.palette li[aria-disabled=true] .label')] \
+               .filter(l => l.scrollWidth > l.clientWidth).map(l => l.textContent)";
+    assert_eq!(visit.script(cut).await, json!([]));
 }
 
 #[tokio::test]
