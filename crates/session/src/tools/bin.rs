@@ -140,7 +140,8 @@ fn drawn(lone: &Lone, values: &Values) -> Drawing {
     Evaluator::new(&lone.document, &lone.structure, values).picture(lone.thing).drawing
 }
 
-/// What a prototype is given; where that leaves all that sticks in one spot, each has a spot of its own.
+/// What a prototype is given; where that leaves all that sticks in one spot, each has a spot of its own: side by side, or,
+/// where nothing is drawn of it then, above each other.
 fn spread(lone: &Lone, class: ClassId) -> Values {
     let (mut values, _) = eval::given_values(&lone.document, &lone.structure);
     let places: Vec<[SlotId; 2]> = joining::attachers(&lone.document, class)
@@ -150,10 +151,16 @@ fn spread(lone: &Lone, class: ClassId) -> Values {
         .collect();
     let at = |[x, y]: &[SlotId; 2]| (values.numbers[*x], values.numbers[*y]);
     if places.len() > 1 && places.iter().all(|place| at(place) == at(&places[0])) {
-        for (n, [x, y]) in places.iter().enumerate() {
-            let (to_x, to_y) = stages::spot(places.len(), n);
-            values.put(*x, Value::Number(to_x));
-            values.put(*y, Value::Number(to_y));
+        let mut put = |turned: [usize; 2]| {
+            for (n, place) in places.iter().enumerate() {
+                let (x, y) = stages::spot(places.len(), n);
+                values.put(place[turned[0]], Value::Number(x));
+                values.put(place[turned[1]], Value::Number(y));
+            }
+            drawn(lone, &values).elements.is_empty()
+        };
+        if put([0, 1]) && put([1, 0]) {
+            put([0, 1]);
         }
     }
     values

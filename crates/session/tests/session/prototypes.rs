@@ -177,6 +177,17 @@ fn a_tile_of_the_bin_shows_what_the_constraints_of_its_class_make() {
 }
 
 #[test]
+fn what_is_drawn_only_one_above_the_other_has_a_tile() {
+    let mut desk = Desk::of("use drafting\n");
+    let bin = desk.session.bin(desk.id);
+    let picture = |class: &str| bin.iter().find(|entry| entry.class == class).map(|e| &e.picture);
+    for class in ["VerticalDimension", "HorizontalDimension", "LinearDimension"] {
+        let picture = picture(class).expect("it is in the bin");
+        assert!(!picture.elements.is_empty(), "{class}");
+    }
+}
+
+#[test]
 fn the_tiles_of_an_edited_document_are_those_of_one_that_is_opened() {
     let mut desk = Desk::of("use geometry\np: Point = (1, 2)\n");
     for text in [

@@ -32,7 +32,7 @@ pub const NEW_PARAMETER: &str = "A parameter";
 /// What may be typed as a name.
 pub const NAME_HINT: &str = "as inner";
 /// What may be typed as an example.
-pub const EXAMPLE_HINT: &str = "as 84, 30 deg, yes, 3,4";
+pub const EXAMPLE_HINT: &str = "84, 30 deg, yes";
 /// What may be typed as a question.
 pub const QUESTION_HINT: &str = "may stay empty";
 /// What may be typed as the values that are allowed.
