@@ -27,6 +27,7 @@ use crate::why::Why;
 use crate::{bench, icons, js, keyboard, probe, route, words};
 use leptos::ev;
 use leptos::prelude::*;
+use std::time::Duration;
 
 /// The whole page.
 #[component]
@@ -227,19 +228,77 @@ fn Tool(
     hint: Signal<Option<String>>,
 ) -> impl IntoView {
     let why = Memo::new(move |_| (action.enabled)(lab).err());
+    let hold = Hold::of(lab, action);
     let title = move || {
         let says = match why.get() {
             Some(why) => format!("{}: {why}", action.label),
             None => hint.get().unwrap_or_else(|| String::from(action.label)),
         };
-        action.keys.first().map_or(says.clone(), |key| format!("{says} ({key})"))
+        let says = action.keys.first().map_or(says.clone(), |key| format!("{says} ({key})"));
+        if hold.has_list { format!("{says}; {}", words::HOLD_FOR_LIST) } else { says }
     };
     view! {
         <button class="tool" data-action=action.id title=title aria-label=action.label
             aria-disabled=move || why.get().is_some().to_string()
-            on:click=move |_| if why.get_untracked().is_none() { actions::run(action, lab) }>
+            on:pointerdown=move |_| hold.down()
+            on:pointerup=move |_| hold.up()
+            on:pointerleave=move |_| hold.up()
+            on:contextmenu=move |e| if hold.shows() { e.prevent_default() }
+            on:click=move |_| {
+                let is_done = hold.is_shown.try_update_value(std::mem::take).unwrap_or(false);
+                if !is_done && why.get_untracked().is_none() {
+                    actions::run(action, lab);
+                }
+            }>
             {icon()}
         </button>
+    }
+}
+
+/// A button of the steps that is held down, or clicked with the right button: it shows the list of all.
+#[derive(Clone, Copy)]
+struct Hold {
+    lab: Lab,
+    has_list: bool,
+    /// How often it was pressed or let go.
+    presses: StoredValue<u32>,
+    /// Whether this press has shown the list, and is no click.
+    is_shown: StoredValue<bool>,
+}
+
+impl Hold {
+    /// So long it is pressed before the list is shown.
+    const WAIT: Duration = Duration::from_millis(450);
+
+    fn of(lab: Lab, action: &Action) -> Self {
+        let has_list = matches!(action.id, "undo" | "redo");
+        Self { lab, has_list, presses: StoredValue::new(0), is_shown: StoredValue::new(false) }
+    }
+
+    fn down(self) {
+        self.is_shown.set_value(false);
+        self.up();
+        let mine = self.presses.get_value();
+        let wait = move || {
+            if self.presses.try_get_value() == Some(mine) && self.shows() {
+                self.is_shown.set_value(true);
+            }
+        };
+        if self.has_list {
+            set_timeout(wait, Self::WAIT);
+        }
+    }
+
+    fn up(self) {
+        self.presses.update_value(|n| *n = n.wrapping_add(1));
+    }
+
+    /// Shows the list, where there is one.
+    fn shows(self) -> bool {
+        if self.has_list {
+            self.lab.open_drawer(Drawer::History);
+        }
+        self.has_list
     }
 }
 

@@ -186,6 +186,7 @@ pub const NAME_OF_DOCUMENT: &str = "Save under the name";
 pub const DOWNLOAD: &str = "Download the text";
 pub const UNDO: &str = "Undo";
 pub const REDO: &str = "Redo";
+pub const HOLD_FOR_LIST: &str = "hold: the list of steps";
 pub const FIT: &str = "Fit the picture";
 pub const ZOOM_IN: &str = "Zoom in";
 pub const ZOOM_OUT: &str = "Zoom out";

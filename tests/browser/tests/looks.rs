@@ -117,3 +117,24 @@ async fn what_is_said_of_many_values_is_said_once() {
                 return [all.includes('How hard something pulls down at it.'), new Set(all).size === all.length]";
     assert_eq!(visit.script(said).await, json!([true, true]));
 }
+
+#[tokio::test]
+async fn undo_that_is_held_down_shows_the_list_of_steps() {
+    let visit = Visit::open_empty().await;
+    let opened = show(&visit, "quadrilateral.thing").await;
+    let from = grip(&opened, "q.outer.side2.p2");
+    drag(&visit, from, (from.0 - 30.0, from.1 + 20.0)).await;
+    visit.until("window.__thinglab.state().status.undo").await;
+    let undo = "document.querySelector('[data-action=undo]')";
+    visit
+        .script(&format!(
+            "{undo}.dispatchEvent(new PointerEvent('pointerdown', {{ bubbles: true }}))"
+        ))
+        .await;
+    visit.until("document.querySelectorAll('.history li').length === 2").await;
+    // letting go is no click then; the next one is
+    visit.script(&format!("{undo}.click()")).await;
+    visit.until("window.__thinglab.state().status.undo").await;
+    visit.script(&format!("{undo}.click()")).await;
+    visit.until("!window.__thinglab.state().status.undo").await;
+}
