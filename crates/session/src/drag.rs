@@ -645,7 +645,7 @@ impl Drag {
         if is_cut && limits::reach(state, self).is_none() {
             let came = limit.value;
             let message = format!("{came} is as far as it has come: the way is long, and goes on");
-            return DragState { reached: false, message: Some(message), limit: None, modes };
+            return DragState { message: Some(message), modes, ..DragState::default() };
         }
         let mut message = match holds {
             Some(holds) => format!("{words}; {holds}"),
@@ -657,7 +657,8 @@ impl Drag {
         if let Some(whole) = self.keeping.as_ref().and_then(|keeping| keeping.flat_whole()) {
             message += &format!("; beyond it {whole} would be inside out");
         }
-        DragState { reached: false, message: Some(message), limit: Some(limit), modes }
+        let short = limits::shortfall(state, self);
+        DragState { reached: false, message: Some(message), limit: Some(limit), short, modes }
     }
     /// Returns the numbers that are wished of the planner. An angle that is computed goes on past half a turn: near there
     /// it is pressed anew, as what it turns from now on.

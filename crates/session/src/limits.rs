@@ -116,6 +116,11 @@ pub(crate) fn of_drag(state: &State, drag: &Drag) -> (Limit, String) {
     (limit, words)
 }
 
+/// Returns how far a place that is dragged has stopped from the pointer, in units of the sheet; nothing of a number.
+pub(crate) fn shortfall(state: &State, drag: &Drag) -> Option<f64> {
+    place_of(state, drag).map(|(_, at)| away(at, drag.wish))
+}
+
 /// Says how far a place that is dragged reaches from an anchored place, where it lies straight between that and the
 /// pointer.
 pub(crate) fn reach(state: &State, drag: &Drag) -> Option<String> {

@@ -522,6 +522,8 @@ pub struct DragState {
     pub message: Option<String>,
     /// Where it stopped, if it did; nothing where it was left on a long way, which the next wish goes on.
     pub limit: Option<Limit>,
+    /// How far from the pointer a place has stopped, in units of the sheet.
+    pub short: Option<f64>,
     /// What acts otherwise than at the press.
     pub modes: Vec<ModeView>,
 }

@@ -13,6 +13,9 @@ use session::view::{Choice, Question, Recognised, Refusal};
 use session::{Command, Path};
 use std::time::Duration;
 
+/// What stops nearer to the pointer than this, in pixels, is where the pointer is.
+const UNSEEN: f64 = 2.0;
+
 /// The line at the bottom: whether all holds, how free things are, and what was just said.
 #[component]
 pub fn StatusLine(
@@ -33,8 +36,11 @@ pub fn StatusLine(
             lab.picture.track();
             let follow = lab.ask_of_shown(session::Session::dragged_along).unwrap_or_default();
             let modes = drag.modes.iter().map(|mode| mode.message.clone());
-            let said: Vec<String> =
-                drag.message.iter().cloned().chain(modes).chain(follow).collect();
+            // nearer than a hand can see it is there
+            let scale = lab.view.with(|view| view.scale);
+            let is_there = drag.short.is_some_and(|short| short * scale < UNSEEN);
+            let message = drag.message.iter().filter(|_| !is_there).cloned();
+            let said: Vec<String> = message.chain(modes).chain(follow).collect();
             (!said.is_empty()).then(|| said.join("; "))
         })
     });
@@ -74,9 +80,9 @@ pub fn StatusLine(
         let is_there = lab.document.with(Option::is_some) && !js::coarse();
         is_there.then(|| String::from(idle_hint(lab)))
     };
-    let heard = Memo::new(move |_| {
+    let asked_for = Memo::new(move |_| {
         let held = drag.get().or_else(swept).or_else(wanted).or_else(|| said.get());
-        held.or_else(|| hint.get()).or_else(idle)
+        held.or_else(|| hint.get())
     });
     let is_idle = Memo::new(move |_| asked_for.with(Option::is_none));
     let heard = Memo::new(move |_| asked_for.get().or_else(idle));

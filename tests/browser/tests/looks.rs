@@ -138,3 +138,29 @@ async fn undo_that_is_held_down_shows_the_list_of_steps() {
     visit.script(&format!("{undo}.click()")).await;
     visit.until("!window.__thinglab.state().status.undo").await;
 }
+
+#[tokio::test]
+async fn a_crank_that_is_guided_along_its_circle_does_not_flicker() {
+    let visit = Visit::open_empty().await;
+    let opened = show(&visit, "four-bar.thing").await;
+    let (tip, centre) = (grip(&opened, "crank.p2"), grip(&opened, "ground.p1"));
+    let radius = (tip.0 - centre.0).hypot(tip.1 - centre.1);
+    let at = |degrees: f64, r: f64| {
+        let (sine, cosine) = degrees.to_radians().sin_cos();
+        (centre.0 + r * cosine, centre.1 - r * sine)
+    };
+    let said = "return document.querySelector('.said').textContent";
+    let mut from = tip;
+    for degrees in [10.0, 20.0, 35.0, 50.0, 80.0] {
+        let to = at(degrees, radius);
+        carry(&visit, from, to).await;
+        visit.until("window.__thinglab.state().dragging").await;
+        assert_eq!(visit.script(said).await, json!(""), "at {degrees} degrees");
+        visit.client.release_actions().await.expect("the button is let go");
+        visit.until("!window.__thinglab.state().dragging").await;
+        from = grip(&state(&visit).await, "crank.p2");
+    }
+    carry(&visit, from, at(90.0, 1.5 * radius)).await;
+    visit.until("document.querySelector('.said').textContent.includes('reach 40 of')").await;
+    visit.client.release_actions().await.expect("the button is let go");
+}
