@@ -585,6 +585,10 @@ impl Drag {
         };
         numbers_of(&answer.ok()?)
     }
+    /// Returns what computes the handle, where it is computed and no other is held instead.
+    pub(crate) fn computed_term(&self) -> Option<&Term> {
+        self.computed.as_ref().filter(|_| self.instead().is_none())
+    }
     /// Returns the slots that it depends on and cannot move.
     pub(crate) fn held(&self) -> Vec<SlotId> {
         self.press.held()

@@ -4,7 +4,7 @@ use crate::apply::Aim;
 use crate::drag::Drag;
 use crate::state::State;
 use crate::view::{Limit, ModeView};
-use crate::{rules, words};
+use crate::{angles, rules, words};
 use base::number::{Toward, close};
 use expr::Dimension;
 use kernel::{DOCUMENT, Primitive, Quantity, SlotId, Strength, Term, ThingId, Value};
@@ -46,7 +46,8 @@ pub(crate) fn of_term(state: &State, term: &Term, wanted: &[Value], part: f64) -
     };
     let limit = from + (wanted - from) * part;
     let document = &state.lowered.document;
-    let (text, unit) = lang::show_limit(limit, from, of_dimension(dimension), document);
+    let quantity = of_computed(state, dimension, term);
+    let (text, unit) = lang::show_limit(limit, from, quantity, document);
     Some(Limit { path: words::term_path(term), value: words::with_unit(text, &unit) })
 }
 
@@ -91,7 +92,11 @@ pub(crate) fn of_drag(state: &State, drag: &Drag) -> (Limit, String) {
             let rounded = |decimals| base::number::rounded(x, decimals).parse().unwrap_or(x);
             let x = drag.grasp.map_or(x, rounded);
             let document = &state.lowered.document;
-            let (text, unit) = lang::show_limit(x, from, of_dimension(dimension), document);
+            let quantity = match drag.computed_term() {
+                Some(term) => of_computed(state, dimension, term),
+                None => Quantity { dimension, ..Quantity::default() },
+            };
+            let (text, unit) = lang::show_limit(x, from, quantity, document);
             words::with_unit(text, &unit)
         };
         let shown: Vec<String> = now.iter().zip(drag.start()).map(show).collect();
@@ -178,9 +183,11 @@ fn show(state: &State, slot: SlotId, limit: f64, from: f64) -> String {
     words::with_unit(text, &unit)
 }
 
-/// Returns what is known of a computed number.
-fn of_dimension(dimension: Dimension) -> Quantity<'static> {
-    Quantity { dimension, ..Quantity::default() }
+/// Returns what is known of a computed number: an angle is one by what computes it.
+fn of_computed(state: &State, dimension: Dimension, term: &Term) -> Quantity<'static> {
+    let evaluator = state.evaluator(&state.values);
+    let class = angles::class_of_sides(state, &evaluator, DOCUMENT, [term, term]);
+    Quantity { dimension, class, ..Quantity::default() }
 }
 
 fn tuple(numbers: &[String]) -> String {

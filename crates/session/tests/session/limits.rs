@@ -121,6 +121,16 @@ fn an_angle_that_bars_do_not_reach_is_told_in_degrees() {
 }
 
 #[test]
+fn the_limit_of_an_angle_that_the_document_computes_is_told_in_degrees() {
+    let mut desk = Desk::of(
+        "use geometry\np: Point { x = 10  y = 0 }\nconstraint p.x = 10\nconstraint p.y <= 10\n\
+         turn: Angle => atan2(p.y, p.x)\n",
+    );
+    let refusal = desk.type_in("turn", "80 deg").expect_err("it is too steep");
+    assert!(refusal.message.starts_with("refused: 45° is the limit of turn"), "{refusal:?}");
+}
+
+#[test]
 fn a_hand_out_of_reach_says_how_far_the_arm_reaches() {
     let mut desk = Desk::of(ELBOW);
     let drag = desk.hold("lower.p2", &[(300.0, 400.0)]);
