@@ -164,3 +164,51 @@ async fn a_crank_that_is_guided_along_its_circle_does_not_flicker() {
     visit.until("document.querySelector('.said').textContent.includes('reach 40 of')").await;
     visit.client.release_actions().await.expect("the button is let go");
 }
+
+#[tokio::test]
+async fn what_is_typed_into_an_empty_document_is_in_sight_and_parts_without_places_lie_apart() {
+    let visit = begin().await;
+    visit.script("document.getElementById('tab-text').click()").await;
+    visit.until("document.querySelector('.cm-content')").await;
+    visit.script("document.querySelector('.cm-content').focus()").await;
+    let text =
+        "use circuits\nr1: Resistor\nr2: Resistor\nr3: Resistor\nb: Battery\nx: Wire\ny: Wire\n";
+    visit.client.active_element().await.expect("the editor").send_keys(text).await.expect("keys");
+    visit.until("window.__thinglab.state().grips.length === 12").await;
+    let inside = "(box => window.__thinglab.state().grips.every(g => g.px > box.left && \
+                  g.px < box.right && g.py > box.top && g.py < box.bottom)) \
+                  (document.getElementById('picture').getBoundingClientRect())";
+    visit.until(inside).await;
+    let apart = "(all => all.every((a, i) => all.slice(0, i).every(b => \
+                 Math.hypot(a.px - b.px, a.py - b.py) > 20)))(window.__thinglab.state().grips)";
+    visit.until(apart).await;
+}
+
+#[tokio::test]
+async fn what_cannot_be_satisfied_is_named_and_a_line_called_side_has_a_row_like_others() {
+    let visit = Visit::open_empty().await;
+    visit.put(
+        "clash.thing",
+        "use geometry\nside: Line { p1 = (0, 0)  p2 = (40, 0) }\nother: Line { p1 = (0, 9)  p2 = (40, 9) }\n\
+         constraint short: side.length = 40\nconstraint long: side.length = 50\nlong.enabled = false\n",
+    );
+    show(&visit, "clash.thing").await;
+    let row = |name: &str| {
+        format!(
+            "[...document.querySelectorAll('[role=treeitem]')].find(r => r.querySelector('.name').textContent === '{name}')"
+        )
+    };
+    visit.until(&row("side")).await;
+    let looks = |name: &str| {
+        format!(
+            "return [getComputedStyle({0}).height, {0}.offsetWidth, {0}.querySelector('.detail').textContent]",
+            row(name)
+        )
+    };
+    assert_eq!(visit.script(&looks("side")).await, visit.script(&looks("other")).await);
+    visit.until(&row("long")).await;
+    visit.script(&format!("{}.querySelector('[role=switch]').click()", row("long"))).await;
+    visit
+        .until("document.querySelector('.said').textContent === 'Cannot be satisfied now: long'")
+        .await;
+}
