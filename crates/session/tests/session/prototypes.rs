@@ -178,7 +178,7 @@ fn a_tile_of_the_bin_shows_what_the_constraints_of_its_class_make() {
 
 #[test]
 fn what_is_drawn_only_one_above_the_other_has_a_tile() {
-    let mut desk = Desk::of("use drafting\n");
+    let desk = Desk::of("use drafting\n");
     let bin = desk.session.bin(desk.id);
     let picture = |class: &str| bin.iter().find(|entry| entry.class == class).map(|e| &e.picture);
     for class in ["VerticalDimension", "HorizontalDimension", "LinearDimension"] {
