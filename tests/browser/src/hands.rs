@@ -73,6 +73,18 @@ pub async fn point(visit: &Visit, (x, y): (f64, f64), button: u64) {
     tokio::time::sleep(Duration::from_millis(80)).await;
 }
 
+/// Brings the pointer to a place in the window.
+///
+/// # Panics
+/// Where the browser refuses.
+pub async fn hover(visit: &Visit, (x, y): (f64, f64)) {
+    let duration = Some(Duration::from_millis(40));
+    let to = PointerAction::MoveTo { duration, x: x.round(), y: y.round() };
+    let actions = MouseActions::new("mouse".into()).then(to);
+    visit.client.perform_actions(actions).await.expect("the mouse moves");
+    tokio::time::sleep(Duration::from_millis(80)).await;
+}
+
 /// Takes what lies at a place in the window and puts it elsewhere, in a few steps.
 ///
 /// # Panics

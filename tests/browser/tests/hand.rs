@@ -3,7 +3,8 @@
 
 use browser::Visit;
 use browser::hands::{
-    begin, chord, drag, grip, key, keys, middle, pinch, point, select, show, state, text_of, touch,
+    begin, chord, drag, grip, hover, key, keys, middle, pinch, point, select, show, state, text_of,
+    touch,
 };
 use fantoccini::actions::{
     InputSource, KeyAction, KeyActions, MOUSE_BUTTON_LEFT, MOUSE_BUTTON_RIGHT,
@@ -73,7 +74,11 @@ async fn a_quadrilateral_and_its_midpoints_are_drawn_from_nothing_and_saved() {
             between(end(n), end(n + 1), 0.5)
         })
         .collect();
-    for middle in sides.iter().chain(&sides[..1]) {
+    for (n, middle) in sides.iter().chain(&sides[..1]).enumerate() {
+        if n == 2 {
+            hover(&visit, *middle).await;
+            visit.reference_picture("drawing").await;
+        }
         click(&visit, *middle).await;
     }
     visit.until("window.__thinglab.state().text.includes('line8')").await;

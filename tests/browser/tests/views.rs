@@ -141,6 +141,8 @@ async fn no_page_is_wider_than_its_window() {
     // a page at 200 % is one of half the width
     let sizes =
         [("wide", 1440, 900), ("tablet", 820, 1000), ("phone", 390, 844), ("large", 720, 450)];
+    show(&visit, "rings.thing").await;
+    visit.reference_picture("rings").await;
     for document in ["quadrilateral.thing", "voltage-divider.thing", "warren-truss.thing"] {
         show(&visit, document).await;
         for (n, (size, width, height)) in sizes.into_iter().enumerate() {
