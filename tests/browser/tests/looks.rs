@@ -212,3 +212,17 @@ async fn what_cannot_be_satisfied_is_named_and_a_line_called_side_has_a_row_like
         .until("document.querySelector('.said').textContent === 'Cannot be satisfied now: long'")
         .await;
 }
+
+#[tokio::test]
+async fn on_a_phone_the_zoom_covers_nothing_of_a_picture_above_a_sheet() {
+    let visit = Visit::open_empty().await;
+    visit.client.set_window_size(390, 844).await.expect("a phone's window");
+    show(&visit, "four-bar.thing").await;
+    let zoom = "document.querySelector('.corner').getClientRects().length";
+    visit.until(&format!("{zoom} > 0")).await;
+    visit.script("document.querySelector('.handles button').click()").await;
+    visit.until("document.querySelector('main').dataset.sheet === 'drawer'").await;
+    visit.until(&format!("{zoom} === 0")).await;
+    visit.script("document.querySelector('.handles button').click()").await;
+    visit.until(&format!("{zoom} > 0")).await;
+}
