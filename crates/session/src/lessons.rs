@@ -24,6 +24,14 @@ impl Session {
     pub fn lessons(&self, id: DocumentId) -> Vec<LessonEntry> {
         list(&self.document(id).state)
     }
+    /// Returns what the first step of a document's first lesson has people trace on an empty sheet; nothing of any other.
+    pub fn to_trace(&self, id: DocumentId) -> Drawing {
+        let open = self.document(id);
+        let beside = Beside::of(&*self.host, &self.documents, id);
+        let first = open.state.lowered.lessons.first().and_then(|lesson| lesson.steps.first());
+        let drawn = first.map(|step| traced(open, &beside, step, &open.state).0);
+        drawn.unwrap_or_default()
+    }
     /// Begins one of a document's lessons by its number, or leaves the one that goes on.
     pub fn begin_lesson(&mut self, id: DocumentId, which: Option<usize>) {
         let open = self.document_mut(id);

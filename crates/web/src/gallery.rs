@@ -24,7 +24,10 @@ struct Read {
 impl Read {
     fn of(lab: Lab, id: DocumentId, title: String, dirty: bool) -> Self {
         let doc = lab.ask(|session| session.preamble(id));
-        let is_blank = lab.ask(|session| session.picture(id)).drawing.elements.is_empty();
+        let is_blank = lab.ask(|session| {
+            let drawn = [session.picture(id).drawing, session.to_trace(id)];
+            drawn.iter().all(|drawing| drawing.elements.is_empty())
+        });
         Self { id, sentence: first_sentence(&doc, &title), title, dirty, is_blank }
     }
 }

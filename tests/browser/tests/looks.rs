@@ -226,3 +226,12 @@ async fn on_a_phone_the_zoom_covers_nothing_of_a_picture_above_a_sheet() {
     visit.script("document.querySelector('.handles button').click()").await;
     visit.until(&format!("{zoom} > 0")).await;
 }
+
+#[tokio::test]
+async fn the_card_of_a_lesson_that_begins_with_an_empty_sheet_shows_what_is_to_be_drawn() {
+    let visit = Visit::open_empty().await;
+    visit.until("document.querySelector('main')").await;
+    visit.script("location.hash = '#/'").await;
+    let card = "[...document.querySelectorAll('.card')].find(c => c.querySelector('h3').textContent.startsWith('A figure of your own'))";
+    visit.until(&format!("{card}?.querySelector('canvas')")).await;
+}

@@ -100,10 +100,12 @@ fn a_lesson_that_cannot_be_done_is_told() {
 #[test]
 fn on_an_empty_sheet_a_lesson_shows_what_to_trace_and_the_tool_to_begin_with() {
     let mut desk = Desk::of(&gallery("lesson-2-figure"));
+    let to_trace = desk.session.to_trace(desk.id);
     desk.session.begin_lesson(desk.id, Some(0));
     let first = desk.session.lesson(desk.id, false).expect("it has begun");
     let is_stroke = |e: &&drawing::Element| matches!(e.shape, drawing::Shape::Segment(..));
     assert_eq!(first.traced.elements.iter().filter(is_stroke).count(), 4);
+    assert_eq!(first.traced, to_trace, "its card shows the same");
     assert_eq!(first.tool.as_deref(), Some("Line"));
     let drawn = format!("{}\nmine: Line\n", desk.text());
     desk.type_text(&drawn);

@@ -4,7 +4,7 @@ use super::{Texts, new_painter, paint_alone};
 use crate::js::{self, Painter};
 use crate::lab::Lab;
 use crate::orbit;
-use crate::paint::{Part, display_list};
+use crate::paint::{Part, display_list, ghosts};
 use crate::sheet::{fit, with_words};
 use leptos::html::Canvas;
 use leptos::prelude::*;
@@ -16,7 +16,7 @@ const SWING: f64 = 0.09;
 /// Turns for one frame.
 const PACE: f64 = 0.006;
 
-/// A document's picture; while `lively`, its first free point goes round in a small circle.
+/// A document's picture, with what its lesson has people trace on an empty sheet; while `lively`, its first free point goes round in a small circle.
 #[component]
 pub fn Thumbnail(
     /// The lab.
@@ -30,7 +30,11 @@ pub fn Thumbnail(
     let size = RwSignal::new((0.0, 0.0));
     let painter = StoredValue::new_local(None::<Painter>);
     let picture = RwSignal::new(lab.ask(|session| session.picture(id)));
-    let rest = StoredValue::new(picture.with_untracked(|picture| picture.drawing.clone()));
+    let traced = StoredValue::new(lab.ask(|session| session.to_trace(id)));
+    let rest = StoredValue::new(picture.with_untracked(|picture| {
+        let drawn = Some(&picture.drawing).filter(|drawn| !drawn.elements.is_empty()).cloned();
+        drawn.unwrap_or_else(|| traced.get_value())
+    }));
     Effect::new(move |_| {
         if let Some(canvas) = canvas.get() {
             painter.set_value(Some(new_painter(&canvas, size)));
@@ -45,7 +49,8 @@ pub fn Thumbnail(
         lab.colors.changes.track();
         let size = size.get();
         let view = rest.with_value(|drawing| with_words(drawing, fit(drawing, size, MARGIN), size));
-        let list = picture.with(|picture| display_list(picture, Part::Whole, &[]));
+        let mut list = picture.with(|picture| display_list(picture, Part::Whole, &[]));
+        traced.with_value(|traced| ghosts(&mut list, std::slice::from_ref(traced)));
         painter
             .with_value(|painter| {
                 let painter = painter.as_ref().filter(|_| size.0 > 0.0)?;
