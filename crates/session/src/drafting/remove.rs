@@ -27,10 +27,19 @@ struct Asked {
     answer: Option<Answer>,
 }
 
+impl Asked {
+    /// Whether it was asked, and somebody answered.
+    fn is_answered(&self) -> bool {
+        !matches!(self.answer, None | Some(Answer::LeftOut))
+    }
+}
+
 #[derive(Clone, PartialEq, Debug)]
 enum Answer {
     /// It goes, too.
     Along,
+    /// It is a loop over a set, which goes on over the rest of it.
+    LeftOut,
     /// Another object, as it is written.
     Instead(String),
 }
@@ -47,11 +56,31 @@ impl Removing {
         for user in steps::users(source, program, address) {
             let is_in = |gone: &String| *gone == user || user.starts_with(&format!("{gone}."));
             if !self.gone.iter().any(is_in) {
-                self.asked.push(Asked { step: user, of: of.clone(), answer: None });
+                let answer =
+                    self.is_of_set(source, program, (&user, address)).then_some(Answer::LeftOut);
+                self.asked.push(Asked { step: user, of: of.clone(), answer });
             }
         }
         let gone = self.gone.clone();
         self.asked.retain(|asked| asked.answer.is_some() || !gone.contains(&asked.step));
+    }
+
+    /// Whether all that a step says of something is that it is in the set that it goes over, and more of the set stays.
+    fn is_of_set(
+        &self,
+        source: &text::Source,
+        program: &str,
+        (step, address): (&str, &str),
+    ) -> bool {
+        let of = address.rsplit('.').next().unwrap_or_default();
+        let goes = |name: &String| self.gone.iter().any(|gone| gone == name);
+        let set = super::repeat::set_of(source, program, step);
+        let Some(text) = super::repeat::without_figure(source, (program, step), of) else {
+            return false;
+        };
+        let left = text::Source::of(text);
+        set.is_some_and(|(set, _)| set.iter().any(|name| !goes(name)))
+            && !steps::users(&left, program, address).iter().any(|user| user == step)
     }
 
     /// Makes sure that what is demonstrated stays, and what it was begun by: a condition, a set.
@@ -93,12 +122,14 @@ impl Removing {
         let at = self.open_question()?;
         let Asked { step, of, .. } = &self.asked[at];
         let told = text::told(step);
+        let is_asked = |asked: &&Asked| asked.answer != Some(Answer::LeftOut);
+        let so_many = |asked: &[Asked]| asked.iter().filter(is_asked).count();
         Some(Prompt {
             label: format!(
                 "Delete {}, {} of {}",
                 text::told(&self.gone[0]),
-                at + 1,
-                self.asked.len()
+                so_many(&self.asked[..=at]),
+                so_many(&self.asked)
             ),
             words: match self.is_around(step) {
                 true => format!(
@@ -154,10 +185,11 @@ fn opened(open: &mut Open) -> Result<(Removing, Name, Name), Refusal> {
 /// Takes the latest answer back; without one nothing is deleted.
 pub(crate) fn back(open: &mut Open) {
     let Ok((mut removing, program, _)) = opened(open) else { return };
-    match removing.asked.iter().rposition(|asked| asked.answer.is_some()) {
+    match removing.asked.iter().rposition(Asked::is_answered) {
         Some(at) => {
             let first = removing.gone[0].clone();
-            let kept: Vec<Asked> = removing.asked[..at].to_vec();
+            let kept = removing.asked[..at].iter().filter(|asked| asked.is_answered()).cloned();
+            let kept: Vec<Asked> = kept.collect();
             let source = text::Source::now(&open.state);
             let mut again = Removing { gone: Vec::new(), asked: Vec::new() };
             again.go_along(&source, &program, &first);
@@ -329,6 +361,13 @@ fn finish(open: &mut Open, host: &dyn Host) -> Result<Option<Change>, Refusal> {
     let mut edited = open.state.text.clone();
     let mut resettled: Vec<String> = Vec::new();
     for asked in &removing.asked {
+        if asked.answer == Some(Answer::LeftOut)
+            && let source = text::Source::of(edited.clone())
+            && let Some(less) =
+                super::repeat::without_figure(&source, (&program, &asked.step), &asked.of)
+        {
+            edited = less;
+        }
         if let Some(Answer::Instead(found)) = &asked.answer
             && !removing.gone.contains(&asked.step)
         {

@@ -236,6 +236,20 @@ pub(crate) fn set_of(
     Some((names.collect(), list.span()))
 }
 
+/// Returns a text in which a loop goes over its set without a figure; nothing where it is not in the set, or alone there.
+pub(crate) fn without_figure(
+    source: &text::Source,
+    (program, address): (&str, &str),
+    figure: &str,
+) -> Option<String> {
+    let (mut set, span) = set_of(source, program, address)?;
+    let all = set.len();
+    set.retain(|name| name != figure);
+    let (start, end) = (span.start as usize, span.end as usize);
+    let is_less = !set.is_empty() && set.len() < all;
+    is_less.then(|| format!("{}[{}]{}", &source[..start], set.join(", "), &source[end..]))
+}
+
 /// The list that a loop goes over.
 fn list_of(source: &text::Source, program: &str, address: &str) -> Option<ListExpr> {
     let step = text::step_at(source, program, address)?;

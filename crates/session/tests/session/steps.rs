@@ -248,3 +248,37 @@ fn what_a_turn_began_with_is_visited_where_that_turn_begins() {
         assert_eq!((steps.at.as_deref(), row), (Some(step), Some(turns)), "{picked}");
     }
 }
+
+#[test]
+fn of_the_set_that_a_loop_goes_over_one_goes_and_the_loop_stays() {
+    let mut desk = Desk::of(
+        "use geometry
+program Flange(d: Length = 12) {
+    circle = Circle(center: Point(0, 0), radius: d)
+    circle2 = Circle(center: Point(40, 0), radius: d)
+    turns = for element in [circle, circle2] {
+        rim = Circle.concentric(with: element, radius: d / 2)
+    }
+    line = Line(circle2.center, Point(9, 9))
+}
+flange: Flange
+",
+    );
+    desk.session.record(desk.id, "Flange").expect("it is there");
+    let whole = desk.text();
+    desk.session.begin_delete(desk.id, "circle2").expect("it is there");
+    let prompt = desk.session.prompt(desk.id).expect("the line speaks of it");
+    assert_eq!(prompt.label, "Delete circle2, 1 of 1");
+    assert!(prompt.words.starts_with("line is drawn from circle2"), "{}", prompt.words);
+    desk.session.enter(desk.id, "circle").expect("another circle");
+    assert!(desk.text().contains("for element in [circle] {"), "{}", desk.text());
+    assert!(desk.text().contains("line = Line(circle.center"), "{}", desk.text());
+    assert_eq!(desk.wrong(), []);
+    // the last of it is asked about
+    desk.session.begin_delete(desk.id, "circle").expect("it is there");
+    let prompt = desk.session.prompt(desk.id).expect("the loop has no other");
+    assert!(prompt.words.starts_with("turns is drawn from circle"), "{}", prompt.words);
+    desk.session.give_up(desk.id);
+    desk.undo();
+    assert_eq!(desk.text(), whole);
+}
