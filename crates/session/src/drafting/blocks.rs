@@ -94,7 +94,7 @@ impl Recording {
             let segment = block.around.segment();
             match after(segment) {
                 Some((false, now)) => {
-                    block.around.address = format!("{now}{}", &own[segment.len()..])
+                    block.around.address = format!("{now}{}", &own[segment.len()..]);
                 }
                 // the block goes, too
                 Some((true, _)) | None => {
