@@ -3,7 +3,7 @@
 
 use crate::actions;
 use crate::apart::apart;
-use crate::lab::{Lab, Notice, Zoom};
+use crate::lab::{Lab, Notice};
 use crate::words;
 use leptos::ev::{KeyboardEvent, SubmitEvent};
 use leptos::html::Input;
@@ -31,10 +31,6 @@ fn Panel(lab: Lab) -> impl IntoView {
     let scopes: Vec<RwSignal<Scope>> =
         items.iter().map(|item| RwSignal::new(item.kind.usual())).collect();
     let points = lab.points_of_selection();
-    // its points are clicked in the picture: they lie beside what covers it
-    if let Some(drawn) = lab.drawn_box() {
-        lab.zoom.set(Some(Zoom::Over(drawn)));
-    }
     Effect::new(move |_| {
         if let Some(input) = input.get() {
             request_animation_frame(move || {

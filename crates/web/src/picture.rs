@@ -37,8 +37,6 @@ const LOW: f64 = 420.0;
 const STRIP: f64 = 48.0;
 /// How much of its right side the document covers of the picture of a class, in a window wider than this.
 const INSET: f64 = 212.0;
-/// The same of what is decided of a class by example.
-const EXAMPLE: f64 = 372.0;
 const NARROW: f64 = 900.0;
 
 /// The picture of the open document.
@@ -451,15 +449,11 @@ fn look(lab: Lab, view: View) {
     }
 }
 
-/// How much of the right side of a picture is covered: by what is decided of a class by example, or by the document that
-/// a shown class is of.
+/// How much of the right side of a picture the document covers that a shown class is of.
 fn covered(lab: Lab) -> f64 {
     let width = window().inner_width().ok().and_then(|width| width.as_f64());
-    match width.is_some_and(|width| width > NARROW) {
-        true if lab.attachers.with_untracked(Option::is_some) => EXAMPLE,
-        true if lab.prototype.with_untracked(Option::is_some) => INSET,
-        true | false => 0.0,
-    }
+    let is_wide = width.is_some_and(|width| width > NARROW);
+    if is_wide && lab.prototype.with_untracked(Option::is_some) { INSET } else { 0.0 }
 }
 
 /// How far what is fitted stays from the sides of a canvas of that size.
@@ -487,7 +481,7 @@ fn zoom_as_asked(lab: Lab, size: (f64, f64), left: StoredValue<Option<Left>>) {
     let room = Room::of(lab, size);
     match asked {
         Zoom::Over(all) => {
-            look(lab, lab.view.get_untracked().with_in_sight(all, (room.width, size.1), margin));
+            look(lab, lab.view.get_untracked().with_in_sight(all, size, margin));
         }
         Zoom::Fit => {
             // what is drawn must not move under a hand that holds a tool
@@ -566,7 +560,7 @@ struct Room {
 impl Room {
     /// What waits or is offered lies over the lower edge, a lesson over the upper one.
     fn of(lab: Lab, (width, height): (f64, f64)) -> Self {
-        let width = width - covered(lab).min(width / 2.0);
+        let width = width - covered(lab);
         let card = lab.card.get_untracked();
         if height <= LOW {
             // a lesson, and what is offered of a selection, leave half of a low picture at least
