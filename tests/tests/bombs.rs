@@ -403,6 +403,23 @@ fn what_is_long_costs_as_much_as_it_is_long() {
             Anything,
         ),
         ("parts", lines(5_000, |i| format!("p{i}: Real = {i}")), Holds),
+        ("parts on one line", joined(5_000, ", ", |i| format!("p{i}")) + ": Real = 1\n", Holds),
+        (
+            "a list that is written out",
+            format!(
+                "use geometry\nx: List of Real = [{}]\np: List of Point = [{}]\n",
+                joined(5_000, ", ", |i| format!("{i}")),
+                joined(1_000, ", ", |i| format!("({i}, {i})"))
+            ),
+            Holds,
+        ),
+        (
+            "superclasses that each add a part",
+            "class C0 { x: Real }\n".to_string()
+                + &lines(500, |i| format!("class C{} is C{i} {{ y{i}: Real }}", i + 1))
+                + "c: C500\n",
+            Holds,
+        ),
         ("classes", lines(5_000, |i| format!("class C{i} {{ x: Real }}")), Holds),
         (
             "a chain",

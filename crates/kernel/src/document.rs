@@ -156,13 +156,17 @@ pub enum PartRole {
 impl Document {
     /// Returns the class and its primary superclasses, from the class upwards.
     pub fn primary_line(&self, class: ClassId) -> Vec<ClassId> {
+        self.upwards(class).collect()
+    }
+    /// Goes through the class and its primary superclasses, from the class upwards.
+    pub fn upwards(&self, class: ClassId) -> impl Iterator<Item = ClassId> + '_ {
         let above = |&c: &ClassId| self.classes[c].supers.first().map(|s| s.class);
         // no line is longer than there are classes, even where superclasses stand in a ring
-        std::iter::successors(Some(class), above).take(self.classes.len()).collect()
+        std::iter::successors(Some(class), above).take(self.classes.len())
     }
     /// Returns what things of a class draw, if the class or one above it is a program.
     pub fn program(&self, class: ClassId) -> Option<&Rc<Program>> {
-        self.primary_line(class).into_iter().find_map(|c| self.classes[c].program.as_ref())
+        self.upwards(class).find_map(|c| self.classes[c].program.as_ref())
     }
     /// Returns true for the name of a constraint or merge that one of the classes nearer to a thing
     /// masks.
@@ -194,12 +198,19 @@ impl Document {
     }
     /// Returns the class that a field has in things of a class: where it is refined, the narrower one.
     pub fn refined_class(&self, class: ClassId, field: PartRef) -> ClassId {
-        let refined = |c: &ClassId| {
-            let own = &self.classes[*c].refined;
+        let refined = |c: ClassId| {
+            let own = &self.classes[c].refined;
             own.iter().find(|(f, _)| *f == field).map(|(_, narrower)| *narrower)
         };
-        let line = self.primary_line(class);
-        line.iter().find_map(refined).unwrap_or_else(|| self.field_class(field))
+        self.upwards(class).find_map(refined).unwrap_or_else(|| self.field_class(field))
+    }
+    /// Returns the classes that fields have in things of a class, in their order. Cost: linear in the fields and in the
+    /// primary line.
+    pub fn refined_classes(&self, class: ClassId, fields: &[PartRef]) -> Vec<ClassId> {
+        if self.upwards(class).all(|c| self.classes[c].refined.is_empty()) {
+            return fields.iter().map(|&f| self.field_class(f)).collect();
+        }
+        fields.iter().map(|&f| self.refined_class(class, f)).collect()
     }
     /// Returns the class of a field, as it was declared.
     pub fn field_class(&self, field: PartRef) -> ClassId {
@@ -241,7 +252,7 @@ impl Document {
     /// Returns what a whole number is that says how many parts the things of a class have.
     pub fn count(&self, class: ClassId, name: &Name) -> Option<i64> {
         let counts = |c: ClassId| self.classes[c].counts.iter().find(|(n, _)| n == name);
-        self.primary_line(class).into_iter().find_map(counts).map(|(_, count)| *count)
+        self.upwards(class).find_map(counts).map(|(_, count)| *count)
     }
     /// Returns the class of this name, the last declared first.
     pub fn class_named(&self, name: &str) -> Option<ClassId> {
@@ -384,7 +395,7 @@ impl Document {
     /// themselves, else those of the nearest primary superclass whose things are. A superclass's things are a
     /// part of it, whatever it adds and asks of them.
     pub fn place_in(&self, class: ClassId) -> Option<usize> {
-        let places = self.primary_line(class).into_iter().find(|&c| self.is_place(c));
+        let places = self.upwards(class).find(|&c| self.is_place(c));
         places.map(|c| self.layout(c).len())
     }
     /// Returns the handles of a class's things: its own, and of those above it the ones for other places.

@@ -290,7 +290,7 @@ impl Layout {
             .map(|s| s.name.clone())
             .filter(|n| !n.is_empty())
             .collect();
-        let classes = fields.iter().map(|&f| document.refined_class(class, f)).collect();
+        let classes = document.refined_classes(class, &fields);
         Self { fields, classes, index, superclasses, own_names }
     }
 }

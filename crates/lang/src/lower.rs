@@ -612,9 +612,13 @@ impl Lowered {
     }
     /// Returns what was written for a member, without its comments.
     pub fn source_of(&self, origin: OriginId) -> String {
+        self.source(origin).to_string()
+    }
+    /// The same, where it stands.
+    pub fn source(&self, origin: OriginId) -> &str {
         let place = self.origins.place(origin);
         let text = if place.file == OWN { &self.effective } else { &self.files[place.file].text };
-        text.get(place.span.range()).unwrap_or_default().trim().to_string()
+        text.get(place.span.range()).unwrap_or_default().trim()
     }
     /// Returns true if a given value was written for a thing of the document, not for a class.
     pub fn is_own_given(&self, origin: OriginId) -> bool {

@@ -357,10 +357,10 @@ impl Lowerer<'_> {
             return self.broken.extend(part.names().map(|w| (scope.class(), w.name())));
         };
         self.warn_of_turns(scope, part, &ty);
-        let count = match (self.declared_count(scope, &ty), part.value().and_then(ast::Value::expr))
-        {
+        let value = part.value().and_then(ast::Value::expr);
+        let count = match (self.declared_count(scope, &ty), &value) {
             (Some(Count::Given), Some(value)) => {
-                Some(self.count_of_range(scope, &value).map_or(Count::Given, Count::Fixed))
+                Some(self.count_of_range(scope, value).map_or(Count::Given, Count::Fixed))
             }
             (count, _) => count,
         };
@@ -368,41 +368,42 @@ impl Lowerer<'_> {
         let of_elements = body.clone().filter(|_| matches!(ty.shape(), TypeShape::List { .. }));
         let range = part.domain().and_then(|d| self.domain(scope, &d, class));
         self.refuse_block(scope, part.value());
+        // what is asked of the whole declaration is asked once, however many names it has
+        let doc = part.doc().unwrap_or_default();
+        let span = span_without_doc(part.syntax());
+        let (is_constant, is_layout) = (part.is_constant(), part.is_layout());
+        let is_counted_by_name = has_named_count(part);
         for word in part.names() {
             if !self.is_new(scope, &word) {
                 continue;
             }
-            let span = span_without_doc(part.syntax());
             let origin = self.origin(scope.file, span);
             let name = word.name();
-            let class = match part.value().and_then(ast::Value::expr) {
-                Some(Expr::Call(call)) => self.class_for_call(scope, &name, class, &call, origin),
+            let class = match &value {
+                Some(Expr::Call(call)) => self.class_for_call(scope, &name, class, call, origin),
                 _ => class,
             };
             let class = match &of_elements {
                 // a class may have things of itself with other counts, down to none
-                Some(_) if count == Some(Count::Fixed(0)) && has_named_count(part) => class,
+                Some(_) if count == Some(Count::Fixed(0)) && is_counted_by_name => class,
                 Some(body) => self.list_with_body(scope, &name, class, body, origin),
                 None => self.class_for_body(scope, &name, class, body.clone(), origin),
             };
-            let doc = part.doc().unwrap_or_default();
-            let is_layout = part.is_layout();
-            let declared = Part { name: name.clone(), doc, class, count, range, is_layout, origin };
+            let (name_of_part, doc) = (name.clone(), doc.clone());
+            let declared = Part { name: name_of_part, doc, class, count, range, is_layout, origin };
             let place = Place { file: scope.file, span: word.span() };
             self.add_part(place, scope.class(), declared);
-            if part.is_constant() {
+            if is_constant {
                 self.constants.insert((scope.class(), name.clone()));
                 let path = Path(vec![Step::Part(name.clone())]);
                 let stay = Stay { path, strength: None, origin };
                 self.document.classes[scope.class()].stays.push(stay);
             }
-            if let (Some(Count::Given), Some(Expr::List(list))) =
-                (count, part.value().and_then(ast::Value::expr))
-            {
+            if let (Some(Count::Given), Some(Expr::List(list))) = (count, &value) {
                 let key = (scope.class(), name.clone());
                 self.given_counts.insert(key, list.elements().count() as u32);
             }
-            if let Some(value) = part.value().and_then(ast::Value::expr) {
+            if let Some(value) = value.clone() {
                 let prefix = vec![Step::Part(name)];
                 let scope = Rc::new(scope.clone());
                 let pending = Pending::Value { scope, prefix, target: None, value };
@@ -602,12 +603,14 @@ impl Lowerer<'_> {
         answer: &Expr,
     ) {
         let class = self.class_of_type(scope, ty);
+        let said = part.doc().unwrap_or_default();
+        let span = span_without_doc(part.syntax());
         for word in part.names() {
             if !self.is_new(scope, &word) {
                 continue;
             }
-            let doc = part.doc().unwrap_or_default();
-            let origin = self.origin(scope.file, span_without_doc(part.syntax()));
+            let doc = said.clone();
+            let origin = self.origin(scope.file, span);
             if let Some(class) = class {
                 let kind = Kind::of_class(&self.document, class).listed(loops.len());
                 self.message_kinds.insert((scope.class(), word.name()), Some(kind));
@@ -677,7 +680,7 @@ impl Lowerer<'_> {
             let (Some(name), Some(label)) = (p.name(), p.label()) else { continue };
             let class = p.class().and_then(|ty| self.class_of_type(scope, &ty));
             let kind = class.map_or(Kind::Unknown, |c| Kind::of_class(&self.document, c));
-            inner = inner.with_local(name.name(), kind);
+            inner.add_local(name.name(), kind);
             parameters.push(Parameter { label: label.name(), name: name.name(), class });
         }
         (parameters, inner)

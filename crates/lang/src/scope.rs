@@ -75,8 +75,12 @@ impl Scope {
     }
     pub(crate) fn with_local(&self, name: Name, kind: Kind) -> Self {
         let mut inner = self.clone();
-        inner.locals.push((name, kind));
+        inner.add_local(name, kind);
         inner
+    }
+    /// Makes a name stand for something of a kind from here on.
+    pub(crate) fn add_local(&mut self, name: Name, kind: Kind) {
+        self.locals.push((name, kind));
     }
     /// Returns how many of the innermost classes a name is not looked for in.
     pub(crate) fn passed_over(&self, name: &str) -> usize {

@@ -405,7 +405,7 @@ impl Lowerer<'_> {
         for binding in bindings.bindings() {
             let (value, kind) = self.expr(&inner, &binding.value()?)?;
             let name = binding.name()?.name();
-            inner = inner.with_local(name.clone(), kind);
+            inner.add_local(name.clone(), kind);
             bound.push((name, value));
         }
         let (body, kind) = self.expr(&inner, &bindings.body()?)?;
