@@ -41,6 +41,7 @@ mod families;
 mod files;
 mod handles;
 mod hints;
+mod inserts;
 mod kept;
 mod kin;
 mod kinds;

@@ -11,7 +11,7 @@ use crate::terms::code_for;
 use crate::trails::Trails;
 use base::{Diagnostic, Name, Place};
 use kernel::{
-    BinaryOperator, ClassId, ClassKind, Constraint, Given, Insert, Merge, Method, OriginId, Path,
+    BinaryOperator, ClassId, ClassKind, Constraint, Given, Merge, Method, OriginId, Path,
     Primitive, Side, SideWay, Stay, Step, Strength, Term,
 };
 use std::collections::BTreeSet;
@@ -163,6 +163,9 @@ impl Lowerer<'_> {
         if self.is_said_to_be_no_count(scope, value) {
             return;
         }
+        if class.is_some_and(|c| matches!(self.document.classes[c].kind, ClassKind::Set(_))) {
+            return self.define_set(scope, &path, class, value);
+        }
         let wanted = class.map_or(Kind::Unknown, |c| Kind::of_class(&self.document, c));
         let before = self.diagnostics.len();
         let found = self.expr_wanting(scope, value, &wanted);
@@ -290,7 +293,12 @@ impl Lowerer<'_> {
             (Some(ClassKind::Primitive(Primitive::Integer)), Term::Number { value: x, .. })
                 if x.fract() != 0.0 =>
             {
-                format!("{path} is a whole number, and is given {x}")
+                let message = format!("{path} is a whole number, and is given {x}");
+                let place = Place { file: scope.file, span: value.span() };
+                let hint =
+                    "a number with a fraction is a `Real`; `round(x)` is the nearest whole one";
+                self.report(Diagnostic::error("value-of-wrong-class", place, message).hint(hint));
+                return true;
             }
             (Some(ClassKind::List(element)), given)
                 if *element == self.object
@@ -421,50 +429,6 @@ impl Lowerer<'_> {
         let d = Diagnostic::error("duplicate-name", place, message);
         self.report(d.hint("give one of them another name"));
         None
-    }
-
-    fn define_insert(&mut self, scope: &Scope, insert: &ast::Insert, origin: OriginId) {
-        let (Some(part), Some(set)) = (insert.part(), insert.set()) else { return };
-        let (part, into) = (self.path(scope, &part), self.path(scope, &set));
-        let (Some((part, member)), Some((path, class))) = (part, into) else { return };
-        let kind_of = |class: Option<ClassId>| {
-            class.map_or(Kind::Unknown, |c| Kind::of_class(&self.document, c))
-        };
-        let (member, kind) = (kind_of(member), kind_of(class));
-        let is_set =
-            class.is_none_or(|c| matches!(self.document.classes[c].kind, ClassKind::Set(_)));
-        match &kind {
-            Kind::List(element) if is_set && matches!(member, Kind::List(_)) => {
-                let place = Place { file: scope.file, span: insert.span() };
-                let (message, hint) = match part == path {
-                    true => {
-                        let hint = "insert a part that is one of its members".to_string();
-                        (format!("{path} cannot be a member of itself"), hint)
-                    }
-                    false => {
-                        let one = element.words(&self.document);
-                        let message = format!("{part} is {}", member.words(&self.document));
-                        let hint = format!("merge the two: `merge {part} = {path}`");
-                        (format!("{message}, wanted one member, {one}"), hint)
-                    }
-                };
-                self.report(Diagnostic::error("value-of-wrong-class", place, message).hint(hint));
-            }
-            Kind::List(element) if is_set && !member.fits(element, &self.document) => {
-                self.wrong_kind(scope, insert.span(), &member, element);
-            }
-            _ if !is_set => {
-                let message = format!("{path} is {}, wanted a set", kind.words(&self.document));
-                let place = Place { file: scope.file, span: set.span() };
-                let d = Diagnostic::error("value-of-wrong-class", place, message);
-                self.report(d.hint("a set is declared as `name: Set of C`"));
-            }
-            _ => self.document.classes[scope.class()].inserts.push(Insert {
-                part,
-                set: path,
-                origin,
-            }),
-        }
     }
 
     fn define_constraint(&mut self, scope: &Scope, c: &ast::Constraint, origin: OriginId) {
