@@ -300,7 +300,7 @@ pub(crate) fn run(source: &Source, which: Rows, form: Form) -> Result<Report, Op
     let json = |opened: &Opened| {
         json!({
             "path": path,
-            "values": opened.session.values(opened.id),
+            "values": opened.session.values_in_si(opened.id),
             "arbitrary": arbitrary,
             "status": status,
             "diagnostics": in_files(path, diagnostics.clone()),

@@ -105,6 +105,25 @@ fn values_are_read_in_units_of_engineers_without_what_pictures_compute() {
 }
 
 #[test]
+fn numbers_in_json_are_in_si() {
+    let number = |name: &str, text: &str, path: &str| {
+        let told = printed(name, text, "run", &["--json"]);
+        let told: serde_json::Value = serde_json::from_str(&told).expect("it is JSON");
+        let rows = told["values"].as_array().expect("it has values").clone();
+        let row = rows.into_iter().find(|row| row["path"] == path).expect("it is there");
+        row["number"].as_f64().expect("it is a number")
+    };
+    let is = |x: f64, wanted: f64| (x - wanted).abs() < 1e-12 * wanted;
+    // a text of wavelengths counts in units of its own
+    let slit = "lambda: Length = 632.8 nm\nd: Length = 0.25 mm\ns: Length = lambda * 2 m / d\n";
+    assert!(is(number("si-slit", slit, "lambda"), 632.8e-9));
+    assert!(is(number("si-slit", slit, "s"), 632.8e-9 * 2.0 / 0.25e-3));
+    let sheet = "unit mm\nl: Length = 5\np: Pressure = 2 bar\n";
+    assert!(is(number("si-sheet", sheet, "l"), 5.0));
+    assert!(is(number("si-sheet", sheet, "p"), 2e5));
+}
+
+#[test]
 fn what_nothing_decides_is_marked() {
     let text = "a: Real = 2\nb, c, phi: Real\nturn: Angle\nconstraint b + c = a\nconstraint turn = 30 deg\n";
     let words = printed("run-arbitrary", text, "run", &[]);

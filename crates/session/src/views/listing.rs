@@ -17,6 +17,23 @@ impl Session {
         let open = self.document(id);
         values::each_row((&open.state, open.values(), &open.status), tell);
     }
+    /// Returns the values for programs: a `number`, and the `range` of one, counts in SI, a length without a unit in
+    /// those of the sheet, whatever the units are in which the document counts.
+    pub fn values_in_si(&self, id: DocumentId) -> Vec<ValueRow> {
+        let document = &self.document(id).state.lowered.document;
+        let mut rows = self.values(id);
+        for row in &mut rows {
+            let dimension = match row.unit.as_str() {
+                "" => expr::Dimension::by_name(&row.class),
+                unit => expr::units::unit(unit).map(|unit| unit.dimension),
+            };
+            let Some(dimension) = dimension else { continue };
+            let bare = |x: f64| kernel::quantity::to_bare(document, x, dimension);
+            row.number = row.number.map(bare);
+            row.range = row.range.map(|(least, most)| (least.map(bare), most.map(bare)));
+        }
+        rows
+    }
 }
 
 /// Rows that are being made.
