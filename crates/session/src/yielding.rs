@@ -6,10 +6,10 @@
 
 use crate::rules;
 use crate::state::State;
-use crate::words::{listed, show_both};
+use crate::words::{listed, show_both, show_slot};
 use crate::write_back::unit_of_writing;
 use base::{Diagnostic, Place};
-use kernel::{DOCUMENT, SlotId, Term, ThingId, Values};
+use kernel::{DOCUMENT, Shown, SlotId, Term, ThingId, Values};
 use plan::{Planner, Source};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -116,17 +116,35 @@ fn warning(
         let given = state.structure.given(*slot);
         given.is_some_and(|given| matches!(*given.term, Term::Binary(..) | Term::Call { .. }))
     };
-    let hint = match line.of_class {
+    let one = line.units.first().filter(|_| line.units.len() == 1);
+    let said = match line.of_class {
         false if line.slots.iter().all(is_computed) => {
             "give a value with which the constraints hold, or write `constant` before it where it never yields"
         }
         true => "give it a value with which the constraints hold, in the body of the part",
-        false if line.units.len() == 1 => {
+        false if one.is_some() => {
             "leave its value out if it is to be computed, or `anchor` it and let another yield"
         }
         false => {
             "give a value with which the constraints hold, or `anchor` it and let another yield"
         }
     };
+    let kept = one.filter(|_| line.of_class).and_then(|&unit| keeping(state, unit));
+    let hint = kept.unwrap_or_else(|| said.to_string());
     Diagnostic::warning(CODE, place, format!("{}{because}", all.join("; "))).hint(hint)
+}
+
+/// Says what to write where a number that a class gives is meant to be computed: the value that was found, with all its
+/// digits, in the body of the part. Nothing for an element of a list, whose body is that of every one.
+fn keeping(state: &State, unit: ThingId) -> Option<String> {
+    let (document, structure) = (&state.lowered.document, &state.structure);
+    let slot = structure.slot_of(unit)?;
+    let path = structure.path(document, unit).to_string();
+    let (part, within) = path.split_once('.').filter(|(part, _)| !part.contains('['))?;
+    let Shown { unit, exact, .. } = show_slot(state, slot, &state.values);
+    let found = format!("{within} = {exact} {unit}");
+    Some(format!(
+        "where it is to be computed all is well: `{}` in the body of {part} keeps what was found, and is told no more",
+        found.trim_end()
+    ))
 }
