@@ -319,7 +319,7 @@ pub fn meant(word: &str) -> Vec<String> {
 }
 
 /// What people say for a unit and no table of them knows.
-const COLLOQUIAL: [(&str, &str); 32] = [
+const COLLOQUIAL: [(&str, &str); 33] = [
     ("sec", "s"),
     ("secs", "s"),
     ("hr", "h"),
@@ -347,6 +347,7 @@ const COLLOQUIAL: [(&str, &str); 32] = [
     ("kmh", "km/h"),
     ("feet", "ft"),
     ("percent", "%"),
+    ("pct", "%"),
     ("cc", "cm^3"),
     ("l", "L"),
     ("sqm", "m^2"),

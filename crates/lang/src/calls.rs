@@ -306,7 +306,11 @@ impl Lowerer<'_> {
                 let labels: Vec<&str> = wanted.iter().map(|w| w.labels[0].as_str()).collect();
                 d = match nearest(label.text(), labels.iter().copied()) {
                     Some(near) => d.meant(near),
-                    None => d.hint(format!("it has {}", labels.join(", "))),
+                    None => {
+                        let labels: Vec<String> =
+                            labels.iter().map(|l| format!("`{l}: …`")).collect();
+                        d.hint(format!("what it takes is {}", labels.join(", ")))
+                    }
                 };
                 self.report(d);
                 return None;

@@ -277,6 +277,31 @@ impl Lowerer<'_> {
         found
     }
 
+    /// Says of an unknown class of a part, by the unit that its value has, which one there is: `5 kN/m` is a Stiffness.
+    pub(crate) fn hint_class(&mut self, before: usize, value: Option<ast::Expr>) {
+        let unit = value.as_ref().and_then(crate::numbers::unit_of);
+        let known = unit.as_ref().and_then(|unit| expr::units::unit(unit));
+        let (Some(unit), Some(known)) = (unit, known) else { return };
+        let Some(d) = self.diagnostics.get_mut(before).filter(|d| d.code == "unknown-class") else {
+            return;
+        };
+        let meant =
+            d.fixes.first().and_then(|fix| fix.edits.first()).map(|(_, name)| name.as_str());
+        if meant.and_then(Dimension::by_name) == Some(known.dimension) {
+            return;
+        }
+        let plain = Diagnostic::error(d.code, d.place, d.message.clone());
+        *d = match known.dimension.named() {
+            Some(class) => {
+                plain.hint(format!("what has the unit `{unit}` is of the class {class}"))
+            }
+            None => plain.hint(format!(
+                "no class is named for the unit `{unit}`: `name => {}` keeps it",
+                value.map(|value| value.syntax().text().to_string()).unwrap_or_default()
+            )),
+        };
+    }
+
     /// Returns the class that a bare name means in a text, if it is one; nothing where several texts that are used
     /// declare it, which is reported.
     pub(crate) fn class_meant(

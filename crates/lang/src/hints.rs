@@ -88,6 +88,16 @@ impl Lowerer<'_> {
             None if let Some(part) = self.part_with(class, word.text()) => {
                 plain.hint(format!("its {part} has one: `{part}.{} = {written}`", word.text()))
             }
+            None if class == self.document.root
+                && is_constant(value)
+                && expr::units::unit(word.text())
+                    .is_some_and(|u| u.dimension.named().is_some()) =>
+            {
+                let unit = word.text();
+                plain.hint(format!(
+                    "declare it with its class: `{unit}: Real = {written}`; a unit stands behind its number: `{written} {unit}`"
+                ))
+            }
             None if !(is_constant(value) || self.document.classes[class].is_of_one)
                 || class == self.document.root
                 || of_one && names.is_empty() =>
@@ -431,8 +441,24 @@ impl Lowerer<'_> {
             None => format!("left is {a}, right is {b}"),
         };
         let mut d = Diagnostic::error(code_for(left, right), place, message);
-        if let (Kind::Text, Kind::Number(_)) | (Kind::Number(_), Kind::Text) = (left, right) {
-            d = d.hint("put the value into the text: `\"x = {x}\"`");
+        let compares = operator.is_some_and(|o| o.is_order() || o == BinaryOperator::Equal);
+        match (left, right) {
+            (Kind::Text, Kind::Number(_)) | (Kind::Number(_), Kind::Text) if compares => {
+                d = d.hint(
+                    "the number that a text spells is `text.number`, a number as a text `x.text`",
+                );
+            }
+            (Kind::Text, Kind::Number(_)) | (Kind::Number(_), Kind::Text) => {
+                d = d.hint("put the value into the text: `\"x = {x}\"`");
+            }
+            (Kind::Option(of), Kind::Text) | (Kind::Text, Kind::Option(of)) => {
+                let first = self.document.option_at(*of, 0.0).map(ToString::to_string);
+                d = d.hint(format!("an option has no quotes: `{}`", first.unwrap_or_default()));
+            }
+            (Kind::Bool, Kind::Number(_)) | (Kind::Number(_), Kind::Bool) if !compares => {
+                d = d.hint("a number for a truth value is `if b then 1 else 0`");
+            }
+            _ => {}
         }
         if let (Kind::Text, Kind::Color) | (Kind::Color, Kind::Text) = (left, right) {
             d = d.hint(

@@ -353,7 +353,9 @@ impl Lowerer<'_> {
         if let Some(definition) = part.definition() {
             return self.declare_virtual(scope, &[], part, &ty, &definition);
         }
+        let before = self.diagnostics.len();
         let Some(class) = self.class_of_type(scope, &ty) else {
+            self.hint_class(before, part.value().and_then(ast::Value::expr));
             return self.broken.extend(part.names().map(|w| (scope.class(), w.name())));
         };
         self.warn_of_turns(scope, part, &ty);

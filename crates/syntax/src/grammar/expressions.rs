@@ -320,7 +320,10 @@ fn operand(p: &mut Parser<'_>, start: Checkpoint) -> u32 {
 
 fn primary(p: &mut Parser<'_>, start: Checkpoint) -> u32 {
     match p.current() {
-        _ if begins_next_member(p) => p.expected("expected-expression", "an expression"),
+        _ if begins_next_member(p) => {
+            let hint = mistakes::calls::no_operand(p);
+            p.expected_hint("expected-expression", "an expression", hint);
+        }
         Number => {
             p.start(NumberExpr);
             p.bump();

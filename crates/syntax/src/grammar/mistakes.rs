@@ -40,6 +40,7 @@ pub(super) fn of_member(p: &mut Parser<'_>) -> bool {
         || body_of_name(p)
         || bare_equation(p)
         || held(p)
+        || capital_keyword(p)
         || name_and_class(p)
         || class_and_brackets(p)
         || values_in_braces(p)
@@ -47,6 +48,7 @@ pub(super) fn of_member(p: &mut Parser<'_>) -> bool {
         || several_values(p)
         || numbers::time_of_day(p)
         || prefixed_text(p)
+        || spaces_in_name(p)
 }
 
 /// `= 3, 4`, where what is given is a place or a list: returns true where it was reported.
@@ -168,6 +170,9 @@ fn declared_elsewhere(p: &mut Parser<'_>) -> bool {
             == (LParen, Ident, RParen, FatArrow)
             && has_value;
         let hint = match value {
+            "" if p.nth(2) == Colon && !p.begins_line(2) => {
+                format!("a part is declared by itself: `{}`", p.quoted_line(at + 1))
+            }
             "" => format!("a part is declared with its class: `{name}: Real`"),
             _ if is_function => format!(
                 "what is computed is a message: `{name}({}: Real) => {}`",
@@ -258,6 +263,88 @@ fn held(p: &mut Parser<'_>) -> bool {
     is_one
 }
 
+/// `Class A { … }`, `Constraint x = 3`
+fn capital_keyword(p: &mut Parser<'_>) -> bool {
+    // the other words that begin a member might be classes, `Side a`
+    const WORDS: [&str; 16] = [
+        "class",
+        "constraint",
+        "merge",
+        "use",
+        "anchor",
+        "check",
+        "program",
+        "constant",
+        "choice",
+        "abstract",
+        "weak",
+        "medium",
+        "strong",
+        "unit",
+        "if",
+        "for",
+    ];
+    let small = p.word(0).to_lowercase();
+    let is_one = p.at(Ident)
+        && p.word(0) != small
+        && WORDS.contains(&small.as_str())
+        && matches!(p.nth(1), Ident | Text)
+        && !p.begins_line(1);
+    if is_one {
+        let at = p.pos();
+        let said = (
+            "expected-member",
+            format!("found `{}`, wanted `{small}`", p.word(0)),
+            format!("words of the language are written small: `{small} {}`", p.quoted_line(at + 1)),
+        );
+        p.report_mistake((at, at), said, Some((p.span_at(at), small)));
+    }
+    is_one
+}
+
+/// `constraint my rule: x = 3`: returns how many words the name has, where it was reported.
+pub(super) fn spaced_name(p: &mut Parser<'_>) -> Option<usize> {
+    let mut words = 1;
+    while p.nth(words) == Ident && !p.begins_line(words) && words < 4 {
+        words += 1;
+    }
+    let is_one = p.at(Ident) && words > 1 && p.nth(words) == Colon && !p.begins_line(words);
+    is_one.then(|| {
+        report_spaces(p, words);
+        words
+    })
+}
+
+/// Reports a name of so many words.
+fn report_spaces(p: &mut Parser<'_>, words: usize) {
+    let at = p.pos();
+    let named: Vec<&str> = (0..words).map(|n| p.word(n)).collect();
+    let (spaced, joined) = (named.join(" "), named.join("_"));
+    let said = (
+        "expected-name",
+        format!("found `{spaced}`, wanted one word for a name"),
+        format!("a name has no spaces: `{joined}`"),
+    );
+    let span = p.span_at(at).join(p.span_at(at + words - 1));
+    p.report_mistake((at, at + words - 1), said, Some((span, joined)));
+}
+
+/// `my length: Length`
+fn spaces_in_name(p: &mut Parser<'_>) -> bool {
+    let mut words = 1;
+    while p.nth(words) == Ident && !p.begins_line(words) && words < 4 {
+        words += 1;
+    }
+    let is_class = |word: &str| word.starts_with(char::is_uppercase);
+    let is_declared =
+        p.nth(words) == Colon && p.nth(words + 1) == Ident && is_class(p.word(words + 1));
+    let is_one = p.at(Ident) && words > 1 && !p.begins_line(words) && is_declared;
+    if is_one {
+        report_spaces(p, words);
+    }
+    is_one
+}
+
 /// `a Line`, `Line a`, `Point A = (1, 2)`
 fn name_and_class(p: &mut Parser<'_>) -> bool {
     let is_one = p.at(Ident) && p.nth(1) == Ident && !p.begins_line(1) && !is_keyword(p.word(0));
@@ -299,7 +386,16 @@ fn class_and_brackets(p: &mut Parser<'_>) -> bool {
     }
     let at = p.pos();
     let (name, class) = (p.text_between(at - 3, at - 3), p.text_between(at - 1, at - 1));
-    let (said, fix) = if p.at(LParen) {
+    let is_unit = p.at(LBracket) && p.nth(2) == RBracket && expr::units::unit(p.word(1)).is_some();
+    let (said, fix) = if is_unit {
+        let value = if p.nth(3) == Eq { p.quoted_line(at + 4) } else { "3".into() };
+        let said = (
+            "expected-member",
+            format!("found a unit after the class {class}, wanted it after a number"),
+            format!("a unit stands behind its number: `{name}: {class} = {value} {}`", p.word(1)),
+        );
+        (said, None)
+    } else if p.at(LParen) {
         let value = p.text_between(at, p.line_end());
         let said = (
             "expected-member",

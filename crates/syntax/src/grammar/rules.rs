@@ -24,6 +24,10 @@ pub(super) fn constraint(p: &mut Parser<'_>) {
     if p.at(Ident) && p.nth(1) == Colon {
         p.bump();
         p.bump();
+    } else if let Some(words) = mistakes::spaced_name(p) {
+        p.start(Error);
+        (0..=words).for_each(|_| p.bump());
+        p.finish();
     } else if mistakes::elsewhere::name_without_colon(p) {
         p.start(Error);
         p.bump();

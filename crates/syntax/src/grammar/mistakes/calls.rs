@@ -167,10 +167,15 @@ pub(in crate::grammar) fn range_with_equals(p: &mut Parser<'_>) {
     p.bump();
 }
 
+/// What a part without a value is told.
+const NO_VALUE: &str = "of what nothing is said the constraints decide: leave the `=` out";
+
 /// Says what is written where an operand is wanted and a sign of other languages stands.
 pub(in crate::grammar) fn no_operand(p: &Parser<'_>) -> Option<String> {
     match (p.behind(1), p.current()) {
         (Eq, Eq) => Some("one `=` is enough".into()),
+        (Eq, Eof) => Some(NO_VALUE.into()),
+        (Eq, _) if p.begins_line(0) => Some(NO_VALUE.into()),
         (Eq, LBrace) if p.nth(2) != Colon => {
             Some("a list stands in square brackets: `[1, 2, 3]`".into())
         }

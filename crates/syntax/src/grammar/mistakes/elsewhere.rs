@@ -151,6 +151,7 @@ fn sign(p: &Parser<'_>) -> Option<String> {
     let before = |n: usize| p.text_between(p.pos().saturating_sub(n), p.pos().saturating_sub(n));
     let hint = match p.current() {
         Comma if of == "use" => format!("each has a line of its own: `use {}`", p.word(1)),
+        LBrace if of == "use" => "a library brings all that it has: leave the braces out".into(),
         Comma if of == "unit" => {
             "a sheet has one unit, that of its lengths; others stand behind their numbers, `30 deg`"
                 .into()
