@@ -614,8 +614,20 @@ impl Lowered {
     pub fn source_of(&self, origin: OriginId) -> String {
         self.source(origin).to_string()
     }
-    /// The same, where it stands.
-    pub fn source(&self, origin: OriginId) -> &str {
+    /// Returns what was written for a value; of a long list its last elements, where the unit of all stands as well: what
+    /// each of many is shown in must not cost as much as all of them.
+    pub fn written(&self, origin: OriginId) -> &str {
+        const LONG_LIST: usize = 400;
+        const END_OF_LIST: usize = 100;
+        let written = self.source(origin);
+        if written.len() <= LONG_LIST || !written.starts_with('[') {
+            return written;
+        }
+        let ends = written.len() - END_OF_LIST..=written.len();
+        let end = { ends }.find_map(|at| written.get(at..)).unwrap_or_default();
+        end.split_once(',').map_or(end, |(_, rest)| rest).trim()
+    }
+    fn source(&self, origin: OriginId) -> &str {
         let place = self.origins.place(origin);
         let text = if place.file == OWN { &self.effective } else { &self.files[place.file].text };
         text.get(place.span.range()).unwrap_or_default().trim()

@@ -491,22 +491,10 @@ pub(crate) fn quantity_of<'s>(state: &'s State, slot: SlotId, written: &'s str) 
     Quantity { dimension, class: &document.classes[class].name, written }
 }
 
-/// A list that is written out in more bytes than these is read at its end alone, where the unit of its elements stands as
-/// well: what each of many elements is shown in must not cost as much as all of them.
-const LONG_LIST: usize = 400;
-
-/// How many bytes of a long list are read.
-const END_OF_LIST: usize = 100;
-
 /// Returns the text of the value that is given to a slot, of a long list its last elements; empty where none is.
 pub(crate) fn written_for(state: &State, slot: SlotId) -> String {
-    let Some(given) = state.structure.given(slot) else { return String::new() };
-    let written = state.lowered.source(given.origin);
-    if written.len() <= LONG_LIST || !written.starts_with('[') {
-        return written.to_string();
-    }
-    let end = (written.len() - END_OF_LIST..).find_map(|at| written.get(at..)).unwrap_or_default();
-    end.split_once(',').map_or(end, |(_, rest)| rest).trim().to_string()
+    let given = state.structure.given(slot);
+    given.map_or_else(String::new, |given| state.lowered.written(given.origin).to_string())
 }
 
 /// Returns a number that is near the one of a slot and has no more than so many decimals as it is written: a number
