@@ -396,7 +396,8 @@ impl Lowerer<'_> {
 
     /// Says how a plain number that is given for a length becomes one: that of a direction, or another.
     pub(crate) fn plain_for_length(&self, value: &Expr) -> String {
-        let mut words = value.syntax().descendants_with_tokens().filter_map(syntax::NodeOrToken::into_token);
+        let mut words =
+            value.syntax().descendants_with_tokens().filter_map(syntax::NodeOrToken::into_token);
         if words.any(|token| matches!(token.text(), "cos" | "sin")) {
             return "a direction of plain numbers has no class: `r * (cos(a), sin(a))`".into();
         }

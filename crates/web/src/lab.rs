@@ -308,22 +308,28 @@ fn traced_by(lesson: RwSignal<Option<LessonView>>) -> drawing::Drawing {
     lesson.with(|lesson| lesson.as_ref().map(|l| l.traced.clone()).unwrap_or_default())
 }
 
+/// What is lit in the picture: what is selected, all of it, and what the pointer is over.
+fn marked(
+    structure: RwSignal<Vec<StructureRow>>,
+    (selected, also): (RwSignal<Option<String>>, RwSignal<Vec<String>>),
+    hovered: RwSignal<Option<String>>,
+) -> Marked {
+    structure.with(|rows| {
+        let first = |path: String| first_path(rows, path);
+        let selected = selected.get().into_iter().chain(also.get());
+        Marked {
+            selected: selected.map(first).collect(),
+            hovered: hovered.get().map(first),
+            recorded: None,
+        }
+    })
+}
+
 impl Lab {
     /// Makes a lab without documents.
     pub fn new() -> Self {
         let (selected, hovered) = (RwSignal::new(None), RwSignal::new(None));
         let (also, structure) = (RwSignal::new(Vec::new()), RwSignal::new(Vec::new()));
-        let marked = Memo::new(move |_| {
-            structure.with(|rows| {
-                let first = |path: String| first_path(rows, path);
-                let selected = selected.get().into_iter().chain(also.get());
-                Marked {
-                    selected: selected.map(first).collect(),
-                    hovered: hovered.get().map(first),
-                    recorded: None,
-                }
-            })
-        });
         let files = StoredValue::new(FileSet::default());
         let lesson = RwSignal::new(None::<LessonView>);
         Self {
@@ -368,7 +374,7 @@ impl Lab {
             touch: RwSignal::new(js::coarse()),
             adding: RwSignal::new(false),
             hovered,
-            marked,
+            marked: Memo::new(move |_| marked(structure, (selected, also), hovered)),
             motion: RwSignal::new(Vec::new()),
             ghosts: RwSignal::new(Vec::new()),
             notice: RwSignal::new(None),

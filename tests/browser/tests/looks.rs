@@ -1,5 +1,6 @@
 //! What a visitor's eye stumbles over: words that are cut off, rows that never shut, red before a word is written.
 
+use base::number;
 use browser::Visit;
 use browser::hands::{begin, carry, chord, drag, grip, key, keys, point, show, state};
 use fantoccini::actions::MOUSE_BUTTON_LEFT;
@@ -144,10 +145,10 @@ async fn a_crank_that_is_guided_along_its_circle_does_not_flicker() {
     let visit = Visit::open_empty().await;
     let opened = show(&visit, "four-bar.thing").await;
     let (tip, centre) = (grip(&opened, "crank.p2"), grip(&opened, "ground.p1"));
-    let radius = (tip.0 - centre.0).hypot(tip.1 - centre.1);
+    let radius = number::hypot(tip.0 - centre.0, tip.1 - centre.1);
     let at = |degrees: f64, r: f64| {
-        let (sine, cosine) = degrees.to_radians().sin_cos();
-        (centre.0 + r * cosine, centre.1 - r * sine)
+        let angle = degrees.to_radians();
+        (centre.0 + r * number::cos(angle), centre.1 - r * number::sin(angle))
     };
     let said = "return document.querySelector('.said').textContent";
     let mut from = tip;
