@@ -77,7 +77,8 @@ pub fn StatusLine(
     let wanted =
         move || lab.drafting.prompt.with(|prompt| prompt.as_ref().map(|p| p.words.clone()));
     let idle = move || {
-        let is_there = lab.document.with(Option::is_some) && !js::coarse();
+        let is_free = lab.dragging.with(Option::is_none);
+        let is_there = is_free && lab.document.with(Option::is_some) && !js::coarse();
         is_there.then(|| String::from(idle_hint(lab)))
     };
     let asked_for = Memo::new(move |_| {
