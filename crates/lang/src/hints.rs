@@ -89,7 +89,7 @@ impl Lowerer<'_> {
                 plain.hint(format!("its {part} has one: `{part}.{} = {written}`", word.text()))
             }
             None if class == self.document.root
-                && is_constant(value)
+                && matches!(value, Expr::Number(_) | Expr::Unary(_))
                 && expr::units::unit(word.text())
                     .is_some_and(|u| u.dimension.named().is_some()) =>
             {
