@@ -1,6 +1,7 @@
 //! What axe-core finds wrong with the page (`assets/axe.min.js`, MPL-2.0), light and dark, and what is cut off in a
 //! narrow window.
 
+use super::lab::FRAME;
 use browser::Visit;
 use browser::hands::{
     begin, chord, drag, grip, key, keys, place, point, set_place_by_keys, show, state,
@@ -71,24 +72,12 @@ async fn press(visit: &Visit, words: &str) {
     visit.script(&format!("{button}.click()")).await;
 }
 
-/// Two of a class, a line with a length, and a constraint of that class.
-const FRAME: &str = "use geometry
-class Elbow {
-    one, two: Line
-    merge one.p2 = two.p1
-    constraint level: one.p1.y = one.p2.y
-}
-first: Elbow { one.p1 = (0, 0)  one.p2 = (40, 0)  two.p2 = (40, 30) }
-second: Elbow { one.p1 = (0, 50)  one.p2 = (40, 50)  two.p2 = (40, 80) }
-k: Line { p1 = (60, 0)  p2 = (90, 0) }
-constraint k.length = 30
-constraint off: k.length = 40
-";
-
 #[tokio::test]
 async fn questions_menus_families_plots_and_conflicts_have_no_serious_findings() {
     let visit = Visit::open_empty().await;
-    visit.put("frame.thing", FRAME);
+    // one line of two lengths is a conflict
+    let text = format!("{FRAME}constraint k.length = 30\nconstraint off: k.length = 40\n");
+    visit.put("frame.thing", &text);
     visit.client.execute(AXE, Vec::new()).await.expect("axe is loaded");
     for scheme in ["light", "dark"] {
         visit.script(&format!("document.documentElement.style.colorScheme = '{scheme}'")).await;

@@ -147,7 +147,8 @@ async fn a_save_changes_only_what_was_changed() {
     assert!(lines[0].0.contains("result.at = (382, 159)"), "{lines:?}");
 }
 
-const FRAME: &str = "use geometry
+/// Two of a class, and two lines that meet.
+pub(crate) const FRAME: &str = "use geometry
 class Elbow {
     one, two: Line
     merge one.p2 = two.p1
