@@ -262,7 +262,7 @@ impl Session {
     pub fn moved_by(&self, id: DocumentId, command: &Command) -> Result<Vec<String>, Refusal> {
         let beside = Beside::of(&*self.host, &self.documents, id);
         let open = self.document(id);
-        let mut trial = Open::of(&open.name, open.state.text.clone(), &beside);
+        let mut trial = open.trial();
         apply::apply(&mut trial, &beside, command)?;
         let (was, is) = (&open.state, &trial.state);
         let mut moved: Vec<String> = Vec::new();
@@ -365,8 +365,7 @@ impl Session {
         if !is_free(&name) {
             return Err(words::refuse(format!("there is a {name} already")));
         }
-        let beside = Beside::of(&*self.host, &self.documents, id);
-        let terms = crate::plotting::read(state, &beside, &[value])?;
+        let terms = crate::plotting::read(state, &[value])?;
         let evaluator = state.evaluator(&state.values);
         let answer = terms.first().map(|term| evaluator.evaluate(term, kernel::DOCUMENT));
         let Some(Ok(eval::Answer::Number(_, dimension))) = answer else {

@@ -1,7 +1,6 @@
 //! The calculator: expressions over a document, with their values as they are now.
 
 use crate::document::Open;
-use crate::host::Host;
 use crate::plotting;
 use crate::state::State;
 use crate::words;
@@ -22,14 +21,10 @@ pub(crate) struct Sums {
 
 /// Returns the value of each expression in words, as of the drag where one goes on, or why it has none. What was
 /// read is kept while document and expressions are the same.
-pub(crate) fn values(
-    open: &mut Open,
-    host: &dyn Host,
-    written: &[String],
-) -> Vec<Result<String, String>> {
+pub(crate) fn values(open: &mut Open, written: &[String]) -> Vec<Result<String, String>> {
     let is_known = |sums: &Sums| Rc::ptr_eq(&sums.state, &open.state) && sums.written == *written;
     if !open.sums.as_ref().is_some_and(is_known) {
-        let read = |text: &String| match plotting::read(&open.state, host, &[text]) {
+        let read = |text: &String| match plotting::read(&open.state, &[text]) {
             Ok(mut terms) => terms.pop().ok_or_else(String::new),
             Err(refusal) => Err(refusal.message),
         };

@@ -91,9 +91,13 @@ impl Open {
     /// Makes a document of its state.
     pub(crate) fn new(name: String, (state, mut planner): (State, Planner)) -> Self {
         let status = state.status(&mut planner);
+        Self::standing(name, Rc::new(state), planner, status)
+    }
+    /// Makes a document of its state, of which it is known what holds and what is free.
+    fn standing(name: String, state: Rc<State>, planner: Planner, status: plan::Status) -> Self {
         Self {
             name,
-            state: Rc::new(state),
+            state,
             planner,
             status,
             presumed: None,
@@ -189,6 +193,12 @@ impl Open {
     pub(crate) fn copied(&self, host: &dyn Host) -> Self {
         let text = self.state.text.clone();
         Self::again(&self.name, text, Some(&self.state), host, Plans::default())
+    }
+    /// Returns a copy to try something in: the same state, without its steps. Nothing is read or solved.
+    pub(crate) fn trial(&self) -> Self {
+        let (planner, _) = Planner::new(self.state.model(), Plans::default());
+        let status = self.status.clone();
+        Self::standing(self.name.clone(), self.state.clone(), planner, status)
     }
     /// Counts how much is free, which may take a solve for each component; returns what is superfluous.
     pub(crate) fn count(&mut self) -> Vec<plan::Source> {

@@ -439,7 +439,7 @@ pub(crate) fn told_apart(
         return (offers, Vec::new());
     }
     let rules: Vec<Vec<&str>> = offers.iter().map(rules).collect();
-    let terms = terms(state, host, &rules.concat());
+    let terms = terms(state, &rules.concat());
     let mut rest = terms.iter();
     let is_tried = |(offer, rules): (&Offer, &Vec<&str>)| {
         let own: Vec<&Option<Term>> = rest.by_ref().take(rules.len()).collect();
@@ -451,7 +451,7 @@ pub(crate) fn told_apart(
     if !tried.contains(&true) {
         return (offers, Vec::new());
     }
-    let mut trial = Open::of(&open.name, state.text.clone(), host);
+    let mut trial = open.trial();
     let before = trial.counted();
     let adds = |trial: &mut Open, offer: &Offer| {
         let added = apply::apply(trial, host, &offer.command(None)).is_ok();
@@ -502,11 +502,11 @@ fn rules(offer: &Offer) -> Vec<&str> {
 }
 
 /// Reads rules, all at once where each means something.
-fn terms(state: &State, host: &dyn Host, rules: &[&str]) -> Vec<Option<Term>> {
-    match plotting::read(state, host, rules) {
+fn terms(state: &State, rules: &[&str]) -> Vec<Option<Term>> {
+    match plotting::read(state, rules) {
         Ok(terms) => terms.into_iter().map(Some).collect(),
         Err(_) => {
-            let one = |rule: &&str| plotting::read(state, host, &[*rule]).ok()?.into_iter().next();
+            let one = |rule: &&str| plotting::read(state, &[*rule]).ok()?.into_iter().next();
             rules.iter().map(one).collect()
         }
     }
@@ -518,8 +518,8 @@ fn is_true(state: &State, term: Option<&Term>) -> bool {
 }
 
 /// Whether rules hold of the numbers as they are.
-pub(crate) fn holds(state: &State, host: &dyn Host, rules: &[&str]) -> bool {
-    terms(state, host, rules).iter().all(|term| is_true(state, term.as_ref()))
+pub(crate) fn holds(state: &State, rules: &[&str]) -> bool {
+    terms(state, rules).iter().all(|term| is_true(state, term.as_ref()))
 }
 
 /// A rule that holds, followed while places are moved.
@@ -541,7 +541,7 @@ fn going_on<'r>(mut trial: Open, host: &dyn Host, rules: &[&'r str]) -> BTreeSet
     let state = trial.state.clone();
     let mut places: Vec<ThingId> = Vec::new();
     let mut all: Vec<Followed<'r>> = Vec::new();
-    for (rule, term) in rules.iter().zip(terms(&state, host, rules)) {
+    for (rule, term) in rules.iter().zip(terms(&state, rules)) {
         let Some(term) = term else { continue };
         let evaluator = state.evaluator(&state.values);
         let slots = evaluator.listening(|| evaluator.evaluate(&term, DOCUMENT)).1;
@@ -577,7 +577,7 @@ fn going_on<'r>(mut trial: Open, host: &dyn Host, rules: &[&'r str]) -> BTreeSet
             slot.is_some_and(|slot| !base::number::close(is.values.numbers[slot], *was))
         };
         let said: Vec<&str> = all.iter().map(|followed| followed.rule).collect();
-        for (followed, term) in all.iter_mut().zip(terms(is, host, &said)) {
+        for (followed, term) in all.iter_mut().zip(terms(is, &said)) {
             followed.holds = is_true(is, term.as_ref());
             followed.has_moved |= followed.reads.iter().any(has_moved);
         }

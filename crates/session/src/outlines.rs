@@ -57,7 +57,7 @@ pub(crate) fn rounded_by(
     of: &[Path],
     typed: &str,
 ) -> Option<Command> {
-    let terms = plotting::read(&open.state, host, &[typed]).ok()?;
+    let terms = plotting::read(&open.state, &[typed]).ok()?;
     let evaluator = open.state.evaluator(&open.state.values);
     let Ok(Answer::Number(radius, _)) = evaluator.evaluate(terms.first()?, DOCUMENT) else {
         return None;

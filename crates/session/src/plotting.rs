@@ -6,11 +6,12 @@
 use crate::apply::{self, Aim};
 use crate::document::Open;
 use crate::drag;
-use crate::host::{Beside, Host};
+use crate::host::Beside;
 use crate::session::{Session, parse_path};
 use crate::state::State;
 use crate::view::{DocumentId, PlotEntry, Refusal};
 use crate::words;
+use base::Diagnostic;
 use eval::Answer;
 use expr::Dimension;
 use kernel::{DOCUMENT, Path, Quantity, Step, Term, Values};
@@ -136,16 +137,16 @@ impl Trace {
     ///
     /// # Errors
     /// An expression that means nothing.
-    pub(crate) fn of(open: &Open, host: &dyn Host, request: &Request) -> Result<Self, Refusal> {
-        let sampler = Sampler::of(open, host, (request.over.as_deref(), &request.show))?;
+    pub(crate) fn of(open: &Open, request: &Request) -> Result<Self, Refusal> {
+        let sampler = Sampler::of(open, (request.over.as_deref(), &request.show))?;
         Ok(Self { request: request.clone(), sampler })
     }
     /// Begins anew, for a drag that was pressed; a document that has changed is read again.
-    pub(crate) fn restart(&mut self, open: &Open, host: &dyn Host) -> Result<(), Refusal> {
+    pub(crate) fn restart(&mut self, open: &Open) -> Result<(), Refusal> {
         if Rc::ptr_eq(&self.sampler.state, &open.state) {
             self.sampler.samples.clear();
         } else {
-            *self = Self::of(open, host, &self.request)?;
+            *self = Self::of(open, &self.request)?;
         }
         self.sampler.read(open.values());
         Ok(())
@@ -208,9 +209,8 @@ impl Session {
     /// # Errors
     /// What is shown means nothing; then what was watched before goes on.
     pub fn watch(&mut self, id: DocumentId, request: Option<&Request>) -> Result<(), Refusal> {
-        let beside = Beside::of(&*self.host, &self.documents, id);
         let open = self.document(id);
-        let trace = request.map(|request| Trace::of(open, &beside, request)).transpose()?;
+        let trace = request.map(|request| Trace::of(open, request)).transpose()?;
         self.document_mut(id).trace = trace;
         Ok(())
     }
@@ -258,11 +258,7 @@ fn number_at(state: &State, path: &Path, values: &Values) -> Result<f64, Refusal
 }
 
 impl Sampler {
-    fn of(
-        open: &Open,
-        host: &dyn Host,
-        (over, show): (Option<&str>, &[String]),
-    ) -> Result<Self, Refusal> {
+    fn of(open: &Open, (over, show): (Option<&str>, &[String])) -> Result<Self, Refusal> {
         let trimmed = |text: &str| Some(text.trim().to_string()).filter(|t| !t.is_empty());
         let show: Vec<String> = show.iter().filter_map(|text| trimmed(text)).collect();
         if show.is_empty() {
@@ -271,7 +267,7 @@ impl Sampler {
         let labels: Vec<Option<String>> =
             std::iter::once(over.and_then(trimmed)).chain(show.into_iter().map(Some)).collect();
         let named: Vec<&str> = labels.iter().flatten().map(String::as_str).collect();
-        let mut terms = read(&open.state, host, &named)?.into_iter();
+        let mut terms = read(&open.state, &named)?.into_iter();
         let terms: Vec<Option<Term>> =
             labels.iter().map(|label| label.as_ref().and_then(|_| terms.next())).collect();
         let labels = labels.into_iter().map(Option::unwrap_or_default).collect();
@@ -398,8 +394,8 @@ impl Sampler {
 ///
 /// # Errors
 /// What the first that means nothing is, and why.
-pub(crate) fn read(state: &State, host: &dyn Host, named: &[&str]) -> Result<Vec<Term>, Refusal> {
-    let refuse = |what: &str, d: &base::Diagnostic| {
+pub(crate) fn read(state: &State, named: &[&str]) -> Result<Vec<Term>, Refusal> {
+    let refuse = |what: &str, d: &Diagnostic| {
         let hint = d.hint.as_ref().map(|hint| format!("; {hint}")).unwrap_or_default();
         words::refuse(format!("{what}: {}{hint}", d.message))
     };
@@ -409,39 +405,15 @@ pub(crate) fn read(state: &State, host: &dyn Host, named: &[&str]) -> Result<Vec
             return Err(refuse(words, d));
         }
     }
-    let mut stem = String::from("plotted");
-    while state.text.contains(&stem) {
-        stem.push('_');
-    }
-    let mut text = format!("{}\n", state.text);
-    let ends: Vec<usize> = named
-        .iter()
-        .enumerate()
-        .map(|(i, words)| {
-            text += &format!("{stem}{i} => (\n{words}\n)\n");
-            text.len()
+    let texts: Vec<String> = named.iter().map(ToString::to_string).collect();
+    let alone = lang::read_alone(&state.lowered, state.lowered.document.root, &texts);
+    let term = |(term, words): (Result<Term, Vec<Diagnostic>>, &&str)| {
+        term.map_err(|wrong| match wrong.first() {
+            Some(d) => refuse(words, d),
+            None => words::refuse(format!("{words} means nothing here")),
         })
-        .collect();
-    let own = state.text.len();
-    let lowered = lang::lower(&text, &|name| host.read(name), Some(&state.lowered));
-    let wrong = lowered.diagnostics.iter().find(|d| {
-        let start = d.place.span.start as usize;
-        d.severity == base::Severity::Error && d.place.file == base::FileId(0) && start > own
-    });
-    if let Some(d) = wrong {
-        let at = ends.iter().position(|end| (d.place.span.start as usize) < *end);
-        let what = at.and_then(|at| named.get(at)).copied().unwrap_or_default();
-        return Err(refuse(what, d));
-    }
-    let root = &lowered.document.classes[lowered.document.root];
-    let term = |(i, words): (usize, &&str)| {
-        let name = format!("{stem}{i}");
-        let message = root.messages.iter().find(|m| m.name.as_str() == name);
-        let message =
-            message.ok_or_else(|| words::refuse(format!("{words} means nothing here")))?;
-        Ok(Term::clone(&message.answer))
     };
-    named.iter().enumerate().map(term).collect()
+    alone.terms.into_iter().zip(named).map(term).collect()
 }
 
 /// Returns an answer as a number or a place; nothing where it is neither.

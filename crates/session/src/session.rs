@@ -227,12 +227,12 @@ impl Session {
         id: DocumentId,
         begin: impl FnOnce(&mut Open) -> Result<(f64, f64), Refusal>,
     ) -> Result<(f64, f64), Refusal> {
-        let (open, beside) = self.beside_others(id);
+        let open = self.document_mut(id);
         let handle = begin(open)?;
         open.rest_picture();
         if let Some(mut trace) = open.trace.take() {
             // what was watched may be gone from the document: then nothing is watched
-            open.trace = trace.restart(open, &beside).is_ok().then_some(trace);
+            open.trace = trace.restart(open).is_ok().then_some(trace);
         }
         Ok(handle)
     }
@@ -458,7 +458,7 @@ impl Session {
     pub fn foreseen(&self, id: DocumentId, command: &Command) -> Result<drawing::Drawing, Refusal> {
         let beside = Beside::of(&*self.host, &self.documents, id);
         let open = self.document(id);
-        let mut trial = Open::of(&open.name, open.state.text.clone(), &beside);
+        let mut trial = open.trial();
         apply::apply(&mut trial, &beside, command)?;
         let now = views::picture::picture(&open.state, open.values(), &open.status).drawing;
         let mut then = views::picture::picture(&trial.state, trial.values(), &trial.status).drawing;
@@ -484,13 +484,11 @@ impl Session {
     /// # Errors
     /// It means nothing here.
     pub fn understand(&self, id: DocumentId, written: &str) -> Result<(), Refusal> {
-        let beside = Beside::of(&*self.host, &self.documents, id);
-        plotting::read(&self.document(id).state, &beside, &[written]).map(drop)
+        plotting::read(&self.document(id).state, &[written]).map(drop)
     }
     /// Returns the values of some expressions in words, as of the drag where one goes on, or why they have none.
     pub fn calculate(&mut self, id: DocumentId, written: &[String]) -> Vec<Result<String, String>> {
-        let (open, beside) = self.beside_others(id);
-        calculator::values(open, &beside, written)
+        calculator::values(self.document_mut(id), written)
     }
     /// Gives a drag up: all is as it was before the press.
     pub fn cancel(&mut self, id: DocumentId) {

@@ -66,7 +66,7 @@ fn contradiction(open: &Open, host: &dyn Host, command: &Command) -> Option<Ques
         return None;
     }
     let (was_broken, rule) = (broken(open), members.strip_prefix("constraint "));
-    let mut trial = copy(open, host);
+    let mut trial = open.trial();
     apply::apply(&mut trial, host, command).ok()?;
     if broken(&trial) <= was_broken {
         return None;
@@ -95,17 +95,17 @@ fn contradiction(open: &Open, host: &dyn Host, command: &Command) -> Option<Ques
     let replaced = if own > 0 { own } else { others.len() };
     for (other, _) in others.iter().take(replaced.min(MOST_REPLACED)) {
         let Some(path) = parse_path(other) else { continue };
-        let mut replaced = copy(open, host);
+        let mut replaced = open.trial();
         let gone = apply::apply(&mut replaced, host, &Command::Delete(path));
         let said = gone.and_then(|_| apply::apply(&mut replaced, host, command));
-        let is_said = || rule.is_none_or(|rule| offers::holds(&replaced.state, host, &[rule]));
+        let is_said = || rule.is_none_or(|rule| offers::holds(&replaced.state, &[rule]));
         if said.is_ok() && broken(&replaced) <= was_broken && is_said() {
             let command = Command::Text(replaced.state.text.clone());
             let label = format!("instead of {}", in_words(&open.state, other));
             choices.push(Choice { label, command });
         }
     }
-    let mut off = copy(open, host);
+    let mut off = open.trial();
     let mut done = apply::apply(&mut off, host, command).is_ok();
     for name in &new {
         let Some(path) = parse_path(name) else { continue };
@@ -218,11 +218,6 @@ fn for_every(state: &State, target: &Path, members: &str) -> Option<Question> {
     })
 }
 
-/// A copy of a document, to try something in.
-fn copy(open: &Open, host: &dyn Host) -> Open {
-    Open::of(&open.name, open.state.text.clone(), host)
-}
-
 /// The paths and names of the constraints of a document.
 fn constraints(state: &State) -> BTreeSet<String> {
     sources(state).filter_map(|source| words::source_name(state, source)).collect()
@@ -244,7 +239,7 @@ pub(crate) fn said_anew(
     let rule = format!("{left} = {value}");
     let own = open.state.members(SyntaxKind::Constraint);
     // a constraint that is switched off, or yields, says nothing: another one does
-    let is_said = |state: &State| offers::holds(state, host, &[&rule]);
+    let is_said = |state: &State| offers::holds(state, &[&rule]);
     let said = own.filter_map(|member| said_by(&open.state, member, read));
     with_number(open, host, said.filter(|said| said.left == left), value, is_said)
 }
@@ -312,7 +307,7 @@ pub(crate) fn instead_of(
         return None;
     }
     let joined = joined_by(&open.state, thing_at(&open.state, thing)?);
-    let mut trial = copy(open, host);
+    let mut trial = open.trial();
     apply::apply(&mut trial, host, command).ok()?;
     apply::apply(&mut trial, host, &Command::Delete(thing.clone())).ok()?;
     let first =
@@ -361,7 +356,7 @@ fn in_words(state: &State, name: &str) -> String {
 pub(crate) fn only_read(open: &Open, host: &dyn Host, members: &str) -> Option<Command> {
     let members = reference(&open.state, members)?;
     let command = Command::Edit { target: Path::default(), members };
-    let mut trial = copy(open, host);
+    let mut trial = open.trial();
     apply::apply(&mut trial, host, &command).ok()?;
     let errors = |state: &State| {
         let wrong = state.diagnostics.iter();

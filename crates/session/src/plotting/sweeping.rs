@@ -77,9 +77,9 @@ impl Sweeping {
             let steps = sweep.steps;
             return Err(words::refuse(format!("{steps} steps, where 1 to {MOST_STEPS} can be")));
         }
-        let mut trial = Open::of(&open.name, open.state.text.clone(), host);
+        let mut trial = open.trial();
         let over = request.over.as_deref().unwrap_or(&sweep.of);
-        let sampler = |trial: &Open| Sampler::of(trial, host, (Some(over), &request.show));
+        let sampler = |trial: &Open| Sampler::of(trial, (Some(over), &request.show));
         let (ahead, behind) = (sampler(&trial)?, sampler(&trial)?);
         let part = (now - from) / (to - from) * f64::from(sweep.steps);
         let first = (0..=sweep.steps).find(|&i| f64::from(i) >= part).unwrap_or(sweep.steps);

@@ -372,7 +372,7 @@ pub(crate) fn deletion(
 ) -> Result<(Command, Vec<String>), Refusal> {
     let own: Vec<String> =
         paths.iter().map(|path| member_of(&open.state.text, &path.to_string())).collect();
-    let mut trial = Open::of(&open.name, open.state.text.clone(), host);
+    let mut trial = open.trial();
     let mut along: Vec<String> = Vec::new();
     let is_there = |state: &State, path: &Path| {
         words::find(state, path).is_ok()

@@ -334,7 +334,7 @@ impl Host for Counted {
 }
 
 #[test]
-fn the_document_is_not_opened_once_more_for_a_selection_of_nothing() {
+fn nothing_is_read_anew_for_what_fits_a_selection() {
     let read = Rc::new(Cell::new(0));
     let mut session = Session::new(Box::new(Counted(Rc::clone(&read))));
     let id = session.open("desk", FIGURE);
@@ -342,7 +342,10 @@ fn the_document_is_not_opened_once_more_for_a_selection_of_nothing() {
     assert_eq!(session.offers_and_held(id, &[]), (Vec::new(), Vec::new()));
     assert_eq!(read.get(), 0);
     assert_ne!(session.offers_and_held(id, &[at("a")]).0, []);
-    assert_ne!(read.get(), 0, "what holds already is found by reading it");
+    let sums = ["a.length", "[1, 2, 4].sum", "[[1, 2], [3, 5]][1].sum"].map(String::from);
+    let answers = session.calculate(id, &sums).into_iter().collect::<Result<Vec<_>, _>>();
+    assert_eq!(answers.expect("all mean something")[1..], ["7", "8"]);
+    assert_eq!(read.get(), 0, "what is asked is read alone");
 }
 
 #[test]
