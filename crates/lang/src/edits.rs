@@ -98,14 +98,30 @@ pub fn edits_for(
             Restructuring::default()
         }
     };
+    done.edits = carried(lowered, done.edits)?;
+    Ok(done)
+}
+
+/// Returns the edits that delete several things of the document in one go, with what speaks of them, and what goes along.
+/// Nothing where that takes one step for each: one of them is declared elsewhere, or with others that stay.
+pub fn edits_to_delete(lowered: &Lowered, paths: &[Path]) -> Option<Restructuring> {
+    let mut done = Text::of(lowered).delete_together(paths)?;
+    done.edits = carried(lowered, done.edits).ok()?;
+    Some(done)
+}
+
+/// Carries edits of the effective text over to the text.
+///
+/// # Errors
+/// One of them is in a line with an error.
+fn carried(lowered: &Lowered, edits: Vec<TextEdit>) -> Result<Vec<TextEdit>, Diagnostic> {
     let carry = |e: TextEdit| Some(TextEdit { span: lowered.in_text(e.span)?, insert: e.insert });
-    let edits = edit::joined(&lowered.effective, done.edits);
+    let edits = edit::joined(&lowered.effective, edits);
     let carried: Option<Vec<TextEdit>> = edits.into_iter().map(carry).collect();
-    done.edits = carried.ok_or_else(|| {
+    carried.ok_or_else(|| {
         let message = "a line that has an error would have to be changed".to_string();
         refused("wrong-line", message).hint("mend the line first")
-    })?;
-    Ok(done)
+    })
 }
 
 /// Returns the same command said of every thing of the class, where it is about one thing of a class

@@ -86,7 +86,9 @@ mod write;
 
 pub use alone::{Alone, read_alone};
 pub use checks::{Check, Counted, Expectation, PlanKind, Statement, StatementKind, without_checks};
-pub use edits::{Restructuring, edits_for, for_every, is_count, of_constraint, write_sides};
+pub use edits::{
+    Restructuring, edits_for, edits_to_delete, for_every, is_count, of_constraint, write_sides,
+};
 pub use families::{Family, Row as FamilyRow};
 pub use files::File;
 pub use kinds::with_article;

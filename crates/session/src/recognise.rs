@@ -6,6 +6,7 @@
 //! Numbers of the class that nobody selects are its parameters: what its rules say that they are.
 
 use crate::prototype::Lone;
+use crate::session::thing_at;
 use crate::state::State;
 use crate::view::{Recognised, Refusal};
 use crate::words;
@@ -180,7 +181,7 @@ pub(crate) fn free_name_in(state: &State, within: &Path, class: &Name) -> String
     let names = std::iter::once(word.clone()).chain((2..).map(|i| format!("{word}{i}")));
     let is_free = |name: &String| {
         let path = Path(vec![Step::Part(Name::new(name))]);
-        let is_part = words::find(state, &within.join(&path)).is_ok();
+        let is_part = thing_at(state, &within.join(&path)).is_some();
         Name::new(name) != *class && !is_taken(state, &path) && !is_part
     };
     { names }.find(is_free).unwrap_or_default()
@@ -193,7 +194,7 @@ pub(crate) fn is_taken(state: &State, path: &Path) -> bool {
         [Step::Part(name)] => document.find_message(document.root, name, None).is_some(),
         _ => false,
     };
-    is_computed || words::find(state, path).is_ok()
+    is_computed || thing_at(state, path).is_some()
 }
 
 /// A class's name as things are called: with a small first letter.

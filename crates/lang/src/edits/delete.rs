@@ -74,6 +74,40 @@ impl Text<'_> {
         Restructuring { edits: deletion.edits, along: deletion.along, class, class_of_one: None }
     }
 
+    /// Deletes things that the document's own text declares; nothing where one is declared elsewhere, or with others
+    /// that stay.
+    pub(super) fn delete_together(&self, paths: &[Path]) -> Option<Restructuring> {
+        let name = |path: &Path| match path.0.as_slice() {
+            [Step::Part(name)] => Some(name.to_string()),
+            _ => None,
+        };
+        let names: BTreeSet<String> = paths.iter().map(name).collect::<Option<_>>()?;
+        let mut deletion = Deletion::new(self);
+        let (mut nodes, mut found) = (Vec::new(), 0);
+        for member in self.file.members() {
+            let words: Vec<ast::Word> = match &member {
+                Member::Part(part) => part.names().collect(),
+                Member::Message(message) => message.name().into_iter().collect(),
+                _ => continue,
+            };
+            let gone = words.iter().filter(|word| names.contains(word.text())).count();
+            match gone {
+                0 => continue,
+                some if some < words.len() => return None,
+                all => found += all,
+            }
+            let class = self.lowered.document.root;
+            let symbols = words.iter().map(|word| Symbol { class, name: word.name() });
+            deletion.waiting.extend(symbols);
+            deletion.seen.insert(member.span());
+            nodes.push(member.syntax().clone());
+        }
+        deletion.edits = edit::delete_members(&nodes);
+        self.forget_uses(&mut deletion);
+        let Deletion { edits, along, .. } = deletion;
+        (found == names.len()).then(|| Restructuring { edits, along, ..Restructuring::default() })
+    }
+
     /// Deletes what speaks of what goes, and what speaks of that.
     pub(super) fn forget_uses(&self, deletion: &mut Deletion) {
         while let Some(symbol) = deletion.waiting.pop() {

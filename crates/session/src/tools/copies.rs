@@ -20,6 +20,7 @@ use base::{Name, Span};
 use kernel::{ClassKind, Command, DOCUMENT, Literal, Path, Step};
 use lang::{Meant, Mention};
 use std::collections::{BTreeMap, BTreeSet};
+use syntax::SyntaxNode;
 use syntax::ast::{AstNode, Expr, Member, Value};
 use syntax::edit::TextEdit;
 
@@ -116,7 +117,8 @@ pub(crate) fn copied(state: &State, paths: &[Path], relations: Relations) -> Res
     if things.is_empty() {
         return Err(words::refuse("nothing is selected".into()));
     }
-    let is_copied = |name: &str| things.iter().any(|(copied, _)| **copied == *name);
+    let named: BTreeSet<&str> = things.iter().map(|(copied, _)| copied.as_str()).collect();
+    let is_copied = |name: &str| named.contains(name);
     let said = heads(&state.text, state);
     let mut members: Vec<Copied> = Vec::new();
     for member in state.file().members() {
@@ -284,13 +286,11 @@ pub(crate) fn pasting(
     let moved = is_placed || move_aside(&mut trial, host, &copies, far);
     let is_kept = |text: &str| text.starts_with(base.trim_end());
     let moved = moved && (clip.relations == Relations::Own || is_kept(&trial.state.text));
-    let said = |(copied, member): (&Copied, &String)| match copied.is_thing && moved {
-        true => {
-            let name = copied.names.first().map(|(_, name)| called(name)).unwrap_or_default();
-            let now = member_of(&trial.state.text, &name);
-            if now.is_empty() { member.clone() } else { now }
-        }
-        false => member.clone(),
+    let written = Written::of(&trial.state.text);
+    let said = |(copied, member): (&Copied, &String)| {
+        let name = copied.names.first().filter(|_| copied.is_thing && moved);
+        let now = name.and_then(|(_, name)| written.member(&called(name)));
+        now.unwrap_or_else(|| member.clone())
     };
     let long: Vec<String> = clip.members.iter().zip(&members).map(said).collect();
     let short = |(was, now): (&String, &String)| digits::as_short_as(was, now, far);
@@ -305,6 +305,8 @@ pub(crate) fn pasting(
 fn free_names(state: &State, things: &[(Name, Name)]) -> BTreeMap<Name, String> {
     let mut taken: BTreeSet<String> = BTreeSet::new();
     let mut names = BTreeMap::new();
+    // up to which number the names of a stem are taken
+    let mut counted: BTreeMap<String, usize> = BTreeMap::new();
     let is_free = |name: &str, taken: &BTreeSet<String>| {
         let path = Path(vec![Step::Part(Name::new(name))]);
         !taken.contains(name) && !recognise::is_taken(state, &path)
@@ -312,9 +314,13 @@ fn free_names(state: &State, things: &[(Name, Name)]) -> BTreeMap<Name, String> 
     for (name, class) in things {
         let first = recognise::free_name(state, class);
         let stem = first.trim_end_matches(|c: char| c.is_ascii_digit()).to_string();
-        let others = (2..).map(|i| format!("{stem}{i}"));
-        let mut wanted = [name.to_string(), first].into_iter().chain(others);
-        let found = wanted.find(|name| is_free(name, &taken)).unwrap_or_default();
+        let found = [name.to_string(), first].into_iter().find(|name| is_free(name, &taken));
+        let found = found.or_else(|| {
+            let next = counted.entry(stem.clone()).or_insert(2);
+            *next = (*next..).find(|i| is_free(&format!("{stem}{i}"), &taken))?;
+            Some(format!("{stem}{next}"))
+        });
+        let found = found.unwrap_or_default();
         taken.insert(found.clone());
         names.insert(name.clone(), found);
     }
@@ -370,12 +376,50 @@ pub(crate) fn deletion(
     host: &dyn Host,
     paths: &[Path],
 ) -> Result<(Command, Vec<String>), Refusal> {
-    let own: Vec<String> =
-        paths.iter().map(|path| member_of(&open.state.text, &path.to_string())).collect();
+    let written = Written::of(&open.state.text);
+    let own: BTreeSet<String> =
+        paths.iter().filter_map(|path| written.member(&path.to_string())).collect();
+    let (mut trial, mut along) = match deleted_together(open, host, paths) {
+        Some(done) => done,
+        None => deleted_one_by_one(open, host, paths)?,
+    };
+    for name in loosened(&open.state, &trial.state) {
+        let path = Path(vec![Step::Part(name.clone())]);
+        along.push(written.member(&name).unwrap_or_default());
+        apply::apply(&mut trial, host, &Command::Delete(path))?;
+    }
+    along.retain(|said| !own.contains(said.trim()));
+    along.dedup();
+    match paths {
+        // as it is deleted by itself: the step has its name
+        [only] if along.is_empty() => Ok((Command::Delete(only.clone()), along)),
+        _ => Ok((Command::Text(trial.state.text.clone()), along)),
+    }
+}
+
+/// Deletes several things in one step, in a copy of the document, and returns what went along; nothing where that takes
+/// one step for each.
+fn deleted_together(open: &Open, host: &dyn Host, paths: &[Path]) -> Option<(Open, Vec<String>)> {
+    let (first, _) = paths.split_first().filter(|(_, others)| !others.is_empty())?;
+    let done = lang::edits_to_delete(&open.state.lowered, paths)?;
+    let mut trial = open.trial();
+    let change = apply::restructured_by(&mut trial, host, &Command::Delete(first.clone()), done);
+    Some((trial, change.ok()?.along))
+}
+
+/// Deletes things one after the other.
+///
+/// # Errors
+/// One of them cannot be deleted.
+fn deleted_one_by_one(
+    open: &Open,
+    host: &dyn Host,
+    paths: &[Path],
+) -> Result<(Open, Vec<String>), Refusal> {
     let mut trial = open.trial();
     let mut along: Vec<String> = Vec::new();
     let is_there = |state: &State, path: &Path| {
-        words::find(state, path).is_ok()
+        thing_at(state, path).is_some()
             || crate::prototype::class_of(state, path).is_some()
             || !member_of(&state.text, &path.to_string()).is_empty()
     };
@@ -394,17 +438,31 @@ pub(crate) fn deletion(
         along.extend(apply::along(&trial.state, path));
         apply::apply(&mut trial, host, &Command::Delete((*path).clone()))?;
     }
-    for name in loosened(&open.state, &trial.state) {
-        let path = Path(vec![Step::Part(name.clone())]);
-        along.push(member_of(&open.state.text, &name).trim().into());
-        apply::apply(&mut trial, host, &Command::Delete(path))?;
+    Ok((trial, along))
+}
+
+/// The members of a text that declare things or say what is computed, by name.
+struct Written(BTreeMap<String, SyntaxNode>);
+
+impl Written {
+    fn of(text: &str) -> Self {
+        let mut all = BTreeMap::new();
+        for member in syntax::parse(base::FileId(0), text).file().members() {
+            let names: Vec<_> = match &member {
+                Member::Part(part) => part.names().collect(),
+                Member::Message(message) => message.name().into_iter().collect(),
+                _ => continue,
+            };
+            for name in names {
+                all.entry(name.text().to_string()).or_insert_with(|| member.syntax().clone());
+            }
+        }
+        Self(all)
     }
-    along.retain(|said| !own.iter().any(|own| own.trim() == said.trim()));
-    along.dedup();
-    match paths {
-        // as it is deleted by itself: the step has its name
-        [only] if along.is_empty() => Ok((Command::Delete(only.clone()), along)),
-        _ => Ok((Command::Text(trial.state.text.clone()), along)),
+
+    /// The member that declares a name, as it is written.
+    fn member(&self, name: &str) -> Option<String> {
+        self.0.get(name).map(|node| node.text().to_string().trim().to_string())
     }
 }
 

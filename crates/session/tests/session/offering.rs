@@ -2,7 +2,7 @@
 
 use crate::desk::{Desk, Library, at};
 use session::view::{Annotation, Offer, Shows};
-use session::{Command, Host, Session};
+use session::{Command, Host, Relations, Session};
 use std::cell::Cell;
 use std::rc::Rc;
 
@@ -111,7 +111,7 @@ fn an_offer_is_foreseen_and_nothing_changes() {
     let all = offers(&desk, &["a"]);
     let level = all.iter().find(|offer| offer.label == "horizontal").expect("it is offered");
     let seen = desk.session.foreseen(desk.id, &level.command(None)).expect("it can be said");
-    assert!(!seen.elements.is_empty());
+    assert!(!seen.picture.elements.is_empty() && !seen.moved.is_empty());
     assert_eq!(desk.moment(), before);
 }
 
@@ -798,4 +798,37 @@ fn a_named_number_stands_on_the_drawing_as_a_written_one_does() {
     // what another number gives is typed as the text has it, where it stands to the right
     let typed = all.iter().map(|one| one.typed.as_ref().and_then(|typed| typed.value.as_deref()));
     assert_eq!(typed.collect::<Vec<_>>(), [Some("w"), None, Some("6 cm")]);
+}
+/// Points that nothing joins, so many, each the same step to the right of the one before.
+fn row(n: usize) -> String {
+    let point = |i: usize| format!("p{i}: Point = ({}, 0)\n", 7 * i);
+    std::iter::once(String::from("use geometry\n")).chain((0..n).map(point)).collect()
+}
+
+#[test]
+fn thousands_are_copied_and_deleted_at_once() {
+    let desk = Desk::of(&row(2000));
+    let all: Vec<_> = (0..2000).map(|i| at(&format!("p{i}"))).collect();
+    let clip = desk.session.copied(desk.id, &all, Relations::Own).expect("they are things");
+    let (_, copies) = desk.session.pasting(desk.id, &clip, 1).expect("there is room");
+    assert_eq!((copies.len(), copies[1999].as_str()), (2000, "point2000"));
+    let (command, along) = desk.session.deletion(desk.id, &all).expect("nothing is in the way");
+    assert_eq!((command, along), (Command::Text(String::from("use geometry\n")), Vec::new()));
+}
+
+#[test]
+fn several_that_are_deleted_at_once_leave_what_they_leave_one_by_one() {
+    let text = "use geometry\na: Line { p1 = (0, 0)  p2 = (30, 40) }; b: Line\nc, d: Point = (1, 2)\n\n// kept\ne: Point = (3, 4)\nw => a.length + b.length\nmerge a.p2 = b.p1 = e\nconstraint c.distance(to: e) = 5 and w > 1\nconstraint parallel: a.parallel(to: b)\nanchor e, c\n";
+    for names in
+        [vec!["a", "b"], vec!["a", "c"], vec!["c", "d"], vec!["b", "c", "d"], vec!["d", "a"]]
+    {
+        let desk = Desk::of(text);
+        let paths: Vec<_> = names.iter().map(|name| at(name)).collect();
+        let (command, _) = desk.session.deletion(desk.id, &paths).expect("nothing is in the way");
+        let mut apart = Desk::of(text);
+        for path in &paths {
+            apart.apply(&Command::Delete(path.clone())).expect("nothing is in the way");
+        }
+        assert_eq!(command, Command::Text(apart.text()), "{names:?}");
+    }
 }
