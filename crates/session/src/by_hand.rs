@@ -255,36 +255,6 @@ impl Session {
         ways_out::only_read(self.document(id), &beside, &offer.members)
     }
 
-    /// Returns what a command would move, by path, without doing it.
-    ///
-    /// # Errors
-    /// Why it would be refused.
-    pub fn moved_by(&self, id: DocumentId, command: &Command) -> Result<Vec<String>, Refusal> {
-        let beside = Beside::of(&*self.host, &self.documents, id);
-        let open = self.document(id);
-        let mut trial = open.trial();
-        apply::apply(&mut trial, &beside, command)?;
-        let (was, is) = (&open.state, &trial.state);
-        let mut moved: Vec<String> = Vec::new();
-        for slot in was.structure.slots.ids() {
-            let path = was.slot_path(slot);
-            let then = thing_at(is, &path).and_then(|thing| is.structure.slot_of(thing));
-            let is_same =
-                then.is_none_or(|then| match (was.values.get(slot), is.values.get(then)) {
-                    (kernel::Value::Number(a), kernel::Value::Number(b)) => {
-                        base::number::close(a, b)
-                    }
-                    (a, b) => a.same_bits(&b),
-                });
-            let thing = was.structure.slots[slot].place.unwrap_or(was.structure.slots[slot].thing);
-            let path = was.structure.path(&was.lowered.document, thing).to_string();
-            if !is_same && !moved.contains(&path) {
-                moved.push(path);
-            }
-        }
-        Ok(moved)
-    }
-
     /// Returns the right side that an equation over some picked things begins with: numbers as they are, of things
     /// what they have in common.
     pub fn equation_begun(&self, id: DocumentId, paths: &[Path]) -> String {

@@ -198,7 +198,9 @@ impl Open {
     pub(crate) fn trial(&self) -> Self {
         let (planner, _) = Planner::new(self.state.model(), Plans::default());
         let status = self.status.clone();
-        Self::standing(self.name.clone(), self.state.clone(), planner, status)
+        let mut trial = Self::standing(self.name.clone(), self.state.clone(), planner, status);
+        trial.back_on_course();
+        trial
     }
     /// Counts how much is free, which may take a solve for each component; returns what is superfluous.
     pub(crate) fn count(&mut self) -> Vec<plan::Source> {

@@ -6,7 +6,10 @@
 use crate::host::Host;
 use crate::plain::{plain_enum, plain_struct};
 use crate::session::Session;
-use crate::view::{Analysis, DocumentId, FamilyAxis, FamilyMap, FamilyRow, RowFormats, RowOutcome};
+use crate::view::{
+    Analysis, DocumentId, FamilyAxis, FamilyMap, FamilyRow, Foreseen, Ghost, RowFormats, RowOutcome,
+};
+use kernel::{Command, Path};
 
 /// A question, with all that its answer follows from.
 #[derive(Clone, PartialEq, Debug)]
@@ -37,6 +40,10 @@ pub enum LongQuestion {
         /// What they are written as.
         formats: RowFormats,
     },
+    /// What a command would come to.
+    Foreseen(Command),
+    /// Where else the thing at a path could be.
+    Elsewhere(Path),
     /// Where in two parameters a program draws.
     Map {
         /// The family or program.
@@ -64,6 +71,10 @@ pub enum LongAnswer {
     },
     /// Of [`LongQuestion::Rows`] the next one.
     Row(RowOutcome),
+    /// To [`LongQuestion::Foreseen`]; or why it would be refused, in one line.
+    Foreseen(Result<Foreseen, String>),
+    /// To [`LongQuestion::Elsewhere`].
+    Elsewhere(Vec<Ghost>),
     /// To [`LongQuestion::Map`]; or why there is none.
     Map(Result<FamilyMap, String>),
     /// To [`LongQuestion::Rehearsal`]: why it could not go on.
@@ -76,14 +87,18 @@ plain_enum!(LongQuestion {
     1: Rows { family, rows, formats },
     2: Map { family, thing, axes },
     3: More,
-    4: Rehearsal
+    4: Rehearsal,
+    5: Foreseen(command),
+    6: Elsewhere(about)
 });
 plain_enum!(LongAnswer {
     0: Analysis(analysis),
     1: Row(outcome),
     2: Map(map),
     3: More { form, more },
-    4: Refused(why)
+    4: Refused(why),
+    5: Foreseen(found),
+    6: Elsewhere(ghosts)
 });
 
 impl LongQuestion {
@@ -91,7 +106,12 @@ impl LongQuestion {
     pub fn parts(&self) -> usize {
         match self {
             Self::Rows { rows, .. } => rows.len(),
-            Self::Analysis | Self::More | Self::Map { .. } | Self::Rehearsal => 1,
+            Self::Analysis
+            | Self::More
+            | Self::Map { .. }
+            | Self::Rehearsal
+            | Self::Foreseen(_)
+            | Self::Elsewhere(_) => 1,
         }
     }
 }
@@ -168,6 +188,13 @@ impl Session {
             LongQuestion::Map { family, thing, axes: [across, up] } => {
                 let map = self.family_map(id, (family, thing.as_deref()), [across, up]);
                 Some(LongAnswer::Map(map.map_err(|refusal| refusal.message)))
+            }
+            LongQuestion::Foreseen(command) => {
+                let found = self.foreseen(id, command).map_err(|refusal| refusal.in_a_line());
+                Some(LongAnswer::Foreseen(found))
+            }
+            LongQuestion::Elsewhere(about) => {
+                Some(LongAnswer::Elsewhere(self.ghosts(id, about).unwrap_or_default()))
             }
             LongQuestion::Rehearsal => {
                 self.rehearse(id).err().map(|refusal| LongAnswer::Refused(refusal.message))

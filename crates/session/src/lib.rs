@@ -33,6 +33,7 @@ mod expected;
 mod families;
 mod fixes;
 mod following;
+mod foreseeing;
 mod general;
 mod ghosts;
 mod given_twice;

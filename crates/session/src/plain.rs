@@ -4,10 +4,12 @@
 //! is no version, and bytes that another program wrote are nothing.
 
 use crate::view::{
-    Advice, Analysis, Choice, ContradictionView, FamilyAxis, FamilyMap, FamilyRow, MapAxis,
-    MapReason, MotionView, RedundantView, RowFormats, RowOutcome, Velocity,
+    Advice, Analysis, Choice, ContradictionView, FamilyAxis, FamilyMap, FamilyRow, Foreseen, Ghost,
+    GhostMove, MapAxis, MapReason, MotionView, RedundantView, RowFormats, RowOutcome, Velocity,
 };
 use kernel::{Command, Literal, Path, Step};
+
+mod drawn;
 
 /// What can be told in bytes.
 pub trait Plain: Sized {
@@ -227,6 +229,9 @@ plain_enum!(Command {
     11: Undo,
     12: Redo
 });
+plain_struct!(Foreseen { picture, moved });
+plain_struct!(GhostMove { path, value });
+plain_struct!(Ghost { label, moves, picture, command });
 plain_struct!(Choice { label, command });
 plain_struct!(Velocity { path, direction });
 plain_struct!(MotionView { summary, moves });

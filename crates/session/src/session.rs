@@ -451,22 +451,6 @@ impl Session {
         };
         apply::along(&self.document(self.home(id)).state, &path)
     }
-    /// Returns what of the picture would look otherwise after a command, which is tried in a copy of the document.
-    ///
-    /// # Errors
-    /// Why it would be refused.
-    pub fn foreseen(&self, id: DocumentId, command: &Command) -> Result<drawing::Drawing, Refusal> {
-        let beside = Beside::of(&*self.host, &self.documents, id);
-        let open = self.document(id);
-        let mut trial = open.trial();
-        apply::apply(&mut trial, &beside, command)?;
-        let now = views::picture::picture(&open.state, open.values(), &open.status).drawing;
-        let mut then = views::picture::picture(&trial.state, trial.values(), &trial.status).drawing;
-        let bare = |e: &drawing::Element| drawing::Element { tag: drawing::Tag(0), ..e.clone() };
-        let now: Vec<drawing::Element> = now.elements.iter().map(bare).collect();
-        then.elements.retain(|element| !now.contains(&bare(element)));
-        Ok(then)
-    }
     /// Returns what can be inserted: the classes in use, each with the picture of its prototype.
     pub fn bin(&self, id: DocumentId) -> Vec<BinEntry> {
         tools::bin::entries(&self.document(id).state, &mut self.tiles.borrow_mut())

@@ -141,6 +141,24 @@ pub struct Refusal {
     pub limit: Option<Box<Limit>>,
 }
 
+impl Refusal {
+    /// Returns it in one line: its sentence, then what is wrong with the text and was not said yet.
+    pub fn in_a_line(&self) -> String {
+        // what the refusal says already is not said again
+        let is_said = |said: &String| self.message.contains(said.as_str());
+        let new = self
+            .diagnostics
+            .iter()
+            .filter(|d| !is_said(&d.message) || d.hint.as_ref().is_some_and(|hint| !is_said(hint)));
+        let wrong = new.map(|d| match &d.hint {
+            Some(hint) => format!("{}; {hint}", d.message),
+            None => d.message.clone(),
+        });
+        let parts = [self.message.clone()].into_iter().chain(wrong).filter(|part| !part.is_empty());
+        parts.collect::<Vec<_>>().join(". ")
+    }
+}
+
 /// A diagnostic as an editor shows it.
 #[derive(Clone, PartialEq, Eq, Debug, Default, Serialize)]
 pub struct DiagnosticView {
@@ -264,6 +282,15 @@ pub struct Ghost {
     /// What picks it: one step, that sets what is elsewhere.
     #[serde(skip)]
     pub command: kernel::Command,
+}
+
+/// What a command would come to.
+#[derive(Clone, PartialEq, Debug, Default)]
+pub struct Foreseen {
+    /// The elements of the picture that would look otherwise, as they would look.
+    pub picture: drawing::Drawing,
+    /// The paths of what would move.
+    pub moved: Vec<String>,
 }
 
 /// A number or a place of a ghost.

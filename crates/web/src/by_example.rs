@@ -181,7 +181,7 @@ impl Lab {
     fn make_class(self, paths: &[Path], plan: &ClassPlan) -> Result<(), String> {
         let Some(id) = self.id() else { return Ok(()) };
         let made = self.ask(|session| session.class_of(id, paths, plan));
-        let (command, name) = made.map_err(|refusal| crate::field::reason(&refusal))?;
+        let (command, name) = made.map_err(|refusal| refusal.in_a_line())?;
         if self.apply_called(&command, &words::make_class(&plan.name)) {
             self.select(Some(name));
             self.notice.set(Some(Notice::Said(words::class_made(&plan.name))));
@@ -191,7 +191,7 @@ impl Lab {
         match self.notice.get_untracked() {
             Some(Notice::Refused(refusal)) => {
                 self.notice.set(None);
-                Err(crate::field::reason(&refusal))
+                Err(refusal.in_a_line())
             }
             _ => Ok(()),
         }

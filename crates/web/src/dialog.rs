@@ -107,7 +107,7 @@ fn Open(lab: Lab, wish: Wish) -> impl IntoView {
                 match lab.ask_of_shown(said) {
                     Some(Ok(command)) => command,
                     Some(Err(refusal)) => {
-                        return foreseen.set(Some(crate::field::reason(&refusal)));
+                        return foreseen.set(Some(refusal.in_a_line()));
                     }
                     None => return,
                 }
@@ -115,7 +115,11 @@ fn Open(lab: Lab, wish: Wish) -> impl IntoView {
             Wish::Equation(_) => equation(&typed),
             Wish::SaveAs | Wish::Rename(_) | Wish::Kind(_) | Wish::Number => return,
         };
-        foreseen.set(lab.said_before(&command));
+        lab.foresee_then(&command, move |found| {
+            // the dialog may be gone meanwhile
+            let said = found.map_or_else(|why| why, |found| words::would_move(&found.moved));
+            foreseen.try_set(Some(said));
+        });
     };
     let change = move |_| {
         error.set(None);
@@ -292,7 +296,7 @@ impl Lab {
                 self.select(Some(name));
                 Ok(())
             }
-            Some(Err(refusal)) => Err(crate::field::reason(&refusal)),
+            Some(Err(refusal)) => Err(refusal.in_a_line()),
             None => Ok(()),
         }
     }
@@ -308,16 +312,6 @@ impl Lab {
         refused(self)
     }
 
-    /// Shows what a command would do, and says what it would move.
-    fn said_before(self, command: &Command) -> Option<String> {
-        self.foresee_command(Some(command));
-        let moved = self.ask_of_shown(|session, id| session.moved_by(id, command))?;
-        Some(match moved {
-            Ok(moved) => words::would_move(&moved),
-            Err(refusal) => crate::field::reason(&refusal),
-        })
-    }
-
     /// Says a dimension with the value that was typed; answers whether it holds now, or something is asked first.
     ///
     /// # Errors
@@ -326,7 +320,7 @@ impl Lab {
         match self.say_offer(offer, Some(typed)) {
             Ok(true) => Ok(true),
             Ok(false) => refused(self).map(|()| false),
-            Err(refusal) => Err(crate::field::reason(&refusal)),
+            Err(refusal) => Err(refusal.in_a_line()),
         }
     }
 }
@@ -342,7 +336,7 @@ fn refused(lab: Lab) -> Result<(), String> {
     match lab.notice.get_untracked() {
         Some(Notice::Refused(refusal)) => {
             lab.notice.set(None);
-            Err(crate::field::reason(&refusal))
+            Err(refusal.in_a_line())
         }
         _ => Ok(()),
     }

@@ -4,7 +4,7 @@
 //! an example. What comes of each row is asked of the session.
 
 use crate::lab::{Kind, Lab, Notice, Told};
-use crate::{field, js, words};
+use crate::{js, words};
 use leptos::prelude::*;
 use session::Session;
 use session::jobs::{LongAnswer, LongQuestion};
@@ -102,7 +102,7 @@ impl Family {
     fn settle(self, outcome: Option<Result<Change, Refusal>>) -> bool {
         match outcome {
             Some(Err(refusal)) => {
-                self.refused.set(Some(field::reason(&refusal)));
+                self.refused.set(Some(refusal.in_a_line()));
                 false
             }
             done => {
@@ -235,7 +235,7 @@ pub fn Families(
             None => None,
         };
         let grid = lab.ask_of_shown(|s, id| s.family_grid(id, &name, table.as_deref()));
-        grid.unwrap_or_else(|| Ok(FamilyGrid::default())).map_err(|r| field::reason(&r))
+        grid.unwrap_or_else(|| Ok(FamilyGrid::default())).map_err(|r| r.in_a_line())
     });
     let grid = Memo::new(move |_| read.get().unwrap_or_default());
     let outcomes = RwSignal::new(Vec::new());
@@ -385,7 +385,7 @@ fn Tools(family: Family, chosen: RwSignal<String>) -> impl IntoView {
                 family.settle(Some(Ok(change)));
                 chosen.set(name);
             }
-            Some(Err(refusal)) => family.refused.set(Some(field::reason(&refusal))),
+            Some(Err(refusal)) => family.refused.set(Some(refusal.in_a_line())),
             None => {}
         }
     };

@@ -6,7 +6,6 @@ use leptos::ev::KeyboardEvent;
 use leptos::html::Input;
 use leptos::prelude::*;
 use presentation::numbers::{exactly, to_read};
-use session::view::Refusal;
 
 /// Brings an element into sight within the panel that it scrolls in, if it is there. The page itself stays:
 /// what is selected in the picture must not take the picture away.
@@ -18,22 +17,6 @@ pub fn scroll_to(id: &str) {
     let below = own.bottom() - frame.bottom();
     let by = if above < 0.0 { above } else { below.max(0.0) };
     panel.set_scroll_top(panel.scroll_top() + by.round() as i32);
-}
-
-/// One line that says why a value was refused.
-pub fn reason(refusal: &Refusal) -> String {
-    // what the refusal says already is not said again
-    let is_said = |said: &String| refusal.message.contains(said.as_str());
-    let new = refusal
-        .diagnostics
-        .iter()
-        .filter(|d| !is_said(&d.message) || d.hint.as_ref().is_some_and(|hint| !is_said(hint)));
-    let wrong = new.map(|d| match &d.hint {
-        Some(hint) => format!("{}; {hint}", d.message),
-        None => d.message.clone(),
-    });
-    let parts = [refusal.message.clone()].into_iter().chain(wrong).filter(|part| !part.is_empty());
-    parts.collect::<Vec<_>>().join(". ")
 }
 
 /// A field that is open only while a value is typed.
@@ -70,7 +53,7 @@ pub fn Edit(
                 over.set_value(true);
                 done();
             }
-            Err(refusal) => error.set(Some(reason(&refusal))),
+            Err(refusal) => error.set(Some(refusal.in_a_line())),
         }
     };
     let key = move |e: KeyboardEvent| {

@@ -26,7 +26,7 @@ use presentation::marks::Marked;
 use presentation::palette::Listed;
 use presentation::paths::covers;
 use session::view::{
-    BinEntry, Caught, DocumentId, DragState, Explanation, Ghost, HeldView, LessonView, MovedView,
+    BinEntry, Caught, DocumentId, DragState, Explanation, HeldView, LessonView, MovedView,
     PictureView, Question, Recognised, Refusal, Status, StructureRow, TextView, ToolView, ValueRow,
     Velocity,
 };
@@ -171,6 +171,8 @@ pub struct Lab {
     pub motion: RwSignal<Vec<Velocity>>,
     /// Where else the selection could be, as the picture shows it.
     pub ghosts: RwSignal<Vec<drawing::Drawing>>,
+    /// How often something else was meant to be tried before it is done: only the last is shown.
+    pub foreseen: StoredValue<u32>,
     /// What there is to say.
     pub notice: RwSignal<Option<Notice>>,
     /// Where the present drag has got to, if there is one.
@@ -377,6 +379,7 @@ impl Lab {
             marked: Memo::new(move |_| marked(structure, (selected, also), hovered)),
             motion: RwSignal::new(Vec::new()),
             ghosts: RwSignal::new(Vec::new()),
+            foreseen: StoredValue::new(0),
             notice: RwSignal::new(None),
             dragging: RwSignal::new(None),
             listed: RwSignal::new(Vec::new()),
@@ -456,12 +459,6 @@ impl Lab {
     /// Why a thing does not move; nothing where it can.
     pub fn held(self, about: &Path) -> Option<HeldView> {
         self.tell(|session, id| session.held(id, about)).flatten()
-    }
-
-    /// Where else a thing could be.
-    pub fn elsewhere(self, about: &Path) -> Vec<Ghost> {
-        let found = self.tell(|session, id| session.ghosts(id, about));
-        found.and_then(Result::ok).unwrap_or_default()
     }
 
     /// Shows a sentence as a refusal.

@@ -5,7 +5,6 @@
 
 use crate::actions::{Action, Context, Group};
 use crate::dock::Tab;
-use crate::field;
 use crate::lab::{Lab, Notice};
 use crate::sheet::bounds;
 use crate::{icons, js, values, words};
@@ -186,7 +185,7 @@ impl Lab {
     fn show_plot(self, made: Result<Plot, Refusal>) {
         let (plot, refused) = match made {
             Ok(plot) => (plot, None),
-            Err(refusal) => (Plot::default(), Some(field::reason(&refusal))),
+            Err(refusal) => (Plot::default(), Some(refusal.in_a_line())),
         };
         self.plotting.refused.set(refused);
         self.plotting.plot.set(plot);
@@ -377,7 +376,7 @@ fn Shown(lab: Lab) -> impl IntoView {
             return;
         }
         match lab.ask_of_shown(|session, id| session.understand(id, text)) {
-            Some(Err(refusal)) => lab.plotting.refused.set(Some(field::reason(&refusal))),
+            Some(Err(refusal)) => lab.plotting.refused.set(Some(refusal.in_a_line())),
             _ => {
                 show.update(|show| show.push(String::from(text)));
                 typed.set(String::new());

@@ -2,15 +2,17 @@
 
 use crate::actions;
 use crate::dialog::Wish;
-use crate::lab::{Lab, Notice};
+use crate::lab::{Kind, Lab, Notice, Told};
 use crate::{keyboard, structure, words};
 use leptos::prelude::*;
 use presentation::numbers::to_read;
 use session::Command;
-use session::view::{Deed, Offer, Refusal, RowKind};
+use session::jobs::{LongAnswer, LongQuestion};
+use session::view::{Deed, Foreseen, Offer, Refusal, RowKind};
+use std::time::Duration;
 
-/// Documents of more things than this show no preview while the pointer is over an offer.
-const MOST_FORESEEN: usize = 2000;
+/// What the pointer only passes over is not tried.
+const PAUSE: Duration = Duration::from_millis(80);
 
 /// The offers for what is selected, over the lower edge of the picture.
 #[component]
@@ -144,12 +146,43 @@ impl Lab {
 
     /// Shows what a command would do, or nothing any more.
     pub fn foresee_command(self, command: Option<&Command>) {
-        let small = self.structure.with_untracked(|rows| rows.len() <= MOST_FORESEEN);
-        let drawn = command
-            .filter(|_| small)
-            .zip(self.id())
-            .and_then(|(command, id)| self.ask(|session| session.foreseen(id, command)).ok());
-        self.ghosts.set(drawn.into_iter().collect());
+        self.forget_foreseen();
+        if let Some(command) = command {
+            self.foresee_then(command, |_| {});
+        }
+    }
+
+    /// Shows no more what a command would do.
+    fn forget_foreseen(self) {
+        self.ghosts.set(Vec::new());
+        self.foreseen.update_value(|turn| *turn += 1);
+        self.forget_long(Kind::Foreseen);
+    }
+
+    /// Has it tried what a command would do, unless another one is meant soon; shows it, and tells what it comes to.
+    pub fn foresee_then(
+        self,
+        command: &Command,
+        tell: impl Fn(Result<Foreseen, String>) + Clone + 'static,
+    ) {
+        self.forget_foreseen();
+        let turn = self.foreseen.get_value();
+        let is_meant = move || self.foreseen.try_get_value() == Some(turn);
+        let question = LongQuestion::Foreseen(command.clone());
+        let ask = move || {
+            if !is_meant() {
+                return;
+            }
+            let tell = tell.clone();
+            self.ask_long(Kind::Foreseen, question.clone(), move |told| match told {
+                Told::Part(LongAnswer::Foreseen(found)) if is_meant() => {
+                    self.ghosts.set(found.iter().map(|found| found.picture.clone()).collect());
+                    tell(found);
+                }
+                Told::Part(_) | Told::Over | Told::Stopped | Told::Failed(_) => {}
+            });
+        };
+        set_timeout(ask, PAUSE);
     }
 
     /// Does what an offer says; where a value goes there, it is asked for.

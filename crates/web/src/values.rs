@@ -15,6 +15,8 @@ use wasm_bindgen::JsCast;
 
 /// At most so many rows are in the page at once; the filter finds the others.
 const MOST_ROWS: usize = 300;
+/// So many rows are made in one frame.
+const ROWS_A_FRAME: usize = 40;
 
 /// The table of the open document's values.
 #[component]
@@ -39,8 +41,16 @@ pub fn Values(
             all.collect::<Vec<usize>>()
         })
     });
+    let room = RwSignal::new(ROWS_A_FRAME);
+    Effect::new(move |_| {
+        if room.get() < found.with(Vec::len).min(MOST_ROWS) {
+            // the table may have gone by then
+            request_animation_frame(move || _ = room.try_update(|room| *room += ROWS_A_FRAME));
+        }
+    });
     let shown = move || {
-        let shown: Vec<usize> = found.with(|found| found.iter().copied().take(MOST_ROWS).collect());
+        let most = room.get().min(MOST_ROWS);
+        let shown: Vec<usize> = found.with(|found| found.iter().copied().take(most).collect());
         lab.shown_values.set_value(shown.clone());
         shown
     };
@@ -53,7 +63,10 @@ pub fn Values(
                 <h2>{words::TABLE}</h2>
                 <input type="search" placeholder=words::FILTER aria-label=words::FILTER
                     prop:value=filter
-                    on:input=move |e| filter.set(event_target_value(&e)) />
+                    on:input=move |e| {
+                        room.set(ROWS_A_FRAME);
+                        filter.set(event_target_value(&e));
+                    } />
             </header>
             <div class="scroll" on:pointerleave=move |_| lab.hover(None)>
                 <table>
@@ -439,7 +452,7 @@ fn Field(lab: Lab, row: Memo<Option<ValueRow>>, selects: bool) -> impl IntoView 
                 typed.set(None);
                 error.set(None);
             }
-            Err(refusal) => error.set(Some(field::reason(&refusal))),
+            Err(refusal) => error.set(Some(refusal.in_a_line())),
         }
     };
     let options = Memo::new(move |_| {

@@ -58,9 +58,18 @@ pub fn Why(
         lab.text.track();
         about.with(|about| about.as_ref().and_then(|path| lab.held(path)))
     });
-    let elsewhere = Memo::new(move |_| {
+    let elsewhere = RwSignal::new(Vec::<Ghost>::new());
+    Effect::new(move |_| {
         lab.text.track();
-        about.with(|about| about.as_ref().map(|path| lab.elsewhere(path))).unwrap_or_default()
+        lab.forget_long(Kind::Elsewhere);
+        elsewhere.set(Vec::new());
+        if let Some(path) = about.get() {
+            lab.ask_long(Kind::Elsewhere, LongQuestion::Elsewhere(path), move |told| {
+                if let Told::Part(LongAnswer::Elsewhere(found)) = told {
+                    elsewhere.try_set(found);
+                }
+            });
+        }
     });
     let (analysis, state) = (RwSignal::new(Analysis::default()), RwSignal::new(Looking::On));
     let analyse = move || {
@@ -92,6 +101,7 @@ pub fn Why(
     Effect::new(move |_| show_all());
     on_cleanup(move || {
         lab.forget_long(Kind::Analysis);
+        lab.forget_long(Kind::Elsewhere);
         lab.motion.set(Vec::new());
         lab.ghosts.set(Vec::new());
     });

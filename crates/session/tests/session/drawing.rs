@@ -572,12 +572,12 @@ fn an_equation_begins_with_what_is_picked_and_says_what_it_would_move() {
         target: session::Path::default(),
         members: format!("constraint {rule}"),
     };
-    let moved = desk.session.moved_by(desk.id, &said("a.length = 100")).expect("it can be said");
-    assert_eq!(moved, Vec::<String>::new());
-    let moved = desk.session.moved_by(desk.id, &said("b.length = a.length / 2 + 10"));
-    let moved = moved.expect("it can be said");
+    let seen = desk.session.foreseen(desk.id, &said("a.length = 100")).expect("it can be said");
+    assert_eq!(seen.moved, Vec::<String>::new());
+    let seen = desk.session.foreseen(desk.id, &said("b.length = a.length / 2 + 10"));
+    let moved = seen.expect("it can be said").moved;
     assert!(!moved.is_empty() && moved.iter().all(|path| path != "a.p1.x"), "{moved:?}");
-    let wrong = desk.session.moved_by(desk.id, &said("b.length = 3 kg")).expect_err("no length");
+    let wrong = desk.session.foreseen(desk.id, &said("b.length = 3 kg")).expect_err("no length");
     assert!(wrong.message.contains("Length"), "{}", wrong.message);
     desk.apply(&said("b.length = a.length / 2 + 10")).expect("it can be said");
     holds(&desk);

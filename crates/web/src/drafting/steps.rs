@@ -211,7 +211,7 @@ fn Parameter(lab: Lab, example: String, row: ParameterRow, used: Use) -> impl In
         };
         match outcome {
             Ok(()) => wrong.set(None),
-            Err(refusal) => wrong.set(Some(crate::field::reason(&refusal))),
+            Err(refusal) => wrong.set(Some(refusal.in_a_line())),
         }
         lab.drafting.turned.update(|n| *n += 1);
     };

@@ -24,6 +24,10 @@ const LONG: f64 = 400.0;
 pub enum Kind {
     /// What is free, superfluous, contradictory.
     Analysis,
+    /// What a command would come to.
+    Foreseen,
+    /// Where else the selection could be.
+    Elsewhere,
     /// How much is free, where that was not said at once; nobody waits for it.
     Freedom,
     /// What comes of the rows of a family.
@@ -113,13 +117,10 @@ impl Lab {
         let going = self.jobs.going.get_untracked();
         if let Some(going) = going.filter(|g| g.kind == kind || g.kind == Kind::Freedom) {
             // nobody waits for the count: whoever asks something else does not either
-            match going.kind != kind || js::now() - going.begun > LONG {
-                true => self.end_worker(),
-                false => self.jobs.queue.update_value(|queue| {
-                    queue.stale += u32::from(std::mem::take(&mut queue.is_handed));
-                }),
+            if going.kind != kind {
+                self.end_worker();
             }
-            self.jobs.going.set(None);
+            self.give_up(going);
         }
         let task = Task { kind, question, tell: Box::new(tell) };
         self.jobs.queue.update_value(|queue| {
@@ -132,13 +133,35 @@ impl Lab {
 
     /// Gives up a question whose answer nobody waits for any more.
     pub fn forget_long(self, kind: Kind) {
-        let is_going = self.jobs.going.try_with_untracked(|g| g.is_some_and(|g| g.kind == kind));
+        let going = self.jobs.going.try_get_untracked().flatten().filter(|g| g.kind == kind);
         let _ = self.jobs.queue.try_update_value(|queue| queue.tasks.retain(|t| t.kind != kind));
-        if is_going == Some(true) {
-            self.end_worker();
-            self.jobs.going.set(None);
+        if let Some(going) = going {
+            self.give_up(going);
             self.next_job();
         }
+    }
+
+    /// Waits no more for the job that goes on. A worker that has been at it for long is ended, as is one that does not
+    /// come to its end soon.
+    fn give_up(self, going: Going) {
+        self.jobs.going.set(None);
+        if js::now() - going.begun > LONG {
+            return self.end_worker();
+        }
+        let number = self.jobs.queue.try_update_value(|queue| {
+            queue.stale += u32::from(std::mem::take(&mut queue.is_handed));
+            queue.number
+        });
+        let look = move || {
+            let lags = self.jobs.queue.try_with_value(|q| Some(q.number) == number && q.stale > 0);
+            if lags == Some(true) {
+                self.end_worker();
+                if self.jobs.going.get_untracked().is_some() {
+                    self.start_worker();
+                }
+            }
+        };
+        set_timeout(look, Duration::from_millis(LONG as u64));
     }
 
     /// Stops what goes on; returns whether there was something.

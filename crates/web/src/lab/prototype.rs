@@ -94,7 +94,7 @@ impl Lab {
                 self.apply_called(&command, &words::make_class(class));
                 Ok(())
             }
-            Some(Err(refusal)) => Err(crate::field::reason(&refusal)),
+            Some(Err(refusal)) => Err(refusal.in_a_line()),
             None => Ok(()),
         }
     }

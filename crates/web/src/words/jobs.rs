@@ -20,6 +20,8 @@ pub const FILES_STOPPED: &str = "The files were not made: the drawing was stoppe
 pub fn job(kind: Kind) -> &'static str {
     match kind {
         Kind::Analysis => "Analysing",
+        Kind::Foreseen => "Trying it",
+        Kind::Elsewhere => "Looking where else it could be",
         Kind::Freedom => "Counting what is free",
         Kind::Rows => "Drawing rows",
         Kind::Map => "Making the map",
