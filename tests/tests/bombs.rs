@@ -134,7 +134,7 @@ fn what_nests_overflows_no_stack() {
             "class Fence { posts: List of Real  for p in posts { constraint p = 1 }  \
              g: Fence = Fence([1]) }\nf: Fence\n"
                 .into(),
-            Error("too-deep"),
+            Error("endless-parts"),
         ),
         (
             "parts of parts",
@@ -465,4 +465,38 @@ fn what_is_long_costs_as_much_as_it_is_long() {
             Holds,
         ),
     ]);
+}
+
+/// Returns the codes of what is said of a document, each with how often it is.
+fn told(text: &str) -> Vec<(String, usize)> {
+    let mut session = Session::new(Box::new(Library));
+    let id = session.open("hostile", text);
+    let mut codes: Vec<String> = session.text(id).diagnostics.into_iter().map(|d| d.code).collect();
+    codes.sort();
+    codes.chunk_by(PartialEq::eq).map(|alike| (alike[0].clone(), alike.len())).collect()
+}
+
+#[test]
+fn what_is_wrong_everywhere_is_told_five_hundred_times() {
+    let is_cut = |text: &str, code: &str| {
+        let told = told(text);
+        let of = |code: &str| told.iter().find(|(c, _)| c == code).map(|(_, count)| *count);
+        assert!(of("more") == Some(1) && of(code) == Some(500), "{told:?}");
+    };
+    is_cut(&lines(20_000, |i| format!("p{i}: Rael = {i}")), "unknown-class");
+    is_cut(
+        &("class A { x: Real }\na: A\n".to_string() + &lines(20_000, |i| format!("a.x = {i}"))),
+        "given-twice",
+    );
+    let garbage = told(&"@#$ )( ]".repeat(20_000));
+    assert_eq!(garbage.iter().map(|(_, count)| count).sum::<usize>(), 501, "{garbage:?}");
+}
+
+#[test]
+fn a_class_with_a_thing_of_its_own_class_and_a_list_is_told_once() {
+    let text = format!(
+        "class Fence {{ posts: List of Real  for p in posts {{ constraint p = 1 }}  g: Fence = Fence([{}]) }}\nf: Fence\n",
+        joined(200, ", ", |_| "1".into())
+    );
+    assert_eq!(told(&text), [("endless-parts".to_string(), 1)]);
 }

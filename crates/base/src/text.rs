@@ -96,10 +96,15 @@ pub struct Place {
     pub span: Span,
 }
 
+/// So many bytes stand between two places before which the characters of a text are counted.
+const STRIDE: usize = 1024;
+
 /// The starts of a text's lines, to turn offsets into lines and columns.
 #[derive(Clone, Debug)]
 pub struct LineIndex {
     starts: Vec<u32>,
+    /// How many characters begin before every multiple of [`STRIDE`] bytes.
+    characters: Vec<u32>,
 }
 
 impl LineIndex {
@@ -107,14 +112,52 @@ impl LineIndex {
     pub fn new(text: &str) -> Self {
         let mut starts = vec![0];
         starts.extend(text.bytes().enumerate().filter(|b| b.1 == b'\n').map(|b| b.0 as u32 + 1));
-        Self { starts }
+        let mut characters = vec![0];
+        let mut count = 0;
+        for stride in text.as_bytes().chunks(STRIDE) {
+            count += begun(stride);
+            characters.push(count);
+        }
+        Self { starts, characters }
     }
     /// Returns the line and column of a byte offset, both counted from 1; columns count characters.
+    ///
+    /// Cost: it does not grow with the length of the line.
     pub fn line_column(&self, text: &str, offset: u32) -> (u32, u32) {
         let line = self.starts.partition_point(|&s| s <= offset) - 1;
         let start = self.starts[line] as usize;
         let end = (offset as usize).clamp(start, text.len());
-        let column = text.get(start..end).map_or(end - start, |s| s.chars().count());
-        (line as u32 + 1, column as u32 + 1)
+        let column = match text.is_char_boundary(end) {
+            true => self.before(text, end) - self.before(text, start),
+            false => (end - start) as u32,
+        };
+        (line as u32 + 1, column + 1)
+    }
+    /// Returns how many characters begin before a byte of the text.
+    fn before(&self, text: &str, at: usize) -> u32 {
+        let whole = at / STRIDE;
+        self.characters[whole] + begun(&text.as_bytes()[whole * STRIDE..at])
+    }
+}
+
+/// Returns how many characters begin in some bytes of a text.
+fn begun(bytes: &[u8]) -> u32 {
+    bytes.iter().filter(|&&byte| byte & 0xC0 != 0x80).count() as u32
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{LineIndex, STRIDE};
+
+    #[test]
+    fn columns_count_characters_however_long_the_line_is() {
+        let line = "aé€𝄞".repeat(STRIDE);
+        let text = format!("é\n{line}\nend");
+        let lines = LineIndex::new(&text);
+        let start = text.find('a').unwrap_or_default();
+        for (n, (at, _)) in line.char_indices().enumerate().step_by(97) {
+            assert_eq!(lines.line_column(&text, (start + at) as u32), (2, n as u32 + 1));
+        }
+        assert_eq!(lines.line_column(&text, text.len() as u32), (3, 4));
     }
 }

@@ -139,12 +139,16 @@ fn counted((count, kind): (usize, &str)) -> String {
 
 /// So many characters of a line are shown.
 const WIDEST: usize = 120;
+/// So many bytes of a line are looked at on either side: more than are shown.
+const FARTHEST: usize = 8 * WIDEST;
 
 /// Returns what is shown of the line around a byte of a text, and how many characters stand before it there.
 fn around(text: &str, at: usize) -> (String, usize) {
     let (before, after) = text.split_at_checked(at).unwrap_or((text, ""));
-    let before = &before[before.rfind('\n').map_or(0, |n| n + 1)..];
-    let after = after.lines().next().unwrap_or_default();
+    let near = &before[before.floor_char_boundary(before.len().saturating_sub(FARTHEST))..];
+    let before = near.rsplit('\n').next().unwrap_or_default();
+    let near = &after[..after.floor_char_boundary(FARTHEST)];
+    let after = near.lines().next().unwrap_or_default();
     let is_short = before.len() + after.len() <= WIDEST;
     // of a long line, half the width comes before
     let most = if is_short { WIDEST } else { WIDEST / 2 };
@@ -165,8 +169,8 @@ fn show_diagnostic(opened: &Opened, d: &DiagnosticView) -> String {
     if d.file.is_empty() {
         let (line, before) = around(&opened.text, d.start as usize);
         let marked = opened.text.get(d.start as usize..d.end as usize).unwrap_or_default();
-        let marked = marked.lines().next().unwrap_or_default();
-        let width = marked.chars().take(WIDEST - before).count().max(1);
+        let width = marked.chars().take(WIDEST - before).take_while(|c| *c != '\n');
+        let width = width.count().max(1);
         let gutter = d.line.to_string();
         let blank = " ".repeat(gutter.len());
         let indent = " ".repeat(before);

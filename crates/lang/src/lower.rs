@@ -35,7 +35,8 @@ use crate::visible::Visible;
 use base::{Diagnostic, FileId, IdVec, Mixer, Name, Place, Severity, Span};
 use indexmap::IndexMap;
 use kernel::{
-    ClassId, Document, Fault, FaultKind, OriginId, PartRef, Path, Scale, Search, Term, Vertical,
+    ClassId, Classes, Document, Fault, FaultKind, OriginId, PartRef, Path, Scale, Search, Term,
+    Vertical,
 };
 use std::collections::{BTreeMap, BTreeSet};
 use std::hash::BuildHasherDefault;
@@ -351,7 +352,7 @@ impl<'l> Lowerer<'l> {
             spoken: BTreeSet::new(),
             order: Vec::new(),
             document: Document {
-                classes: IdVec::new(),
+                classes: Classes::new(),
                 root: ClassId(0),
                 vertical: Vertical::Up,
                 units_per_metre: 1.0,
@@ -578,9 +579,12 @@ impl Lowered {
         let mut endless: BTreeSet<String> = BTreeSet::new();
         // so is a list that is too short, whatever is asked of it there
         let mut short: BTreeSet<Place> = BTreeSet::new();
+        // what goes around goes too deep
+        let mut is_deep = faults.iter().any(|f| f.kind == FaultKind::EndlessParts);
         let is_new = |f: &&Fault| match f.kind {
             FaultKind::EndlessParts => endless.insert(f.message.clone()),
             FaultKind::NoElement => short.insert(self.place(f.origin)),
+            FaultKind::TooDeep => !std::mem::replace(&mut is_deep, true),
             _ => true,
         };
         faults.iter().filter(is_new).map(diagnostic).collect()

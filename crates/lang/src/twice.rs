@@ -4,9 +4,10 @@
 //! so is what a loop or a condition gives of which something else is an exception.
 
 use crate::lower::{Lowered, OWN};
-use base::{Diagnostic, Mixer};
+use base::{Diagnostic, Mixer, Span};
 use indexmap::IndexMap;
 use kernel::{Given, OriginId, Path};
+use std::cell::OnceCell;
 use std::collections::BTreeSet;
 use std::hash::BuildHasherDefault;
 use syntax::{SyntaxKind, SyntaxNode};
@@ -19,7 +20,8 @@ impl Lowered {
     ///
     /// Cost: a look at every given value.
     pub fn given_twice(&self) -> Vec<Diagnostic> {
-        let root = self.effective_parse.syntax();
+        let blocks = OnceCell::new();
+        let blocks = || blocks.get_or_init(|| Blocks::of(&self.effective_parse.syntax()));
         let mut said = BTreeSet::new();
         let mut warnings = Vec::new();
         for (_, class) in self.document.classes.iter() {
@@ -33,8 +35,12 @@ impl Lowered {
                 }
                 let Some(earlier) = latest.insert(path, *origin) else { continue };
                 let before = self.place(earlier);
-                let [one, other] = [earlier, *origin].map(|origin| self.repeated(&root, origin));
-                if before != place && one == other && said.insert(before) {
+                let is_one = || {
+                    let starts = [before, place].map(|place| place.span.start);
+                    let [one, other] = starts.map(|start| blocks().around(start));
+                    one == other
+                };
+                if before != place && is_one() && said.insert(before) {
                     let message =
                         format!("{path} is given here, and again further on: that counts");
                     let d = Diagnostic::warning(CODE, before, message).label(place, "here");
@@ -44,11 +50,35 @@ impl Lowered {
         }
         warnings
     }
+}
 
-    /// Returns the innermost loop or condition that a member of the text stands in.
-    fn repeated(&self, root: &SyntaxNode, origin: OriginId) -> Option<SyntaxNode> {
-        let start = self.origins.place(origin).span.start.into();
-        let token = root.token_at_offset(start).right_biased()?;
-        token.parent_ancestors().find(|n| matches!(n.kind(), SyntaxKind::For | SyntaxKind::If))
+/// The loops and conditions of a text.
+struct Blocks {
+    /// The range of each in bytes, and the place here of the one around it; by where they start.
+    all: Vec<(Span, Option<usize>)>,
+}
+
+impl Blocks {
+    fn of(root: &SyntaxNode) -> Self {
+        let mut all: Vec<(Span, Option<usize>)> = Vec::new();
+        let is_block = |n: &SyntaxNode| matches!(n.kind(), SyntaxKind::For | SyntaxKind::If);
+        let mut around = None;
+        for node in root.descendants().filter(is_block) {
+            let range = node.text_range();
+            let span = Span::new(range.start().into(), range.end().into());
+            while let Some(at) = around.filter(|&at: &usize| all[at].0.end <= span.start) {
+                around = all[at].1;
+            }
+            all.push((span, around));
+            around = Some(all.len() - 1);
+        }
+        Self { all }
+    }
+
+    /// Returns the place here of the innermost that a byte stands in.
+    fn around(&self, byte: u32) -> Option<usize> {
+        let last = self.all.partition_point(|(span, _)| span.start <= byte).checked_sub(1);
+        let mut outwards = std::iter::successors(last, |&at| self.all[at].1);
+        outwards.find(|&at| byte < self.all[at].0.end)
     }
 }

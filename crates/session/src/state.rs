@@ -19,6 +19,9 @@ use syntax::{SyntaxKind, ast};
 /// The code for a reference that names nothing.
 const LOST: &str = "unknown-reference";
 
+/// So many errors of a document are told one by one, and so many warnings.
+const MOST_TOLD: usize = 500;
+
 /// How many times a document is opened for what copies begin with: so deep may copies be computed from other copies.
 const MOST_COPIES: usize = 16;
 
@@ -34,6 +37,8 @@ pub(crate) struct State {
     pub(crate) values: Values,
     /// What is wrong with the text, in its order.
     pub(crate) diagnostics: Vec<Diagnostic>,
+    /// How many errors there are besides.
+    pub(crate) untold: usize,
     /// Members that no plan keeps, because the planner does not understand them yet.
     unplanned: BTreeSet<OriginId>,
     /// Where two solutions coincide.
@@ -151,13 +156,13 @@ impl State {
             return status;
         }
         let evaluator = self.evaluator(&self.values);
+        let told: BTreeSet<Source> = status.unmet.iter().map(|unmet| unmet.source).collect();
         for (index, &instance) in (0..).zip(self.structure.constraints.iter()) {
             let required = self.structure.strength(&self.lowered.document, instance)
                 == Strength::Required
                 && self.structure.is_on(instance);
             let source = Source::Constraint(index);
-            let told = status.unmet.iter().any(|u| u.source == source);
-            if self.is_planned(index) || !required || told {
+            if self.is_planned(index) || !required || told.contains(&source) {
                 continue;
             }
             let verdict = evaluator.test(instance).ok();
@@ -247,7 +252,7 @@ impl Structured {
         let Self { lowered, structure, .. } = &self;
         let model = Model { document: &lowered.document, structure };
         let (planner, unplanned) = Planner::new(model, plans);
-        let unplanned = unplanned.into_iter().filter(|f| !follows(lowered, f)).collect();
+        let unplanned = unplanned.into_iter().filter(|f| !follows(&self, f)).collect();
         Planned { of: self, planner, unplanned }
     }
 }
@@ -277,7 +282,7 @@ impl Planned {
             ),
         }));
         crate::placing::place_layout(structure, &self.planner, &mut values);
-        let on_course = self.planner.course_faults().iter().filter(|f| !follows(lowered, f));
+        let on_course = self.planner.course_faults().iter().filter(|f| !follows(&self.of, f));
         self.unplanned.extend(on_course.cloned());
         Solved { of: self, given, given_faults, values, double_roots }
     }
@@ -304,9 +309,9 @@ impl Solved {
             .filter(|d| said.insert((d.place, d.code, d.message.clone())));
         diagnostics.extend(through);
         diagnostics.extend(ended_diagnostics(&lowered, &structure, &values));
+        let untold = tell_first(&mut diagnostics);
         crate::fixes::add_uses(&text, &mut diagnostics, host);
         let unplanned = unplanned.iter().map(|f| f.origin).collect();
-        diagnostics.sort_by_key(|d| (d.place.file, d.place.span.start));
         debug_assert_eq!(kernel::check::values(&structure, &values), Ok(()));
         let mut state = State {
             text,
@@ -314,6 +319,7 @@ impl Solved {
             structure,
             values,
             diagnostics,
+            untold,
             unplanned,
             double_roots,
             gave_way,
@@ -327,6 +333,7 @@ impl Solved {
         warnings.extend(state.lowered.bindings_replaced());
         warnings.extend(crate::families::outside::warnings(&state));
         if !warnings.is_empty() {
+            tell_first(&mut warnings);
             state.diagnostics.extend(warnings);
             state.diagnostics.sort_by_key(|d| (d.place.file, d.place.span.start));
         }
@@ -334,13 +341,43 @@ impl Solved {
     }
 }
 
+/// Sorts diagnostics by where they stand, keeps the first errors and the first others, and says how many more there
+/// are. Returns how many errors are not told.
+fn tell_first(diagnostics: &mut Vec<Diagnostic>) -> usize {
+    diagnostics.sort_by_key(|d| (d.place.file, d.place.span.start));
+    if diagnostics.len() <= MOST_TOLD {
+        return 0;
+    }
+    let is_error = |d: &Diagnostic| d.severity == base::Severity::Error;
+    let (mut errors, mut others): (Vec<_>, Vec<_>) = diagnostics.drain(..).partition(is_error);
+    let untold = errors.len().saturating_sub(MOST_TOLD);
+    for (all, kind) in [(&mut errors, "errors"), (&mut others, "warnings")] {
+        let rest = all.split_off(all.len().min(MOST_TOLD));
+        if let [first, ..] = &rest[..] {
+            let message = format!("{} more {kind} stand from here on", rest.len());
+            let severity = first.severity;
+            all.push(Diagnostic { severity, ..Diagnostic::error("more", first.place, message) });
+        }
+        diagnostics.append(all);
+    }
+    diagnostics.sort_by_key(|d| (d.place.file, d.place.span.start));
+    untold
+}
+
 /// Returns true for a fault that follows from what else is told: what is not there because its text is wrong is said of
-/// that text, and not of what speaks of it; so is a ring of messages.
-fn follows(lowered: &Lowered, fault: &plan::Fault) -> bool {
+/// that text, and not of what speaks of it; so is what was not made because it is too deep or too much, and a ring of
+/// messages.
+fn follows(of: &Structured, fault: &plan::Fault) -> bool {
+    let lowered = &of.lowered;
+    let is_missing = |f: &kernel::Fault| {
+        matches!(f.kind, kernel::FaultKind::TooDeep | kernel::FaultKind::TooManyThings)
+    };
     let is_wrong = |d: &Diagnostic| d.severity == base::Severity::Error;
     let is_ring = |d: &Diagnostic| d.code == plan::FaultKind::Endless.code();
     match fault.kind {
-        plan::FaultKind::WrongKind => lowered.diagnostics.iter().any(is_wrong),
+        plan::FaultKind::WrongKind => {
+            lowered.diagnostics.iter().any(is_wrong) || of.faults.iter().any(is_missing)
+        }
         plan::FaultKind::Endless => lowered.diagnostics.iter().any(is_ring),
         plan::FaultKind::NotYet | plan::FaultKind::UnknownName | plan::FaultKind::Reference => {
             false
