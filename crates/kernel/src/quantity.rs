@@ -139,12 +139,11 @@ pub fn spelling_for(x: f64, quantity: Quantity<'_>, document: &Document) -> Stri
     let words = last.into_iter().flat_map(|word| [word, word.trim_start_matches(digits)]);
     let fits = |spelling: &&str| units::unit(spelling).is_some_and(|u| u.dimension == dimension);
     let text = written;
-    let all = written.split(char::is_whitespace).map(|word| word.trim_start_matches(digits));
-    let written_units = all.filter(fits).count();
     let written = { words }.find(fits);
     if class == "Angle" {
         // a sum of several units, `52 deg + 30 arcmin`, reads in degrees
-        let is_one = written_units <= 1;
+        let all = text.split(char::is_whitespace).map(|word| word.trim_start_matches(digits));
+        let is_one = all.filter(fits).nth(1).is_none();
         let is_read = |s: &&str| x == 0.0 || READABLE.contains(&size(s));
         let is_of_degrees =
             |s: &&str| is_one && matches!(*s, "arcmin" | "arcsec" | "mas") && is_read(s);
