@@ -1,6 +1,7 @@
 //! A document: classes, the last word of which is the document's own.
 
 use crate::class::{Class, ClassId, ClassKind, Handle, Message, Part};
+use crate::classes::Classes;
 use crate::path::Path;
 use crate::program::Program;
 use crate::term::{OriginId, Search};
@@ -24,7 +25,7 @@ pub enum Vertical {
 #[derive(Clone, PartialEq, Debug)]
 pub struct Document {
     /// Every class in scope: the language's own, the libraries', the document's.
-    pub classes: IdVec<ClassId, Class>,
+    pub classes: Classes,
     /// The unnamed class whose one instance is the document.
     pub root: ClassId,
     /// Which way `y` runs.

@@ -14,6 +14,7 @@
 pub mod builtin;
 pub mod check;
 pub mod class;
+mod classes;
 pub mod command;
 mod composed;
 mod customary;
@@ -31,6 +32,7 @@ pub use class::{
     Binding, Class, ClassId, ClassKind, Constraint, Count, Given, Handle, Insert, Merge, Message,
     Method, Parameter, Part, Primitive, Setting, Stay, Strength, Superclass, Switch, form,
 };
+pub use classes::Classes;
 pub use command::{Command, Literal};
 pub use composed::quotients;
 pub use customary::Customary;

@@ -1,11 +1,11 @@
 //! Small documents, built by hand from the kernel's types.
 
-use base::{IdVec, Name};
+use base::Name;
 use expr::dimension::Dimension;
 use kernel::{
-    Argument, BinaryOperator, Class, ClassId, ClassKind, Constraint, Document, Given, Merge,
-    Message, Method, OriginId, Parameter, Part, Path, Primitive, Structure, Superclass, Term,
-    Vertical, instantiate,
+    Argument, BinaryOperator, Class, ClassId, ClassKind, Classes, Constraint, Document, Given,
+    Merge, Message, Method, OriginId, Parameter, Part, Path, Primitive, Structure, Superclass,
+    Term, Vertical, instantiate,
 };
 use std::rc::Rc;
 
@@ -30,7 +30,7 @@ fn blank(name: &str, kind: ClassKind, supers: Vec<Superclass>) -> Class {
 impl Build {
     /// Begins a document with the primitive classes, `Point` and `Line`.
     pub(crate) fn new() -> Self {
-        let mut classes = IdVec::new();
+        let mut classes = Classes::new();
         let object = classes.push(blank("Object", ClassKind::Composite, Vec::new()));
         let up = || vec![Superclass { class: object, name: Name::new("object") }];
         let mut primitive =

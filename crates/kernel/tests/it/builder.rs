@@ -1,21 +1,21 @@
 //! Documents built by hand.
 
-use base::{IdVec, Name};
+use base::Name;
 use expr::dimension::Dimension;
 use kernel::{
-    Class, ClassId, ClassKind, Constraint, Count, Document, Given, Merge, OriginId, Part, Path,
-    Primitive, Superclass, Term, Vertical,
+    Class, ClassId, ClassKind, Classes, Constraint, Count, Document, Given, Merge, OriginId, Part,
+    Path, Primitive, Superclass, Term, Vertical,
 };
 use std::rc::Rc;
 
 pub(crate) const ORIGIN: OriginId = OriginId(0);
 
 /// Classes under construction; the last one made is the document's.
-pub(crate) struct Builder(pub(crate) IdVec<ClassId, Class>);
+pub(crate) struct Builder(pub(crate) Classes);
 
 impl Builder {
     pub(crate) fn new() -> (Self, ClassId, ClassId) {
-        let mut b = Self(IdVec::new());
+        let mut b = Self(Classes::new());
         let object = b.class("Object", ClassKind::Composite, &[]);
         let real = ClassKind::Primitive(Primitive::Real(Dimension::NONE));
         let real = b.class("Real", real, &[object]);

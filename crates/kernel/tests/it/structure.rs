@@ -338,3 +338,12 @@ fn paths_overlap_where_one_begins_the_other() {
     assert!(path(&[]).overlaps(&path(&["side1"])));
     assert!(!path(&["side1", "p1"]).overlaps(&path(&["side1", "p2"])));
 }
+
+#[test]
+fn a_clone_of_a_document_shares_the_classes_that_neither_changes() {
+    let (b, object, real) = Builder::new();
+    let (one, mut other) = (b.0.clone(), b.0);
+    other[real].name = "Number".into();
+    assert!(std::ptr::eq(&one[object], &other[object]));
+    assert_eq!((&*one[real].name, &*other[real].name), ("Real", "Number"));
+}

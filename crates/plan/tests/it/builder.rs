@@ -1,11 +1,11 @@
 //! Documents made by hand, and a host that knows a few terms.
 
-use base::{IdVec, Name};
+use base::Name;
 use expr::dimension::Dimension;
 use kernel::{
-    Argument, BinaryOperator, Class, ClassId, ClassKind, Constraint, ConstraintInstance, Document,
-    Given, Insert, Merge, Message, Method, OriginId, Parameter, Part, Path, Primitive, SlotId,
-    Stay, Step, Strength, Structure, Superclass, Term, ThingId, Value, Values, Vertical,
+    Argument, BinaryOperator, Class, ClassId, ClassKind, Classes, Constraint, ConstraintInstance,
+    Document, Given, Insert, Merge, Message, Method, OriginId, Parameter, Part, Path, Primitive,
+    SlotId, Stay, Step, Strength, Structure, Superclass, Term, ThingId, Value, Values, Vertical,
     instantiate,
 };
 use plan::{
@@ -33,7 +33,7 @@ impl Builder {
     pub(crate) fn new() -> Self {
         let object = vec![Superclass { class: OBJECT, name: Name::new("object") }];
         let primitive = |name, p| blank(name, ClassKind::Primitive(p), object.clone());
-        let classes = IdVec::from(vec![
+        let classes = Classes::from_iter([
             blank("Object", ClassKind::Composite, Vec::new()),
             primitive("Real", Primitive::Real(Dimension::NONE)),
             primitive("Length", Primitive::Real(Dimension::LENGTH)),
