@@ -445,14 +445,14 @@ fn what_is_long_costs_as_much_as_it_is_long() {
         (
             "checks",
             "x: Real = 1\n".to_string()
-                + &lines(500, |i| format!("check \"c{i}\" {{ set x to {i}\n expect x = {i} }}")),
+                + &lines(2_000, |i| format!("check \"c{i}\" {{ set x to {i}\n expect x = {i} }}")),
             Holds,
         ),
         (
             "a check that undoes",
             format!(
                 "x: Real = 1\ncheck \"c\" {{\n{}expect x = 1 }}\n",
-                "set x to 2\nundo\n".repeat(1_000)
+                "set x to 2\nundo\n".repeat(3_000)
             ),
             Holds,
         ),

@@ -19,6 +19,7 @@ use lang::{Check, Expectation, PlanKind, Statement, StatementKind};
 use plan::{NotDecided, Plans};
 use solve::{COUNTING, Count};
 use std::collections::BTreeSet;
+use std::fmt::Write as _;
 use std::ops::Range;
 use std::rc::Rc;
 
@@ -34,10 +35,35 @@ pub(crate) fn run_all(state: &State, host: &dyn Host) -> Vec<CheckReport> {
 /// What is known of the copies that checks began with.
 #[derive(Default)]
 struct Begun {
-    /// The state of a copy that no check has added members to.
-    plain: Option<Rc<State>>,
+    /// A copy that no check has added members to.
+    plain: Option<Plain>,
     /// The plans of all checks so far.
     plans: Plans,
+}
+
+/// The copy that those checks begin with that have no members of their own.
+struct Plain {
+    state: Rc<State>,
+    /// What holds in it.
+    status: plan::Status,
+    /// What the statements of each of these checks mean in it, those of the next check last.
+    meanings: Vec<Vec<Statement>>,
+}
+
+impl Plain {
+    fn of(open: &Open, of: Checked<'_>, host: &dyn Host) -> Self {
+        let all = &of.state.lowered.checks;
+        let checks: Vec<&Check> = all.iter().filter(|c| c.members.is_empty()).collect();
+        let sources: Vec<Vec<&str>> = checks.iter().map(|c| of.sources(&c.statements)).collect();
+        let (mut meanings, _) = each_meant(&open.state, host, &sources);
+        let are_as_many = meanings.len() == checks.len()
+            && meanings.iter().zip(&checks).all(|(m, c)| m.len() == c.statements.len());
+        if !are_as_many {
+            meanings.clear();
+        }
+        meanings.reverse();
+        Self { state: open.state.clone(), status: open.status.clone(), meanings }
+    }
 }
 
 /// The document whose checks are run.
@@ -53,6 +79,15 @@ impl Checked<'_> {
     fn line(&self, offset: u32) -> u32 {
         self.lines.line_column(&self.state.text, offset).0
     }
+    /// Returns the texts of statements; of those that a loop or condition makes, its own once.
+    fn sources(&self, statements: &[Statement]) -> Vec<&str> {
+        let mut wholes: Vec<base::Span> = statements.iter().map(|s| s.whole).collect();
+        wholes.dedup();
+        wholes.into_iter().map(|span| self.source(span)).collect()
+    }
+    fn source(&self, span: base::Span) -> &str {
+        self.state.text.get(span.range()).unwrap_or_default()
+    }
 }
 
 /// A check while it runs.
@@ -61,6 +96,8 @@ struct Run<'h> {
     host: &'h dyn Host,
     of: Checked<'h>,
     check: &'h Check,
+    /// Where those statements are that give names which all behind them know.
+    notes: Vec<base::Span>,
     /// What statements mean in the present structure.
     statements: Vec<Statement>,
     /// Which of the check's these are.
@@ -82,16 +119,43 @@ struct Run<'h> {
     shortfalls: Vec<Shortfall>,
 }
 
-fn run(of: Checked<'_>, check: &Check, host: &dyn Host, begun: &mut Begun) -> CheckReport {
-    let members: Vec<&str> = check.members.iter().map(|m| &**m).collect();
-    let end = of.document.len() as u32;
-    let text = format!("{}\n{}\n", of.document, members.join("\n"));
-    let known = begun.plain.as_deref().filter(|_| members.is_empty());
-    let open = Open::again("check", text, known, host, std::mem::take(&mut begun.plans));
-    if members.is_empty() && begun.plain.is_none() {
-        begun.plain = Some(open.state.clone());
+/// Opens the copy that a check begins with, and says what its statements mean there where that is known.
+fn begin(
+    of: Checked<'_>,
+    check: &Check,
+    host: &dyn Host,
+    begun: &mut Begun,
+) -> (Open, Option<Vec<Statement>>) {
+    let plans = std::mem::take(&mut begun.plans);
+    if !check.members.is_empty() {
+        let members: Vec<&str> = check.members.iter().map(|m| &**m).collect();
+        let text = format!("{}\n{}\n", of.document, members.join("\n"));
+        return (Open::again("check", text, None, host, plans), None);
     }
+    if let Some(Plain { state, status, meanings }) = &mut begun.plain {
+        let meaning = meanings.pop();
+        // of a copy that is not computed there is no plan to ask after
+        let asks_for_plan =
+            |s: &Statement| matches!(s.kind, StatementKind::Expect(Expectation::Plan(_)));
+        let open = match check.statements.iter().any(asks_for_plan) {
+            true => Open::again("check", state.text.clone(), Some(state), host, plans),
+            false => Open::beginning("check", (state.clone(), status.clone()), plans),
+        };
+        return (open, meaning);
+    }
+    let open = Open::again("check", format!("{}\n\n", of.document), None, host, plans);
+    let mut plain = Plain::of(&open, of, host);
+    let meaning = plain.meanings.pop();
+    begun.plain = Some(plain);
+    (open, meaning)
+}
+
+fn run(of: Checked<'_>, check: &Check, host: &dyn Host, begun: &mut Begun) -> CheckReport {
+    let end = of.document.len() as u32;
+    let (open, meaning) = begin(of, check, host, begun);
+    let notes = check.statements.iter().filter(|s| s.is_note && s.span == s.whole);
     let mut run = Run {
+        notes: notes.map(|s| s.whole).collect(),
         start: open.state.clone(),
         spoken: BTreeSet::new(),
         is_moved_told: false,
@@ -107,7 +171,13 @@ fn run(of: Checked<'_>, check: &Check, host: &dyn Host, begun: &mut Begun) -> Ch
         told: Vec::new(),
         shortfalls: Vec::new(),
     };
-    run.know(0..check.statements.len());
+    match meaning {
+        Some(statements) => {
+            run.known = 0..statements.len();
+            run.statements = statements;
+        }
+        None => run.know(0..check.statements.len()),
+    }
     run.note_faults(end);
     if let Some(first) = check.statements.first() {
         run.note_violations(first);
@@ -130,7 +200,7 @@ fn run(of: Checked<'_>, check: &Check, host: &dyn Host, begun: &mut Begun) -> Ch
 impl Run<'_> {
     /// Finds out what some of the check's statements mean in the present structure.
     fn know(&mut self, which: Range<usize>) {
-        self.statements = self.lowered(&self.check.statements[which.clone()]).0;
+        self.statements = self.lowered(which.clone()).0;
         self.known = which;
     }
 
@@ -145,20 +215,19 @@ impl Run<'_> {
     }
 
     /// Finds out what statements mean in the present structure, and what is wrong with them.
-    fn lowered(&self, statements: &[Statement]) -> (Vec<Statement>, Option<String>) {
-        let mut wholes: Vec<base::Span> = self.notes_before(statements);
+    fn lowered(&self, which: Range<usize>) -> (Vec<Statement>, Option<String>) {
+        let statements = &self.check.statements[which.clone()];
+        let mut wholes = self.notes_before(statements).to_vec();
         let noted = wholes.len();
         wholes.extend(statements.iter().map(|s| s.whole));
         wholes.dedup();
-        let source = |span: &base::Span| self.of.state.text.get(span.range()).unwrap_or_default();
-        let sources: Vec<&str> = wholes.iter().map(source).collect();
+        let sources: Vec<&str> = wholes.iter().map(|span| self.of.source(*span)).collect();
         let (mut all, message) = meant(&self.open.state, self.host, &sources);
         all.drain(..noted.min(all.len()));
         // a loop is read as a whole: what stands before these in it is left out
         if let Some(first) = statements.first() {
-            let known = &self.check.statements;
-            let at = known.iter().position(|s| std::ptr::eq(s, first)).unwrap_or(0);
-            let before = known[..at].iter().rev().take_while(|s| s.whole == first.whole);
+            let before = self.check.statements[..which.start].iter().rev();
+            let before = before.take_while(|s| s.whole == first.whole);
             let before = before.count().min(all.len());
             all.drain(..before);
         }
@@ -166,11 +235,9 @@ impl Run<'_> {
     }
 
     /// Returns where those are that give names which some statements know.
-    fn notes_before(&self, statements: &[Statement]) -> Vec<base::Span> {
-        let Some(first) = statements.first() else { return Vec::new() };
-        let before = self.check.statements.iter().take_while(|s| s.span.end <= first.whole.start);
-        let notes = before.filter(|s| s.is_note && s.span == s.whole);
-        notes.map(|s| s.whole).collect()
+    fn notes_before(&self, statements: &[Statement]) -> &[base::Span] {
+        let first = statements.first().map_or(0, |first| first.whole.start);
+        &self.notes[..self.notes.partition_point(|note| note.end <= first)]
     }
 
     fn is_told(&self, statement: &Statement) -> bool {
@@ -182,7 +249,7 @@ impl Run<'_> {
     }
 
     fn source(&self, statement: &Statement) -> &str {
-        self.of.state.text.get(statement.span.range()).unwrap_or_default()
+        self.of.source(statement.span)
     }
 
     /// A check whose own members are wrong falls short at once.
@@ -225,7 +292,7 @@ impl Run<'_> {
             // the text's own diagnostics say so already
             Some(StatementKind::Unclear) | None if self.is_told(statement) => return Ok(()),
             Some(StatementKind::Unclear) | None => {
-                let (_, message) = self.lowered(std::slice::from_ref(statement));
+                let (_, message) = self.lowered(at..at + 1);
                 let is_error = |d: &base::Diagnostic| d.severity == base::Severity::Error;
                 return match message {
                     Some(message) => Err(message),
@@ -243,7 +310,7 @@ impl Run<'_> {
             }
             StatementKind::Expect(expectation) => {
                 let of = self.of;
-                let source = of.state.text.get(statement.span.range()).unwrap_or_default().trim();
+                let source = of.source(statement.span).trim();
                 let source = source.strip_prefix("expect ").unwrap_or(source);
                 if let Err(mut message) = self.expect(&state, expectation, source) {
                     if let Expectation::Rule { rule, within } = expectation {
@@ -255,7 +322,7 @@ impl Run<'_> {
                 }
             }
             StatementKind::Try(inner) if **inner == StatementKind::Unclear => {
-                let (_, message) = self.lowered(std::slice::from_ref(statement));
+                let (_, message) = self.lowered(at..at + 1);
                 self.refusal = Some(words::refuse(message.unwrap_or_default()));
             }
             StatementKind::Try(inner) => {
@@ -305,7 +372,7 @@ impl Run<'_> {
         let change = apply::by_hand(&mut self.open, self.host, &command)?;
         let of_constraints = change.modes.iter().filter(|mode| !mode.constraint.is_empty());
         self.told.extend(of_constraints.map(|mode| mode.message.clone()));
-        if change.structure || matches!(kind, StatementKind::Command(_)) {
+        if !self.open.state.has_form_of(state) {
             self.known = 0..0;
         }
         self.note_spoken(kind, change.structure);
@@ -496,16 +563,30 @@ pub(crate) fn meant(
     host: &dyn Host,
     sources: &[&str],
 ) -> (Vec<Statement>, Option<String>) {
+    let (mut checks, message) = each_meant(state, host, &[sources.to_vec()]);
+    (checks.pop().unwrap_or_default(), message)
+}
+
+/// The same of the statements of several checks, which are read at once.
+fn each_meant(
+    state: &State,
+    host: &dyn Host,
+    checks: &[Vec<&str>],
+) -> (Vec<Vec<Statement>>, Option<String>) {
     let document = &state.text;
-    let text = format!("{document}\ncheck \"\" {{\n{}\n}}\n", sources.join("\n"));
+    let mut text = format!("{document}\n");
+    for sources in checks {
+        let _ = write!(text, "check \"\" {{\n{}\n}}\n", sources.join("\n"));
+    }
     let lowered = lang::lower_asking(&text, &|name| host.read(name), &state.lowered);
     let own = lowered
         .diagnostics
         .iter()
         .find(|d| d.place.file == base::FileId(0) && d.place.span.start as usize > document.len());
     let message = own.map(|d| d.message.clone());
-    let check = lowered.checks.into_iter().next_back();
-    (check.map(|c| c.statements).unwrap_or_default(), message)
+    let known = lowered.checks.len().saturating_sub(checks.len());
+    let meanings = lowered.checks.into_iter().skip(known).map(|check| check.statements);
+    (meanings.collect(), message)
 }
 
 /// Returns the command that a statement is.

@@ -91,10 +91,20 @@ impl Open {
     /// Makes a document of its state.
     pub(crate) fn new(name: String, (state, mut planner): (State, Planner)) -> Self {
         let status = state.status(&mut planner);
-        Self::standing(name, Rc::new(state), planner, status)
+        Self::at(name, Rc::new(state), planner, status)
     }
-    /// Makes a document of its state, of which it is known what holds and what is free.
-    fn standing(name: String, state: Rc<State>, planner: Planner, status: plan::Status) -> Self {
+    /// Makes a document of a state that was made before, and what holds in it, with the plans of those before.
+    pub(crate) fn beginning(
+        name: &str,
+        (state, status): (Rc<State>, plan::Status),
+        plans: Plans,
+    ) -> Self {
+        let (planner, _) = Planner::new(state.model(), plans);
+        let mut open = Self::at(name.into(), state, planner, status);
+        open.back_on_course();
+        open
+    }
+    fn at(name: String, state: Rc<State>, planner: Planner, status: plan::Status) -> Self {
         Self {
             name,
             state,
@@ -196,11 +206,8 @@ impl Open {
     }
     /// Returns a copy to try something in: the same state, without its steps. Nothing is read or solved.
     pub(crate) fn trial(&self) -> Self {
-        let (planner, _) = Planner::new(self.state.model(), Plans::default());
-        let status = self.status.clone();
-        let mut trial = Self::standing(self.name.clone(), self.state.clone(), planner, status);
-        trial.back_on_course();
-        trial
+        let state = (self.state.clone(), self.status.clone());
+        Self::beginning(&self.name, state, Plans::default())
     }
     /// Counts how much is free, which may take a solve for each component; returns what is superfluous.
     pub(crate) fn count(&mut self) -> Vec<plan::Source> {
