@@ -428,6 +428,12 @@ fn what_is_long_costs_as_much_as_it_is_long() {
             Holds,
         ),
         (
+            "messages that each ask the one before",
+            "m0: Real => 1\n".to_string()
+                + &lines(3_000, |i| format!("m{}: Real => m{i} + 1", i + 1)),
+            Holds,
+        ),
+        (
             "a list that is solved",
             "x: List of 5000 Real\nfor i in 0..4999 { constraint x[i] = i }\n".into(),
             Holds,
@@ -499,4 +505,32 @@ fn a_class_with_a_thing_of_its_own_class_and_a_list_is_told_once() {
         joined(200, ", ", |_| "1".into())
     );
     assert_eq!(told(&text), [("endless-parts".to_string(), 1)]);
+}
+
+#[test]
+fn of_a_hundred_thousand_ways_to_move_the_rest_is_counted() {
+    let mut session = Session::new(Box::new(Library));
+    let id = session.open("hostile", "x: List of 101000 Real\n");
+    let analysis = session.analysis(id);
+    assert_eq!((analysis.freedom, analysis.motions.len()), (101_000, session::MOST_MOTIONS));
+}
+
+#[test]
+fn looking_for_what_has_no_value_ends() {
+    let text = "class P { x: Real = 1  n => (all P).map(p => (all P).map(q => q.x).sum).sum }\n"
+        .to_string()
+        + &lines(500, |i| format!("p{i}: P"));
+    let mut session = Session::new(Box::new(Library));
+    let id = session.open("hostile", &text);
+    assert_eq!(session.problems(id), []);
+}
+
+#[test]
+fn what_is_not_told_one_by_one_is_counted() {
+    let mut session = Session::new(Box::new(Library));
+    let id = session.open("hostile", &lines(2_000, |i| format!("p{i}: Rael = {i}")));
+    assert_eq!(session.untold(id), session::Untold { errors: 1_500, warnings: 0 });
+    let last = session.text(id).diagnostics.pop().map(|d| (d.line, d.message));
+    assert_eq!(last, Some((501, "1500 more errors stand from here on".to_string())));
+    assert!(session.status(id).message.contains("2000"), "{}", session.status(id).message);
 }

@@ -80,10 +80,14 @@ pub(crate) fn check(
         for d in kept.into_iter().chain(told) {
             words.push_str(&show_diagnostic(&opened, d));
             match d.severity.as_str() {
+                _ if d.code == session::MORE => {}
                 "error" => errors += 1,
                 _ => warnings += 1,
             }
         }
+        let untold = opened.session.untold(opened.id);
+        errors += untold.errors;
+        warnings += untold.warnings;
         let lessons = opened.session.run_lessons(opened.id);
         for lesson in lessons.iter().filter(|lesson| !lesson.passed) {
             words.push_str(&show_report(&path, lesson, "lesson"));
@@ -433,6 +437,10 @@ pub(crate) fn analyse(source: &Source, form: Form) -> Result<Report, OpenError> 
     let mut words = format!("degrees of freedom: {}\n", analysis.freedom);
     for motion in &analysis.motions {
         let _ = writeln!(words, "  {}", motion.summary);
+    }
+    if analysis.motions.len() == session::MOST_MOTIONS {
+        let told = analysis.motions.len() as u32;
+        let _ = writeln!(words, "  and {} more", analysis.freedom.saturating_sub(told));
     }
     if !analysis.redundant.is_empty() {
         let _ = writeln!(words, "constraints that say nothing new: {}", analysis.redundant.len());

@@ -212,6 +212,11 @@ impl<'a> Evaluator<'a> {
         answer
     }
 
+    /// Returns how many terms the latest question evaluated.
+    pub fn steps(&self) -> u64 {
+        self.most.get().saturating_sub(self.fuel.get())
+    }
+
     /// Begins another question, with fuel of its own.
     pub(crate) fn begin(&self) {
         self.messages.set(0);
@@ -230,7 +235,7 @@ impl<'a> Evaluator<'a> {
     /// Returns true where a question has taken long, and no program is being drawn.
     pub(crate) fn remembers(&self) -> bool {
         self.may_remember.get()
-            && self.most.get().saturating_sub(self.fuel.get()) > LONG
+            && self.steps() > LONG
             && self.recording.borrow().is_none()
             && self.drawing.borrow().is_empty()
     }

@@ -14,11 +14,16 @@ use std::rc::Rc;
 /// The class that answers a message, and the message's index there.
 type Found = Option<(ClassId, usize)>;
 
+/// Among so many messages one is looked for one by one.
+const FEW: usize = 16;
+
 /// What has been looked up so far.
 #[derive(Debug)]
 pub(crate) struct Tables {
     layouts: RefCell<IdVec<ClassId, Option<Rc<Layout>>>>,
     messages: RefCell<IdVec<ClassId, BTreeMap<Name, Found>>>,
+    /// By name, the messages that classes with many of them define.
+    own: RefCell<BTreeMap<ClassId, BTreeMap<Name, usize>>>,
     figures: RefCell<IdVec<ClassId, Option<Option<Made>>>>,
     constraints: RefCell<BTreeMap<(ThingId, Name), Option<ConstraintInstance>>>,
     all: RefCell<BTreeMap<ClassId, Rc<[ThingId]>>>,
@@ -57,6 +62,7 @@ impl Tables {
         Self {
             layouts: RefCell::new(IdVec::filled(None, n)),
             messages: RefCell::new(IdVec::filled(BTreeMap::new(), n)),
+            own: RefCell::new(BTreeMap::new()),
             figures: RefCell::new(IdVec::filled(None, n)),
             constraints: RefCell::new(BTreeMap::new()),
             all: RefCell::new(BTreeMap::new()),
@@ -121,12 +127,24 @@ impl<'a> Evaluator<'a> {
         if let Some(found) = self.tables.messages.borrow()[class].get(name) {
             return found.map(message);
         }
-        let found = document.find_message(class, name, None).and_then(|(c, found)| {
-            let i = document.classes[c].messages.iter().position(|m| std::ptr::eq(m, found))?;
-            Some((c, i))
-        });
+        let own = |c: ClassId| self.own_index(c, name).map(|i| message((c, i)));
+        let found = document.find_message_by(class, None, &own);
+        let found = found.and_then(|(c, message)| Some((c, self.own_index(c, &message.name)?)));
         self.tables.messages.borrow_mut()[class].insert(name.clone(), found);
         found.map(message)
+    }
+
+    /// Returns the index of the message that a class itself defines by a name: of several the last.
+    fn own_index(&self, class: ClassId, name: &Name) -> Option<usize> {
+        let messages = &self.document.classes[class].messages;
+        if messages.len() <= FEW {
+            return messages.iter().rposition(|m| m.name == *name);
+        }
+        let mut own = self.tables.own.borrow_mut();
+        let by_name = own.entry(class).or_insert_with(|| {
+            messages.iter().enumerate().map(|(i, m)| (m.name.clone(), i)).collect()
+        });
+        by_name.get(name).copied()
     }
 
     /// Returns the things of a class in order of declaration, merged ones once.

@@ -37,8 +37,8 @@ pub(crate) struct State {
     pub(crate) values: Values,
     /// What is wrong with the text, in its order.
     pub(crate) diagnostics: Vec<Diagnostic>,
-    /// How many errors there are besides.
-    pub(crate) untold: usize,
+    /// How many there are besides.
+    pub(crate) untold: Untold,
     /// Members that no plan keeps, because the planner does not understand them yet.
     unplanned: BTreeSet<OriginId>,
     /// Where two solutions coincide.
@@ -133,6 +133,11 @@ impl State {
         let slots = &self.structure.slots;
         let is_lone = |s: &SlotId| slots[*s].primitive.is_number() && slots[*s].place.is_none();
         self.gave_way.iter().map(|(slot, _)| *slot).filter(is_lone)
+    }
+    /// Returns how many errors the text has, those among them that are not told one by one.
+    pub(crate) fn errors(&self) -> usize {
+        let is_error = |d: &&Diagnostic| d.severity == base::Severity::Error && d.code != MORE;
+        self.diagnostics.iter().filter(is_error).count() + self.untold.errors
     }
     /// Returns true if something is wrong with the text.
     pub(crate) fn has_errors(&self) -> bool {
@@ -333,7 +338,7 @@ impl Solved {
         warnings.extend(state.lowered.bindings_replaced());
         warnings.extend(crate::families::outside::warnings(&state));
         if !warnings.is_empty() {
-            tell_first(&mut warnings);
+            state.untold.warnings += tell_first(&mut warnings).warnings;
             state.diagnostics.extend(warnings);
             state.diagnostics.sort_by_key(|d| (d.place.file, d.place.span.start));
         }
@@ -341,22 +346,39 @@ impl Solved {
     }
 }
 
+/// The code of the diagnostic that stands for all that are not told one by one.
+pub const MORE: &str = "more";
+
+/// How many diagnostics of a document are not told one by one.
+#[derive(Clone, Copy, PartialEq, Eq, Default, Debug)]
+pub struct Untold {
+    /// Errors.
+    pub errors: usize,
+    /// Warnings and notes.
+    pub warnings: usize,
+}
+
 /// Sorts diagnostics by where they stand, keeps the first errors and the first others, and says how many more there
-/// are. Returns how many errors are not told.
-fn tell_first(diagnostics: &mut Vec<Diagnostic>) -> usize {
+/// are.
+fn tell_first(diagnostics: &mut Vec<Diagnostic>) -> Untold {
     diagnostics.sort_by_key(|d| (d.place.file, d.place.span.start));
+    let mut untold = Untold::default();
     if diagnostics.len() <= MOST_TOLD {
-        return 0;
+        return untold;
     }
     let is_error = |d: &Diagnostic| d.severity == base::Severity::Error;
     let (mut errors, mut others): (Vec<_>, Vec<_>) = diagnostics.drain(..).partition(is_error);
-    let untold = errors.len().saturating_sub(MOST_TOLD);
-    for (all, kind) in [(&mut errors, "errors"), (&mut others, "warnings")] {
+    let kinds = [
+        (&mut errors, "errors", &mut untold.errors),
+        (&mut others, "warnings", &mut untold.warnings),
+    ];
+    for (all, kind, count) in kinds {
         let rest = all.split_off(all.len().min(MOST_TOLD));
+        *count = rest.len();
         if let [first, ..] = &rest[..] {
             let message = format!("{} more {kind} stand from here on", rest.len());
             let severity = first.severity;
-            all.push(Diagnostic { severity, ..Diagnostic::error("more", first.place, message) });
+            all.push(Diagnostic { severity, ..Diagnostic::error(MORE, first.place, message) });
         }
         diagnostics.append(all);
     }

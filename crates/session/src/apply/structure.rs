@@ -64,7 +64,7 @@ pub(crate) fn restructured_by(
         matches!(command, Command::Delete(_)) && d.code == "unknown-reference"
     };
     let is_error = |d: &&base::Diagnostic| d.severity == base::Severity::Error && !may_be_wrong(d);
-    let errors = |s: &State| s.diagnostics.iter().filter(is_error).count() + s.untold;
+    let errors = |s: &State| s.diagnostics.iter().filter(is_error).count() + s.untold.errors;
     if errors(&state) > errors(&before) {
         let new: Vec<base::Diagnostic> = state
             .diagnostics

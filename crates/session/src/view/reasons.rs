@@ -49,7 +49,8 @@ pub struct Analysis {
     pub freedom: u32,
     /// The paths of the places and numbers that can move.
     pub free: Vec<String>,
-    /// The ways to move, those of one place first; at most 64 of each connected part.
+    /// The ways to move, those of one place first; at most 64 of each connected part, and [`crate::MOST_MOTIONS`] of
+    /// all.
     pub motions: Vec<MotionView>,
     /// The required constraints that say nothing new.
     pub redundant: Vec<RedundantView>,

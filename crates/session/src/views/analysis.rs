@@ -14,6 +14,9 @@ use plan::{
 };
 use std::collections::{BTreeMap, BTreeSet};
 
+/// So many ways to move are told.
+pub const MOST_MOTIONS: usize = 100_000;
+
 /// Analyses the document as it is; a drag is not looked at.
 pub(crate) fn view(open: &mut Open) -> Analysis {
     let state = open.state.clone();
@@ -30,7 +33,7 @@ pub(crate) fn view(open: &mut Open) -> Analysis {
             free.push(state.structure.path(&state.lowered.document, thing).to_string());
         }
     }
-    let motions = found.motions.iter().map(|m| motion(open, m)).collect();
+    let motions = found.motions.iter().take(MOST_MOTIONS).map(|m| motion(open, m)).collect();
     // what stands in a contradiction says something
     let stands = |r: &&Redundant| against.iter().any(|c| c.constraints.contains(&r.source));
     let says_nothing = found.redundant.iter().filter(|r| !stands(r));

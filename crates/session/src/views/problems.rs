@@ -19,6 +19,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 /// Behind so many messages without a value no more are looked for: each may take as long as an answer may take.
 const MOST_FAULTS: usize = 20;
+/// Looking for them ends once so many terms were evaluated.
+const MOST_STEPS: u64 = 10_000_000;
 
 /// Returns what was found, in the order of the text.
 pub(crate) fn view(open: &mut Open) -> Vec<DiagnosticView> {
@@ -170,6 +172,7 @@ fn failing<'a>(
     let evaluator = state.evaluator(values);
     let mut failing = Vec::new();
     let mut known = BTreeSet::new();
+    let mut steps = 0;
     for thing in structure.things.ids().filter(|&t| structure.merged[t] == t) {
         for &message in messages.get(&structure.things[thing].class).into_iter().flatten() {
             let place = state.lowered.place(message.origin);
@@ -179,9 +182,10 @@ fn failing<'a>(
             if let Err(fault) = evaluator.evaluate(&message.answer, thing) {
                 known.insert(place);
                 failing.push(Failing { thing, message, fault });
-                if failing.len() >= MOST_FAULTS {
-                    return failing;
-                }
+            }
+            steps += evaluator.steps();
+            if failing.len() >= MOST_FAULTS || steps > MOST_STEPS {
+                return failing;
             }
         }
     }

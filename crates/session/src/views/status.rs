@@ -18,7 +18,7 @@ pub(crate) fn view(open: &Open) -> Status {
     let status = &open.status;
     let unmet: Vec<Unmet> = status.unmet.iter().filter_map(|u| unmet(open, u)).collect();
     let satisfied = status.unmet.iter().all(|u| u.level != Level::Required);
-    let errors = state.diagnostics.iter().filter(|d| d.severity == base::Severity::Error).count();
+    let errors = state.errors();
     let notes: Vec<String> = double_roots(state).into_iter().chain(yielded(state)).collect();
     let said: Vec<String> =
         status.unmet.iter().filter_map(|u| crate::rules::told(state, u.source)).collect();

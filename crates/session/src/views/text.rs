@@ -1,7 +1,10 @@
 //! The text view: the source, its colours, and what is wrong with it.
 
-use crate::state::State;
-use crate::view::{DiagnosticView, FixView, LabelView, TextChange, TextView, TokenView};
+use crate::session::Session;
+use crate::state::{State, Untold};
+use crate::view::{
+    DiagnosticView, DocumentId, FixView, LabelView, TextChange, TextView, TokenView,
+};
 use base::{Diagnostic, FileId, LineIndex, Place, Severity};
 use std::collections::BTreeMap;
 use syntax::ast::AstNode;
@@ -56,6 +59,13 @@ fn fix(fix: &base::Fix) -> Option<FixView> {
     };
     let edits: Option<Vec<TextChange>> = fix.edits.iter().map(change).collect();
     Some(FixView { title: fix.title.clone(), edits: edits? })
+}
+
+impl Session {
+    /// Returns how many diagnostics of the text are not told one by one.
+    pub fn untold(&self, id: DocumentId) -> Untold {
+        self.document(id).state.untold
+    }
 }
 
 /// Returns diagnostics as an editor shows them.
