@@ -97,6 +97,7 @@ impl std::fmt::Display for Ended {
             Why::Outside if self.reason.is_empty() => write!(f, "{} is not met", self.step)?,
             Why::Outside => write!(f, "{} is not met: {}", self.step, self.reason)?,
             Why::Failed => write!(f, "the step {} has no outcome: {}", self.step, self.reason)?,
+            Why::TooLong if self.step.is_empty() => write!(f, "{}", self.reason)?,
             Why::TooLong => write!(f, "the run ended at the step {}: {}", self.step, self.reason)?,
         }
         for (i, (name, value)) in self.operands.iter().enumerate() {
@@ -323,7 +324,7 @@ impl<'a> Evaluator<'a> {
                 .and_then(|()| run.steps(&program.body, &mut making)),
             false => Err(Ended {
                 why: Why::TooLong,
-                step: program.body.steps.first().map_or("", |s| &s.name).to_string(),
+                step: String::new(),
                 operands: Vec::new(),
                 is_called: false,
                 reason: format!("programs call each other more than {DEEPEST_CALLS} deep"),

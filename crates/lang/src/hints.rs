@@ -341,8 +341,31 @@ impl Lowerer<'_> {
                 Some(plain) if self.document.option_named(*choice, &plain).is_some() => d
                     .hint(format!("an option has no quotes: `{plain}`"))
                     .fix(format!("write {plain}"), [(place, plain)]),
-                _ => d,
+                _ => {
+                    let options = &self.document.classes[*choice].options;
+                    let options: Vec<&str> = options.iter().map(|o| o.as_str()).collect();
+                    d.hint(format!("its options are {}", options.join(", ")))
+                }
             },
+            (Kind::List(_), Kind::Number(_), Expr::Range(_)) => {
+                let (first, last) = written.split_once("..").unwrap_or_default();
+                let (to, last) = match last.strip_prefix('<') {
+                    Some(last) => ("<", last),
+                    None => ("<=", last),
+                };
+                let (first, last) = (first.trim(), last.trim());
+                d.hint(format!(
+                    "what lies between two values is a rule: `constraint {first} <= x {to} {last}`"
+                ))
+            }
+            (Kind::Bool, Kind::Number(_), Expr::Binary(equation))
+                if equation.op() == Some(BinaryOp::Equal) =>
+            {
+                d.hint(format!("one value is given at a time: `{written}` has a line of its own"))
+            }
+            (Kind::Bool, Kind::Number(_), Expr::Chain(_)) if !written.contains(['<', '>', '!']) => {
+                d.hint("one value is given at a time, each in a line of its own")
+            }
             (Kind::Number(Some(found)), Kind::Number(Some(wanted)), _)
                 if wanted.is_none() && !found.is_none() =>
             {
@@ -453,8 +476,12 @@ impl Lowerer<'_> {
                 d = d.hint("put the value into the text: `\"x = {x}\"`");
             }
             (Kind::Option(of), Kind::Text) | (Kind::Text, Kind::Option(of)) => {
-                let first = self.document.option_at(*of, 0.0).map(ToString::to_string);
-                d = d.hint(format!("an option has no quotes: `{}`", first.unwrap_or_default()));
+                let range = span.start as usize..span.end as usize;
+                let written = self.files[scope.file].text.get(range).unwrap_or_default();
+                let options = &self.document.classes[*of].options;
+                let meant = options.iter().find(|o| written.contains(&format!("\"{o}\"")));
+                let option = meant.or(options.first()).map(ToString::to_string);
+                d = d.hint(format!("an option has no quotes: `{}`", option.unwrap_or_default()));
             }
             (Kind::Bool, Kind::Number(_)) | (Kind::Number(_), Kind::Bool) if !compares => {
                 d = d.hint("a number for a truth value is `if b then 1 else 0`");

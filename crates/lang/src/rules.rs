@@ -289,10 +289,10 @@ impl Lowerer<'_> {
         value: &Expr,
     ) -> bool {
         let kind = class.map(|c| &self.document.classes[c].kind);
+        let is_whole = matches!(kind, Some(ClassKind::Primitive(Primitive::Integer)));
+        let plain = crate::numbers::constant(&|_| None, value).filter(|_| is_whole);
         let message = match (kind, term) {
-            (Some(ClassKind::Primitive(Primitive::Integer)), Term::Number { value: x, .. })
-                if x.fract() != 0.0 =>
-            {
+            _ if let Some(x) = plain.filter(|x| x.fract() != 0.0) => {
                 let message = format!("{path} is a whole number, and is given {x}");
                 let place = Place { file: scope.file, span: value.span() };
                 let hint =

@@ -89,7 +89,8 @@ impl<'a> Opening<'a> {
         };
         Trouble::wrong(format!(
             "{path} has {elements}: there is no {path}[{index}]; \
-             a `for` through the list speaks of those that are there"
+             they are counted from 0, and `{path}.last` is {path}[{}]",
+            count - 1
         ))
     }
 

@@ -550,6 +550,11 @@ impl Drag {
             None => (self.start[0], self.start.get(1).copied().unwrap_or(0.0)),
         }
     }
+    /// Returns what a computed angle reads, within half a turn, where it is wished to be beyond that, in radians.
+    pub(crate) fn leapt(&self, angle: f64) -> Option<f64> {
+        let is_beyond = angle.abs() > std::f64::consts::PI && self.turning != Turning::No;
+        is_beyond.then(|| within_half_a_turn(angle))
+    }
     /// Returns the numbers that are dragged, as they were at the press.
     pub(crate) fn start(&self) -> &[f64] {
         &self.start

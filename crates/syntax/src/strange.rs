@@ -90,6 +90,9 @@ fn meant_by(text: &str, span: Span) -> Option<&'static str> {
         Some('|') if line_before(text, span).trim_start().starts_with("choice ") => {
             "options are names with commas between them: `choice Fit { loose, close }`"
         }
+        Some('|') if line_before(text, span).trim_end().ends_with('(') => {
+            "a function of one argument is `x => 2 * x`"
+        }
         Some('|') => "write `or`; a size is `abs(x)`, a relation `l.parallel(to: m)`",
         Some('∥' | '⊥') => {
             "a relation is asked of a thing: `l.parallel(to: m)`, `l.perpendicular(to: m)`"

@@ -114,6 +114,11 @@ pub(crate) fn unknown_unit(place: Place, spelling: &str) -> Diagnostic {
                 "`{prefix}` stands before a unit: `{prefix}m`, `{prefix}F`, `{prefix}V`"
             ));
         }
+        concentration @ ("mM" | "uM" | "µM" | "nM" | "pM") => {
+            let prefix = concentration.trim_end_matches('M');
+            let hint = format!("moles a litre are `{prefix}mol/L`, a length is `{prefix}m`");
+            return d.hint(hint);
+        }
         "x" | "X" => {
             return d.hint("a product has its sign: `3 * 10^8`; a power of ten is `3e8`, too");
         }

@@ -172,8 +172,8 @@ impl Sweeping {
 
 /// How the swept value is brought from one number to the next.
 enum Walk {
-    /// By a drag, which follows the branch.
-    Drag,
+    /// By a drag, which follows the branch; from then on within half a turn where an angle has leapt.
+    Drag { has_leapt: bool },
     /// By edits, where an anchor holds it against drags.
     Edits,
 }
@@ -181,7 +181,7 @@ enum Walk {
 impl Walk {
     fn begin(trial: &mut Open, host: &dyn Host, path: &Path) -> Result<Self, Refusal> {
         let Err(refusal) = drag::begin(trial, std::slice::from_ref(path)) else {
-            return Ok(Self::Drag);
+            return Ok(Self::Drag { has_leapt: false });
         };
         let now = number_at(&trial.state, path, &trial.state.values)?;
         match Self::Edits.to(trial, host, (path, now)) {
@@ -200,21 +200,20 @@ impl Walk {
         (path, value): (&Path, f64),
     ) -> Result<(), Option<String>> {
         match self {
-            Self::Drag => {
-                let state = trial.state.clone();
-                let mut why = None;
-                for _ in 0..PATIENCE {
-                    let Some(drag) = &mut trial.drag else { return Err(None) };
-                    let came = drag.to(&state, &mut trial.planner, (value, 0.0));
-                    if came.reached {
-                        return Ok(());
-                    }
-                    why = came.message;
-                    if came.limit.is_some() {
-                        break;
-                    }
+            Self::Drag { has_leapt } => {
+                let Some(drag) = &trial.drag else { return Err(None) };
+                let leapt = drag.leapt(value);
+                if *has_leapt && let Some(leapt) = leapt {
+                    return drag_to(trial, leapt);
                 }
-                Err(why)
+                let came = drag_to(trial, value);
+                match leapt {
+                    Some(leapt) if came.is_err() && drag_to(trial, leapt).is_ok() => {
+                        *has_leapt = true;
+                        Ok(())
+                    }
+                    _ => came,
+                }
             }
             Self::Edits => {
                 let command = Command::Set(vec![(path.clone(), Literal::Number(value))]);
@@ -224,6 +223,27 @@ impl Walk {
             }
         }
     }
+}
+
+/// Goes on with the drag to a value.
+///
+/// # Errors
+/// Why it does not come there, where that is known.
+fn drag_to(trial: &mut Open, value: f64) -> Result<(), Option<String>> {
+    let state = trial.state.clone();
+    let mut why = None;
+    for _ in 0..PATIENCE {
+        let Some(drag) = &mut trial.drag else { return Err(None) };
+        let came = drag.to(&state, &mut trial.planner, (value, 0.0));
+        if came.reached {
+            return Ok(());
+        }
+        why = came.message;
+        if came.limit.is_some() {
+            break;
+        }
+    }
+    Err(why)
 }
 
 /// Reads an end of a range.

@@ -285,6 +285,12 @@ fn operand(p: &mut Parser<'_>, start: Checkpoint) -> u32 {
                 }
                 if p.at(LParen) && !p.line_ended(0) {
                     height = height.max(arguments(p));
+                } else if mistakes::elsewhere::braces_for_arguments(p) {
+                    p.start(ArgList);
+                    p.bump();
+                    height = height.max(argument(p));
+                    p.expect(RBrace, "expected-bracket", "`}`");
+                    p.finish();
                 }
                 p.start_at(start, FieldExpr);
                 p.finish();

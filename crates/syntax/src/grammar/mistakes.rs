@@ -672,6 +672,9 @@ pub(super) fn value_for_class(p: &Parser<'_>) -> Option<String> {
             Some("unlike is `!=`, no thing of a class `not (x is C)`".into())
         }
         Colon => Some("one `:` is enough".into()),
+        Minus if p.text_between(p.pos() - 1, p.pos() - 1) == "of" => {
+            Some("how many a list has is a whole number, from 0: `List of 3 Real`".into())
+        }
         LParen | LBracket | Minus => {
             Some(format!("a class follows `:`; a value is given with `=`: `{name} = …`"))
         }

@@ -4,8 +4,8 @@ use super::MEMBER;
 use crate::kind::SyntaxKind;
 use crate::kind::SyntaxKind::{
     AndKw, Arrow, Caret, Colon, ColonEq, Comma, Eof, Eq, FatArrow, Greater, GreaterEq, Ident,
-    LBrace, LParen, Less, LessEq, Minus, NotEq, NotKw, Number, Plus, RBrace, RParen, Semicolon,
-    Slash, Star, Text, Unit,
+    LBrace, LBracket, LParen, Less, LessEq, Minus, NotEq, NotKw, Number, Plus, RBrace, RBracket,
+    RParen, Semicolon, Slash, Star, Text, Unit,
 };
 use crate::parser::Parser;
 use crate::units::follows_operand;
@@ -583,7 +583,8 @@ pub(in crate::grammar) fn without_comma(p: &mut Parser<'_>) -> bool {
     let said = comma_left_out(p);
     let is_one = said.is_some();
     // of three names one after the other the first gap is told
-    let is_told = p.at(Ident) && p.behind(2) == Ident;
+    let is_told = p.at(Ident)
+        && (p.behind(2) == Ident || p.text_between(p.pos() - 1, p.pos() - 1) == "lambda");
     if let Some(said) = said.filter(|_| !is_told) {
         p.report_mistake((p.pos(), p.pos()), said, None);
     }
@@ -613,6 +614,11 @@ fn comma_left_out(p: &Parser<'_>) -> Option<(&'static str, String, String)> {
 pub(in crate::grammar) fn in_brackets(p: &mut Parser<'_>, wanted: &str) -> bool {
     let at = p.pos();
     let said = match p.current() {
+        Ident if p.behind(1) == Ident && p.text_between(at - 1, at - 1) == "lambda" => (
+            "expected-bracket",
+            format!("found `{}` after `lambda`, wanted {wanted}", p.word(0)),
+            format!("a function of one argument is `{0} => 2 * {0}`", p.word(0)),
+        ),
         _ if let Some(said) = comma_left_out(p) => said,
         Arrow if p.behind(1) == Ident => (
             "expected-bracket",
@@ -622,7 +628,9 @@ pub(in crate::grammar) fn in_brackets(p: &mut Parser<'_>, wanted: &str) -> bool 
         Ident if p.word(0) == "for" && p.nth(1) == Ident && !p.begins_line(0) => (
             "expected-bracket",
             format!("found `for`, wanted {wanted}"),
-            "a list of what is computed is `(1..3).map(i => 2 * i)`".to_string(),
+            comprehension(p).unwrap_or_else(|| {
+                "a list of what is computed is `(1..3).map(i => 2 * i)`".to_string()
+            }),
         ),
         LParen if p.behind(1) == Ident && p.member_word().starts_with(char::is_uppercase) => (
             "expected-bracket",
@@ -636,6 +644,67 @@ pub(in crate::grammar) fn in_brackets(p: &mut Parser<'_>, wanted: &str) -> bool 
     };
     p.report_mistake((at, at), said, None);
     true
+}
+
+/// Says at the `for` of `[2 * x for x in xs if x > 1]` how that is written.
+fn comprehension(p: &Parser<'_>) -> Option<String> {
+    /// So many tokens are looked at either way.
+    const MOST: usize = 100;
+    if p.word(2) != "in" {
+        return None;
+    }
+    let (mut depth, mut first) = (0u32, p.pos().checked_sub(1)?);
+    loop {
+        match p.behind(p.pos() - first) {
+            RParen | RBracket | RBrace => depth += 1,
+            LParen | LBracket | LBrace if depth == 0 => break,
+            LParen | LBracket | LBrace => depth -= 1,
+            _ => {}
+        }
+        first = first.checked_sub(1).filter(|first| p.pos() - first < MOST)?;
+    }
+    let made = p.quoted(first + 1, p.pos() - 1);
+    let (name, mut n, mut only) = (p.word(1), 3, None);
+    loop {
+        match p.nth(n) {
+            RParen | RBracket | RBrace if depth == 0 => break,
+            Eof | Semicolon => return None,
+            _ if n > MOST => return None,
+            LParen | LBracket | LBrace => depth += 1,
+            RParen | RBracket | RBrace => depth -= 1,
+            _ if p.word(n) == "if" && depth == 0 => only = Some(n),
+            _ => {}
+        }
+        n += 1;
+    }
+    let (end, last) = (p.pos() + n - 1, p.pos() + only.unwrap_or(n) - 1);
+    let of = p.quoted(p.pos() + 3, last);
+    let of = if of.contains("..") { format!("({of})") } else { of };
+    let only = only.map(|n| format!(".filter({name} => {})", p.quoted(p.pos() + n + 1, end)));
+    let mapped = if made == name { String::new() } else { format!(".map({name} => {made})") };
+    let is_sum = p.behind(p.pos() - first) == LParen
+        && first.checked_sub(1).is_some_and(|at| p.text_between(at, at) == "sum");
+    let sum = if is_sum { ".sum" } else { "" };
+    Some(format!("write `{of}{}{mapped}{sum}`", only.unwrap_or_default()))
+}
+
+/// `xs.map { x => 2 * x }`: returns true at the `{`, where it was reported.
+pub(in crate::grammar) fn braces_for_arguments(p: &mut Parser<'_>) -> bool {
+    let at = p.pos();
+    let asked = p.text_between(at - 1, at - 1);
+    let is_one = p.at(LBrace)
+        && !p.begins_line(0)
+        && (p.nth(1), p.nth(2)) == (Ident, FatArrow)
+        && matches!(asked, "map" | "filter" | "all" | "any");
+    if is_one {
+        let said = (
+            "expected-bracket",
+            format!("found `{{` after `{asked}`, wanted `(`"),
+            format!("a function is an argument like any other: `{asked}({0} => …)`", p.word(1)),
+        );
+        p.report_mistake((at, at), said, None);
+    }
+    is_one
 }
 
 /// `constraint a = b weak` before the end of a line: returns true where it was reported. The next line is a rule of its
