@@ -286,7 +286,7 @@ impl Planned {
                 "what this is a copy of depends on it, or on more than {MOST_COPIES} copies in turn"
             ),
         }));
-        crate::placing::place_layout(structure, &self.planner, &mut values);
+        crate::placing::place_layout(&lowered.document, structure, &self.planner, &mut values);
         let on_course = self.planner.course_faults().iter().filter(|f| !follows(&self.of, f));
         self.unplanned.extend(on_course.cloned());
         Solved { of: self, given, given_faults, values, double_roots }

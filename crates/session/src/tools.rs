@@ -11,7 +11,7 @@ pub(crate) mod copies;
 pub(crate) mod digits;
 mod lengths;
 pub(crate) mod room;
-mod stages;
+pub(crate) mod stages;
 mod stops;
 mod winding;
 
@@ -19,6 +19,7 @@ use crate::apply;
 use crate::document::Open;
 use crate::drag;
 use crate::host::Host;
+use crate::placing;
 use crate::recognise;
 use crate::session::thing_at;
 use crate::state::State;
@@ -371,6 +372,7 @@ impl Tool {
         }
         if let Some(Stage::Place { place, .. }) = stage {
             let path = Path(vec![Step::Part(Name::new(&self.name))]).join(&place);
+            placing::say_layout(&mut self.trial, host, &path);
             let command = Command::Anchor { path, held: true };
             // what cannot be anchored is held by its stay
             let _ = apply::apply(&mut self.trial, host, &command);

@@ -140,6 +140,11 @@ fn written(
     let is_same = |slot: SlotId| wanted.get(slot).same_bits(&state.values.get(slot));
     let changed = wanted.changed(&state.values);
     let mut written: BTreeSet<ThingId> = changed.filter(|&slot| is_given(slot)).map(unit).collect();
+    // where something is drawn that says no place depends on all that is drawn: what was put somewhere says so
+    let is_layout = |slot: &SlotId| {
+        state.structure.slots[*slot].is_layout && state.structure.given(*slot).is_none()
+    };
+    written.extend(edited.iter().copied().filter(is_layout).map(unit));
     let mut more = 1;
     loop {
         let writes: Vec<(Path, Literal)> = written

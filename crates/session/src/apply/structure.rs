@@ -7,7 +7,7 @@ use crate::document::Open;
 use crate::general;
 use crate::host::Host;
 use crate::parting;
-use crate::placing::place_new_parts;
+use crate::placing::{keep_layout, place_new_parts};
 use crate::prototype;
 use crate::sheet;
 use crate::state::State;
@@ -94,10 +94,11 @@ pub(crate) fn restructured_by(
         (None, Some(class)) => place_new_parts(&before, state, planner, class, host),
         (None, None) => (state, planner),
     };
-    let (state, mut planner) = match settles {
+    let (state, planner) = match settles {
         true => settle_places(&before, state, planner, host),
         false => (state, planner),
     };
+    let (state, mut planner) = keep_layout(&before, state, planner, host);
     if matches!(command, Command::Merge(_)) && open.status.satisfied {
         let status = state.status(&mut planner);
         if let Some(refusal) = words::refusal_of_status(&state, &status) {

@@ -30,6 +30,7 @@ mod mentioning;
 mod offering;
 mod older;
 mod parameters;
+mod placed;
 mod plotting;
 mod prototypes;
 mod proving;

@@ -1,0 +1,92 @@
+//! Where is drawn what says no place.
+
+use crate::desk::{Desk, at};
+use kernel::{Command, Path};
+
+/// Two resistors on a battery, and a voltmeter over the second, joined and nowhere placed.
+const DIVIDER: &str = "use circuits\ny down\nbattery: Battery\nmeter: Ammeter\nr1: Resistor\nr2: Resistor\n\
+    bottom: Wire\ntop: Wire\nvoltmeter: Voltmeter\nback: Wire\nground: Ground\n\
+    merge battery.a.node = meter.a.node\nmerge meter.b.node = r1.a.node\n\
+    merge r1.b.node = r2.a.node = top.a.node\nmerge top.b.node = voltmeter.a.node\n\
+    merge voltmeter.b.node = back.a.node\nmerge r2.b.node = bottom.b.node = back.b.node\n\
+    merge battery.b.node = bottom.a.node = ground.lead.node\n";
+
+/// Where the two ends of a part are.
+fn ends(desk: &mut Desk, part: &str) -> [(f64, f64); 2] {
+    ["a", "b"].map(|end| desk.place(&format!("{part}.{end}.node.at")))
+}
+
+/// Twice the area of a triangle, negative where it turns the other way.
+fn side(a: (f64, f64), b: (f64, f64), c: (f64, f64)) -> f64 {
+    (b.0 - a.0) * (c.1 - a.1) - (b.1 - a.1) * (c.0 - a.0)
+}
+
+fn cross([a, b]: [(f64, f64); 2], [c, d]: [(f64, f64); 2]) -> bool {
+    side(a, b, c) * side(a, b, d) < 0.0 && side(c, d, a) * side(c, d, b) < 0.0
+}
+
+fn crossings(desk: &mut Desk, parts: &[&str]) -> usize {
+    let lines: Vec<_> = parts.iter().map(|part| ends(desk, part)).collect();
+    let pairs = (0..lines.len()).flat_map(|a| (0..a).map(move |b| (a, b)));
+    pairs.filter(|&(a, b)| cross(lines[a], lines[b])).count()
+}
+
+#[test]
+fn a_typed_divider_stands_in_rows_and_columns() {
+    let mut desk = Desk::of(DIVIDER);
+    let parts = ["battery", "meter", "r1", "r2", "bottom", "top", "voltmeter", "back"];
+    for part in parts {
+        let [a, b] = ends(&mut desk, part);
+        assert!((a.0 == b.0) != (a.1 == b.1), "{part} from {a:?} to {b:?}");
+    }
+    assert_eq!(crossings(&mut desk, &parts), 0);
+    // the battery stands to the left, its positive pole above
+    let [plus, minus] = ends(&mut desk, "battery");
+    assert!(plus.0 == minus.0 && plus.1 < minus.1);
+    assert!(parts.iter().all(|part| ends(&mut desk, part).iter().all(|end| end.0 >= plus.0)));
+}
+
+#[test]
+fn where_the_sheet_has_its_y_upward_the_divider_stands_the_same_way_up() {
+    let mut desk = Desk::of(&DIVIDER.replace("y down\n", ""));
+    let [plus, minus] = ends(&mut desk, "battery");
+    assert!(plus.0 == minus.0 && plus.1 > minus.1);
+}
+
+#[test]
+fn no_wires_of_a_typed_bridge_cross() {
+    let mut desk = Desk::of(
+        "use circuits\nbattery: Battery\nr1, r2, r3, r4: Resistor\nmeter: Ammeter\n\
+         merge battery.a.node = r1.a.node = r3.a.node\nmerge r1.b.node = r2.a.node = meter.a.node\n\
+         merge r3.b.node = r4.a.node = meter.b.node\nmerge battery.b.node = r2.b.node = r4.b.node\n",
+    );
+    let parts = ["battery", "r1", "r2", "r3", "r4", "meter"];
+    assert_eq!(crossings(&mut desk, &parts), 0);
+    let places: std::collections::BTreeSet<String> =
+        parts.iter().flat_map(|part| ends(&mut desk, part)).map(|at| format!("{at:?}")).collect();
+    assert_eq!(places.len(), 4);
+}
+
+#[test]
+fn what_hangs_together_with_a_place_that_is_given_is_laid_out_from_there() {
+    let mut desk = Desk::of(
+        "use circuits\ny down\nr: Resistor { a.node.at = (1000, 1000) }\nw: Wire\n\
+         merge r.b.node = w.a.node\n",
+    );
+    let [_, b] = ends(&mut desk, "r");
+    let [_, end] = ends(&mut desk, "w");
+    // the first stands, what follows goes on
+    assert_eq!((b, end), ((1000.0, 1120.0), (1120.0, 1120.0)));
+}
+
+#[test]
+fn a_part_that_is_added_by_hand_moves_none_that_says_no_place() {
+    let mut desk = Desk::of(DIVIDER);
+    let parts = ["battery", "meter", "r1", "r2", "bottom", "top", "voltmeter", "back"];
+    let before = parts.map(|part| ends(&mut desk, part));
+    let members = "r3: Resistor { a.node.at = (500, 500)  b.node.at = (600, 500) }".into();
+    desk.apply(&Command::Edit { target: Path::default(), members }).expect("there is such a class");
+    assert_eq!(parts.map(|part| ends(&mut desk, part)), before);
+    desk.apply(&Command::Merge(vec![at("voltmeter.b.node"), at("r3.a.node")])).expect("alike");
+    assert_eq!(parts.map(|part| ends(&mut desk, part)), before);
+}
