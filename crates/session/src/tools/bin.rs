@@ -11,7 +11,7 @@ use base::Name;
 use drawing::Drawing;
 use eval::Evaluator;
 use expr::Dimension;
-use kernel::{ClassId, Scale, SlotId, Usual, Value, Values, Vertical};
+use kernel::{ClassId, Primitive, Scale, SlotId, Usual, Value, Values, Vertical};
 use plan::{Model, Planner, Plans};
 use std::collections::BTreeMap;
 use std::rc::Rc;
@@ -163,5 +163,47 @@ fn spread(lone: &Lone, class: ClassId) -> Values {
             put([0, 1]);
         }
     }
-    values
+    if drawn(lone, &values).elements.is_empty() { telling(lone, values) } else { values }
+}
+
+/// The same where nothing is drawn of it, as its places lie on each other and its texts are empty: it says something, and
+/// its places lie above each other in pairs, or fan out in pairs from one spot, whichever shows anything.
+fn telling(lone: &Lone, given: Values) -> Values {
+    /// What stands where a text is.
+    const WORDS: &str = "Abc";
+    let mut values = given.clone();
+    let mut places: Vec<[SlotId; 2]> = Vec::new();
+    for (id, slot) in lone.structure.slots.iter() {
+        if slot.primitive == Primitive::Text && slot.given.is_none() {
+            values.put(id, Value::Text(WORDS.into()));
+        }
+        let own = slot.place.map(|place| lone.structure.slots_under(place)).unwrap_or_default();
+        if let Ok(own) = <[SlotId; 2]>::try_from(own)
+            && own[0] == id
+        {
+            places.push(own);
+        }
+    }
+    let shows = |values: &Values| !drawn(lone, values).elements.is_empty();
+    if shows(&values) {
+        return values;
+    }
+    let above = |n: usize| (60.0 * (n % 2) as f64, -20.0 * (n / 2) as f64);
+    let fanned = |n: usize| match n {
+        1 => (60.0, 0.0),
+        n if n % 2 == 1 => (40.0, 20.0 * n as f64),
+        _ => (0.0, 0.0),
+    };
+    let ways: [&dyn Fn(usize) -> (f64, f64); 2] = [&above, &fanned];
+    for way in ways {
+        for (n, [x, y]) in places.iter().enumerate() {
+            let (at_x, at_y) = way(n);
+            values.put(*x, Value::Number(at_x));
+            values.put(*y, Value::Number(at_y));
+        }
+        if shows(&values) {
+            return values;
+        }
+    }
+    given
 }

@@ -202,3 +202,15 @@ fn the_tiles_of_an_edited_document_are_those_of_one_that_is_opened() {
         assert_eq!(desk.session.bin(desk.id), fresh.session.bin(fresh.id), "{text}");
     }
 }
+
+#[test]
+fn no_tile_of_dimensions_and_notes_is_empty() {
+    let desk = Desk::of("use drafting\n");
+    let bin = desk.session.bin(desk.id);
+    let empty: Vec<&str> = { bin.iter() }
+        .filter(|entry| entry.library == "drafting" && entry.picture.elements.is_empty())
+        .map(|entry| entry.class.as_str())
+        .collect();
+    // of a list of points that has none there is nothing to see
+    assert_eq!(empty, ["Bezier", "Nurbs"]);
+}
