@@ -690,10 +690,11 @@ impl Session {
         ghosts::view(self.document_mut(id), about)
     }
     /// Says what is free, what is superfluous and what cannot hold together, with what would help.
-    ///
     /// Where something does not hold this may take a few hundred solves.
     pub fn analysis(&mut self, id: DocumentId) -> Analysis {
-        let analysis = views::analysis::view(self.document_mut(id));
+        let mut analysis = views::analysis::view(self.document_mut(id));
+        let beside = Beside::of(&*self.host, &self.documents, id);
+        crate::ways_out::keep_helping(self.document(id), &beside, &mut analysis.contradictions);
         let status = &mut self.document_mut(id).status;
         status.more = (analysis.freedom as usize).checked_sub(status.freedom);
         Analysis { advice: self.advice(id), ..analysis }

@@ -14,7 +14,7 @@ use crate::recognise;
 use crate::rules;
 use crate::session::{parse_path, thing_at};
 use crate::state::State;
-use crate::view::{Choice, Question};
+use crate::view::{Choice, ContradictionView, Question};
 use crate::write_back::settle_places;
 use crate::{views, words};
 use base::Name;
@@ -216,6 +216,28 @@ fn for_every(state: &State, target: &Path, members: &str) -> Option<Question> {
             Choice { label: format!("every {class}"), command: every },
         ],
     })
+}
+
+/// Leaves of what is offered to mend contradictions no letting go of a place after which as much is broken as before.
+pub(crate) fn keep_helping(open: &Open, host: &dyn Host, contradictions: &mut [ContradictionView]) {
+    if open.state.structure.things.len() > MOST_THINGS {
+        return;
+    }
+    let was_broken = broken(open);
+    let is_idle = |choice: &Choice| {
+        let lets_go = matches!(choice.command, Command::Anchor { held: false, .. });
+        lets_go && {
+            let mut trial = open.trial();
+            let done = apply::apply(&mut trial, host, &choice.command);
+            done.is_ok() && broken(&trial) >= was_broken
+        }
+    };
+    for contradiction in contradictions {
+        let (idle, helping) = contradiction.choices.drain(..).partition(is_idle);
+        contradiction.choices = helping;
+        let idle: Vec<Choice> = idle;
+        contradiction.repairs.retain(|repair| !idle.iter().any(|choice| choice.label == *repair));
+    }
 }
 
 /// The paths and names of the constraints of a document.

@@ -189,3 +189,27 @@ fn what_hands_do_first_is_rehearsed_to_its_end() {
     copies.take(job);
     assert_eq!(copies.answer(0), None, "nothing of it is refused");
 }
+
+#[test]
+fn to_let_go_of_a_point_is_not_offered_where_lengths_contradict_without_it() {
+    for text in [
+        "use geometry\nl: Line { p1 = (0, 0)  p2 = (100, 0) }\nanchor l.p1\n\
+         constraint a: l.length = 100\nconstraint b: l.length = 50\n",
+        "use geometry\np1, p2, p3: Point\np1 = (0, 0)\np2 = (100, 0)\np3 = (50, 50)\nanchor p1\n\
+         constraint a: p1.distance(to: p2) = 100\nconstraint b: p2.distance(to: p3) = 30\n\
+         constraint c: p1.distance(to: p3) = 30\n",
+        "use geometry\np1, p2: Point\np1 = (0, 0)\np2 = (100, 0)\nanchor p1\nanchor p2\n\
+         constraint a: p1.distance(to: p2) = 100\nconstraint b: p1.distance(to: p2) = 50\n",
+    ] {
+        let mut desk = Desk::of(text);
+        let found = desk.session.analysis(desk.id).contradictions;
+        for c in &found {
+            assert!(!c.repairs.is_empty(), "{text}");
+            assert!(
+                c.repairs.iter().all(|repair| !repair.starts_with("let go")),
+                "{:?}",
+                c.repairs
+            );
+        }
+    }
+}
