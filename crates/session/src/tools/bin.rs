@@ -8,7 +8,7 @@ use crate::state::State;
 use crate::texts::Texts;
 use crate::view::BinEntry;
 use base::Name;
-use drawing::Drawing;
+use drawing::{Drawing, Element, Shape};
 use eval::Evaluator;
 use expr::Dimension;
 use kernel::{ClassId, Primitive, Scale, SlotId, Usual, Value, Values, Vertical};
@@ -163,7 +163,14 @@ fn spread(lone: &Lone, class: ClassId) -> Values {
             put([0, 1]);
         }
     }
-    if drawn(lone, &values).elements.is_empty() { telling(lone, values) } else { values }
+    if is_blank(&drawn(lone, &values)) { telling(lone, values) } else { values }
+}
+
+/// Whether there is nothing to see of a drawing: it has no elements, or texts without words alone.
+fn is_blank(drawing: &Drawing) -> bool {
+    let is_silent =
+        |element: &Element| matches!(&element.shape, Shape::Text { text, .. } if text.is_empty());
+    drawing.elements.iter().all(is_silent)
 }
 
 /// The same where nothing is drawn of it, as its places lie on each other and its texts are empty: it says something, and
@@ -184,7 +191,7 @@ fn telling(lone: &Lone, given: Values) -> Values {
             places.push(own);
         }
     }
-    let shows = |values: &Values| !drawn(lone, values).elements.is_empty();
+    let shows = |values: &Values| !is_blank(&drawn(lone, values));
     if shows(&values) {
         return values;
     }

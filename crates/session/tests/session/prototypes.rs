@@ -211,6 +211,9 @@ fn no_tile_of_dimensions_and_notes_is_empty() {
         .filter(|entry| entry.library == "drafting" && entry.picture.elements.is_empty())
         .map(|entry| entry.class.as_str())
         .collect();
+    let is_drawn = |text: &drawing::Shape| matches!(text, drawing::Shape::Text { text, .. } if !text.is_empty());
+    let note = bin.iter().find(|entry| entry.class == "Note").expect("drafting has it");
+    assert!(note.picture.elements.iter().any(|element| is_drawn(&element.shape)));
     // of a list of points that has none there is nothing to see
     assert_eq!(empty, ["Bezier", "Nurbs"]);
 }
