@@ -122,11 +122,13 @@ fn Open(lab: Lab, menu: Menu) -> impl IntoView {
     });
     view! {
         <div class="veil" on:pointerdown=move |_| close() on:contextmenu=|e| e.prevent_default()></div>
-        <div class="menu" role="menu" aria-label=menu.label node_ref=list
-            on:pointerdown=move |_| is_pressed.set_value(true)
-            style:left=move || format!("{}px", at.get().0)
-            style:top=move || format!("{}px", at.get().1)>
-            {items.collect_view()}
-        </div>
+        <nav aria-label=menu.label>
+            <div class="menu" role="menu" aria-label=menu.label node_ref=list
+                on:pointerdown=move |_| is_pressed.set_value(true)
+                style:left=move || format!("{}px", at.get().0)
+                style:top=move || format!("{}px", at.get().1)>
+                {items.collect_view()}
+            </div>
+        </nav>
     }
 }

@@ -323,7 +323,6 @@ fn Document(lab: Lab) -> impl IntoView {
                     <Picture lab=lab />
                     <Strip lab=lab />
                     <PromptLine lab=lab />
-                    <ByExample lab=lab />
                     <ClassPane lab=lab />
                     <PointedAt lab=lab />
                 </div>
@@ -335,6 +334,7 @@ fn Document(lab: Lab) -> impl IntoView {
             </div>
             <Splitter name="right" way=Way::Left least=220.0 most=900.0 />
             <div class="side"><Inspector lab=lab /></div>
+            <ByExample lab=lab />
             <Handles lab=lab />
             <Printed lab=lab />
             <Show when=bench::is_asked><bench::Bench lab=lab /></Show>
@@ -370,6 +370,12 @@ fn Drawer(lab: Lab) -> impl IntoView {
                 {tab(words::HISTORY, Drawer::History)}
             </div>
             <div class="shelf" id="drawer" role="tabpanel" aria-label=words::VIEWS>
+                <h2 class="unseen">{move || match lab.drawer.get() {
+                    Drawer::Structure => words::STRUCTURE,
+                    Drawer::Draw => words::DRAW,
+                    Drawer::Bin => words::BIN,
+                    Drawer::History => words::HISTORY,
+                }}</h2>
                 {move || match lab.drawer.get() {
                     Drawer::Draw => apart(|| view! { <Drawing lab=lab /> }.into_any()),
                     Drawer::Bin => apart(|| view! { <Bin lab=lab /> }.into_any()),

@@ -11,11 +11,11 @@ use serde_json::json;
 
 const AXE: &str = include_str!("../assets/axe.min.js");
 
-/// What axe-core calls serious or critical, each with where it is.
+/// What axe-core finds that is not minor, each with where it is.
 const FINDINGS: &str = "
     const done = arguments[arguments.length - 1];
     axe.run(document, { resultTypes: ['violations'] }).then(found => done(found.violations
-        .filter(v => v.impact === 'serious' || v.impact === 'critical')
+        .filter(v => v.impact !== 'minor')
         .map(v => `${v.id}: ${v.nodes.map(n => n.target.join(' ')).join(', ')}`)))";
 
 async fn accessible(visit: &Visit, place: &str) {
