@@ -352,7 +352,7 @@ async fn a_rhombus_becomes_a_class_and_all_of_it_follow() {
     // what it asks covers nothing of the figure that it asks of
     let beside = "const box = id => document.querySelector(id).getBoundingClientRect();
         return box('.example').left >= box('#picture').right";
-    assert_eq!(visit.script(beside).await, json!(true));
+    assert_eq!(visit.script(beside).await, true);
     for path in ["line.p1", "line2.p2"] {
         point(&visit, grip(&equal, path), MOUSE_BUTTON_LEFT).await;
     }
