@@ -1,6 +1,9 @@
 //! Ghosts: where else a thing could be, and the command that picks it.
 
 use crate::desk::{Desk, at, gallery};
+use session::Command;
+use session::jobs::{Desk as Copies, LongAnswer, LongQuestion};
+use session::plain::{read, written};
 use session::view::Ghost;
 
 /// A place 7 from (0, 0) and from (10, 0), above them, and one that hangs on it.
@@ -189,4 +192,25 @@ constraint n.distance(to: c) = r
     );
     // of three places there is one centre alone
     assert_eq!(labels(&mut desk, "n"), [""; 0]);
+}
+
+#[test]
+fn a_worker_finds_what_the_session_finds_and_tells_it_in_bytes() {
+    let mut desk = Desk::of(TRIANGLE);
+    let asked = |desk: &Desk, question: LongQuestion| {
+        let job = read(&written(&desk.session.job(desk.id, question))).expect("a job");
+        let mut copies = Copies::default();
+        copies.take(job);
+        let answer = copies.answer(0).expect("one answer");
+        read::<LongAnswer>(&written(&answer)).expect("an answer")
+    };
+    let here = ghosts(&mut desk, "c");
+    assert!(!here.is_empty());
+    assert_eq!(asked(&desk, LongQuestion::Elsewhere(at("c"))), LongAnswer::Elsewhere(here));
+    let level =
+        Command::Edit { target: session::Path::default(), members: "constraint a.y = c.y".into() };
+    for command in [level, Command::Delete(at("nobody"))] {
+        let here = desk.session.foreseen(desk.id, &command).map_err(|refusal| refusal.in_a_line());
+        assert_eq!(asked(&desk, LongQuestion::Foreseen(command)), LongAnswer::Foreseen(here));
+    }
 }
