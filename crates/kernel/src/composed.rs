@@ -22,18 +22,21 @@ pub fn quotients(written: &[Name]) -> BTreeMap<Dimension, Vec<Name>> {
     let is_word = |unit: &&Name| !unit.contains(['*', '/', '^']);
     let words = || written.iter().filter(is_word);
     for over in words() {
-        for under in words().filter(|under| is_own(over) || is_own(under)) {
+        for under in words().filter(|u| is_own(over) || is_own(u) || is_mileage(over, u)) {
             let spelling = Name::new(&format!("{over}/{under}"));
             let Some(unit) = units::unit(&spelling) else { continue };
             let [length, mass, ..] = unit.dimension.0;
             // powers of electricity are in watts; areas and volumes are told by the lengths of the sheet
             let is_of_heat = !is_electric && !over.ends_with("Wh");
             let is_in_watts = unit.dimension == Dimension::POWER && !is_of_heat;
-            if is_in_watts || (length, mass) == (0, 0) || factors(unit.dimension) < 3 {
+            let is_mileage = is_mileage(over, under);
+            let is_simple = factors(unit.dimension) < 3 && !is_mileage;
+            if is_in_watts || (length, mass) == (0, 0) || is_simple {
                 continue;
             }
             let known = made.entry(unit.dimension).or_default();
-            if !crate::quantity::is_of_the_sheet(unit.dimension) && !known.contains(&spelling) {
+            let is_of_the_sheet = crate::quantity::is_of_the_sheet(unit.dimension) && !is_mileage;
+            if !is_of_the_sheet && !known.contains(&spelling) {
                 known.push(spelling);
             }
         }
@@ -57,6 +60,12 @@ fn is_own(spelling: &str) -> bool {
         let is_mechanical = [a, b, c, d] == [0; 4] && unit.dimension != Dimension::VELOCITY;
         is_mechanical && factors(unit.dimension) > 1 && !crate::quantity::is_of_si(spelling)
     })
+}
+
+/// Returns true for a way over a volume: how far it lasts, as of fuel.
+fn is_mileage(over: &str, under: &str) -> bool {
+    let is_volume = units::unit(under).is_some_and(|unit| unit.dimension == Dimension::VOLUME);
+    matches!(over, "km" | "mi" | "nmi") && is_volume
 }
 
 /// Returns of how many factors a quantity is, at least: masses or forces, lengths and times, each as often as it counts.

@@ -110,7 +110,7 @@ impl Lowerer<'_> {
         let message = &self.document.classes[class].messages[index];
         let name = message.name.clone();
         if message.class.is_some()
-            || self.message_kind(class, &name) != Kind::PLAIN
+            || !matches!(self.message_kind(class, &name), Kind::Number(None) | Kind::PLAIN)
             || !self.is_angle_within(scope, answer, DEEPEST)
         {
             return;
@@ -162,6 +162,11 @@ impl Lowerer<'_> {
                     _ => self.is_declared_as(scope, e, ANGLE),
                 }
             }
+            Expr::Name(name)
+                if name.name().is_some_and(|w| self.is_step_of_angle(scope, &w.name())) =>
+            {
+                true
+            }
             Expr::Name(_) | Expr::Field(_) | Expr::Index(_) => self.is_declared_as(scope, e, ANGLE),
             _ => false,
         }
@@ -200,6 +205,7 @@ fn is_factor(e: &Expr) -> bool {
     !parts.any(|part| match part {
         Expr::Number(number) => number.unit().is_some_and(|unit| is_of_angles(unit.text())),
         Expr::Name(name) => name.name().is_some_and(|word| word.text() == "pi"),
+        Expr::Call(call) => call.name().is_some_and(|word| word.text() == "pi"),
         _ => false,
     })
 }

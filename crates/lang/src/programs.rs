@@ -36,6 +36,8 @@ pub(crate) struct Programs {
     depth: usize,
     /// What loops of the program that is being lowered add up, each with the loop's name.
     totals: BTreeSet<(Name, Name)>,
+    /// Which names of the program that is being lowered are angles.
+    angles: BTreeSet<Name>,
 }
 
 impl Programs {

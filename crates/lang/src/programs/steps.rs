@@ -3,6 +3,7 @@
 
 use super::totals::totals_of;
 use super::{members_of, nothing, step_name, with_of};
+use crate::angles::ANGLE;
 use crate::kinds::{Kind, measured};
 use crate::lower::Lowerer;
 use crate::scope::Scope;
@@ -31,8 +32,10 @@ impl Lowerer<'_> {
         let mut body = nothing(class);
         // a call lowers another program in the midst of this one
         let outer = std::mem::take(&mut self.programs.totals);
+        let outer_angles = std::mem::take(&mut self.programs.angles);
         self.steps(&mut scope, &mut body, &members_of(node.body()));
         let totals = std::mem::replace(&mut self.programs.totals, outer);
+        self.programs.angles = outer_angles;
         self.set_program(class, Program { parameters, demands: Vec::new(), body });
         self.warn_of_totals(file, &node, &totals);
     }
@@ -121,7 +124,9 @@ impl Lowerer<'_> {
                     let name = word.name();
                     let (says, kind) = self.step_says(scope, &value);
                     self.programs.totals.extend(totals_of(&name, &value));
+                    let is_angle = self.is_angle_of_step(scope, &kind, &value);
                     self.makes(scope, block.class, &name, kind);
+                    self.tell_angle_of_step(block.class, &name, is_angle);
                     block.steps.push(step(name, says, assign.is_guide()));
                 }
                 Member::If(choice) => {
@@ -158,6 +163,30 @@ impl Lowerer<'_> {
     fn makes(&mut self, scope: &mut Scope, class: ClassId, name: &Name, kind: Kind) {
         scope.locals.push((name.clone(), kind.clone()));
         self.message_kinds.insert((class, name.clone()), Some(kind));
+    }
+
+    /// Returns true for a step whose value is an angle.
+    fn is_angle_of_step(&mut self, scope: &Scope, kind: &Kind, value: &Value) -> bool {
+        let Value::Expr(value) = value else { return false };
+        matches!(kind, Kind::Number(None) | &Kind::PLAIN) && self.is_angle(scope, value)
+    }
+
+    /// Notes whether a step of a name is an angle, and says so of what it answers.
+    fn tell_angle_of_step(&mut self, class: ClassId, name: &Name, is_angle: bool) {
+        if !is_angle {
+            self.programs.angles.remove(name);
+            return;
+        }
+        self.programs.angles.insert(name.clone());
+        let angle = self.visible.of_language(ANGLE);
+        if let Some(&index) = self.messages.get(&(class, name.clone())) {
+            self.document.classes[class].messages[index].class = angle;
+        }
+    }
+
+    /// Returns true for the name of a step that is an angle.
+    pub(crate) fn is_step_of_angle(&self, scope: &Scope, name: &Name) -> bool {
+        self.programs.angles.contains(name) && scope.local(name).is_some()
     }
 
     /// Lowers what a step does.
@@ -221,7 +250,14 @@ impl Lowerer<'_> {
         let firsts = self.firsts(scope, value)?;
         let kinds = self.settled(&inner, class, &firsts, body);
         for ((name, first, _), kind) in firsts.into_iter().zip(kinds) {
+            let of = |binding: &ast::Binding| {
+                binding.name().filter(|word| word.name() == name).and(binding.value())
+            };
+            let first_value = with_of(value).and_then(|with| with.bindings().find_map(|b| of(&b)));
+            let is_angle =
+                first_value.is_some_and(|e| self.is_angle_of_step(scope, &kind, &Value::Expr(e)));
             self.makes(&mut inner, class, &name, kind);
+            self.tell_angle_of_step(class, &name, is_angle);
             block.carried.push(Carried { name, first, next: None });
         }
         let before = match value {
@@ -238,7 +274,11 @@ impl Lowerer<'_> {
             },
             _ => None,
         };
-        if let (Value::Repeat(_), None, None) = (value, &times, &until) {
+        // `repeat while c` was told already
+        let words = value.syntax().descendants_with_tokens().filter_map(|n| n.into_token());
+        let mut words = words.filter(|token| !token.kind().is_trivia());
+        let is_misread = words.nth(1).is_some_and(|word| word.text() == "while");
+        if let (Value::Repeat(_), None, None, false) = (value, &times, &until, is_misread) {
             let span = self.first_line(scope.file, value.span());
             let place = Place { file: scope.file, span };
             let message = "this loop is open: it takes one turn";

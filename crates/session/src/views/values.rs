@@ -155,11 +155,20 @@ fn renewed<'a>(
         *last = Some((asked, evaluator.ask(owner, name)));
     }
     let (_, answer) = last.as_ref()?;
-    let value = answer.clone().and_then(|answer| evaluator.from(answer, within));
+    let (step, around) = within.split_last()?;
+    let around = answer.clone().and_then(|answer| evaluator.from(answer, around));
+    let of_step = match (&around, step) {
+        (Ok(Answer::Context(turn)), Step::Part(step)) => angle_of(document, turn.class, step),
+        _ => "",
+    };
+    let value = around.and_then(|around| evaluator.from(around, std::slice::from_ref(step)));
     match value {
         Ok(value) => {
             let class = state.structure.things[owner].class;
-            let class = element_class(document, class_of_answer(document, class, name));
+            let class = match of_step {
+                "" => element_class(document, class_of_answer(document, class, name)),
+                angle => angle,
+            };
             show_answer(document, &value, class).map(|shown| shown.0)
         }
         Err(fault) => without_value(&fault),
@@ -213,10 +222,23 @@ pub(crate) fn answer_class<'d>(document: &'d Document, class: ClassId, name: &Na
     class_of_answer(document, class, name).map_or("", |c| &document.classes[c].name)
 }
 
-fn class_of_answer(document: &Document, class: ClassId, name: &Name) -> Option<ClassId> {
+fn class_of_answer(document: &Document, class: ClassId, name: &str) -> Option<ClassId> {
     let mut line = document.primary_line(class).into_iter();
-    let message = line.find_map(|c| document.classes[c].messages.iter().find(|m| m.name == *name));
+    let message = line.find_map(|c| document.classes[c].messages.iter().find(|m| *m.name == *name));
     message.and_then(|m| m.class)
+}
+
+/// Returns a plain number in percent.
+pub(crate) fn in_percent(document: &Document, x: f64) -> String {
+    let quantity = Quantity { written: "%", ..Quantity::default() };
+    let shown = kernel::show_quantity(x, quantity, document);
+    words::with_unit(shown.text, &shown.unit)
+}
+
+/// Returns the class of angles for a step that is one, else none.
+fn angle_of<'d>(document: &'d Document, turn: ClassId, step: &str) -> &'d str {
+    let class = class_of_answer(document, turn, step).map(|c| &*document.classes[c].name);
+    class.filter(|class| *class == "Angle").unwrap_or_default()
 }
 
 /// Returns the name of the class of the numbers in what is listed as of a class; empty where none is.
@@ -527,11 +549,23 @@ impl<'a> Maker<'a> {
     fn add_drawn(&mut self, answer: &Answer<'_>, path: &mut String, most: usize) {
         let (document, rows) = (&self.state.lowered.document, &mut self.work.rows);
         let from = rows.len();
+        // the turns around what is visited, each with where its path ends
+        let mut turns: Vec<(usize, ClassId)> = Vec::new();
         walk(document, (answer, Standing::Result), path, &mut |answer, _, path| {
             if rows.len() >= most {
                 return false;
             }
-            let row = answered(document, path, answer, ["", ""], false);
+            while turns.pop_if(|(end, _)| *end >= path.len()).is_some() {}
+            if let Answer::Context(turn) = answer {
+                turns.push((path.len(), turn.class));
+            }
+            let class = match (answer, turns.last()) {
+                (Answer::Number(..), Some(&(end, turn))) => {
+                    angle_of(document, turn, path[end..].trim_start_matches('.'))
+                }
+                _ => "",
+            };
+            let row = answered(document, path, answer, [class, ""], false);
             let is_value = row.is_some();
             rows.extend(row);
             !is_value

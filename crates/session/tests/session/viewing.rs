@@ -503,3 +503,39 @@ fn what_has_no_value_says_why_in_its_row() {
     desk.session.renew_values(desk.id, rows.iter_mut());
     assert_eq!(rows[1].text, none);
 }
+
+#[test]
+fn what_a_program_computes_of_angles_is_shown_in_degrees() {
+    let desk = Desk::of(
+        "program Dial(n: Integer = 8, minute: Integer = 40) {\n\
+         marks = for i in 0..<n { a = 360 deg * i / n }\n\
+         m = 90 deg - 6 deg * minute\n\
+         back = -m\n\
+         plain = m * 180 / pi()\n\
+         hands = repeat 2 times with h = 30 deg { next h = h + 30 deg }\n}\n\
+         dial: Dial\nthird => 3 * 90 deg\nplain => third * 180 / pi()\n",
+    );
+    let shown = |path: &str| {
+        let row = desk.row(path);
+        format!("{} {}", row.text, row.unit)
+    };
+    assert_eq!(shown("dial.marks[3].a"), "135 deg");
+    assert_eq!(shown("dial.m"), "-150 deg");
+    assert_eq!(shown("dial.back"), "150 deg");
+    assert_eq!(shown("dial.plain"), "-150 ");
+    assert_eq!(shown("dial.hands[1].h"), "60 deg");
+    assert_eq!(shown("third"), "270 deg");
+    assert_eq!(shown("plain"), "270 ");
+}
+
+#[test]
+fn miles_over_gallons_are_no_inverse_areas() {
+    let shown = |text: &str| {
+        let row = Desk::of(text).row("lasts");
+        format!("{} {}", row.text, row.unit)
+    };
+    let text = "way: Length = 300 mi\nused: Volume = 10 gal\nlasts => way / used\n";
+    assert_eq!(shown(text), "30 mi/gal");
+    let text = "way: Length = 500 km\nused: Volume = 40 L\nlasts => way / used\n";
+    assert_eq!(shown(text), "12.5 km/L");
+}
