@@ -21,6 +21,8 @@ pub use demands::allowed_table;
 pub const MOST_OPERATIONS: u64 = 2_000_000;
 /// How many things a run may make, turns of loops included.
 pub const MOST_ENTITIES: u32 = 100_000;
+/// Why a step has no outcome that was told as an error of the text.
+pub const UNCLEAR: &str = "its text is wrong";
 /// How deep programs may call each other.
 pub const DEEPEST_CALLS: u32 = 200;
 /// How deep blocks may stand and run in one another, calls included.
@@ -502,7 +504,7 @@ impl<'a> Run<'_, 'a> {
                 Ok(())
             }
             Says::Unclear => {
-                let fault = Fault::wrong("its text is wrong");
+                let fault = Fault::wrong(UNCLEAR);
                 Err(self.ended(step, &making.frame, None, fault))
             }
         }

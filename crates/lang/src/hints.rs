@@ -1,5 +1,6 @@
 //! Hints: what to write instead, where a value, a target or a word is not what can stand there.
 
+pub(crate) mod brackets;
 mod units;
 
 pub(crate) use units::{
@@ -395,8 +396,8 @@ impl Lowerer<'_> {
         let (found_words, wanted_words) =
             (found.words(&self.document), wanted.words(&self.document));
         let message = format!("found {found_words}, wanted {wanted_words}");
-        let d =
-            Diagnostic::error(code_for(found, wanted), Place { file: scope.file, span }, message);
+        let place = Place { file: scope.file, span };
+        let d = Diagnostic::error(code_for(found, wanted), place, message);
         let range = span.start as usize..span.end as usize;
         let written = self.files[scope.file].text.get(range).unwrap_or_default().trim();
         let is_name = |text: &str| text.chars().all(|c| c.is_alphanumeric() || "_.".contains(c));
@@ -410,6 +411,9 @@ impl Lowerer<'_> {
             (Kind::Bool, Kind::Number(_)) if written.contains('*') => {
                 d.hint("that both are true is `a and b`")
             }
+            (Kind::Number(Some(_)), Kind::Number(Some(_))) if self.goes_on(place, "..") => d.hint(
+                format!("a range is of whole numbers; between two values lies what a rule says: `constraint {written} <= x <= …`"),
+            ),
             (Kind::Number(_), Kind::Bool) => {
                 d.hint("what is true or false compares, on each side of `or`, too: `x = 3 or x = 4`")
             }

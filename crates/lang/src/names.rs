@@ -219,7 +219,7 @@ impl Lowerer<'_> {
         {
             return;
         }
-        if is_in_unread_brackets(word) {
+        if crate::hints::brackets::is_in_unread(word) {
             return;
         }
         if word.text() == FOR {
@@ -239,7 +239,7 @@ impl Lowerer<'_> {
             });
         } else if is_label(word) {
             d = d.hint(format!("a label is followed by a colon: `{}: …`", word.text()));
-        } else if let Some(hint) = index_of_sum(word) {
+        } else if let Some(hint) = crate::hints::brackets::index_of_sum(word) {
             d = d.hint(hint);
         } else if let Some(hint) = number_of_turn(word)
             && self.near_own(scope, word.text()).is_none()
@@ -723,29 +723,6 @@ fn number_of_turn(word: &ast::Word) -> Option<String> {
     let turns = word.token.parent_ancestors().find_map(ast::Repeat::cast)?.times()?;
     let turns = turns.syntax().text();
     Some(format!("a `repeat` counts no turns: `for {name} in 0..<{turns} {{ … }}` does"))
-}
-
-/// True within brackets of which the parser left a part unread, and said so: a name there may be one of what follows,
-/// `[2 * x for x in xs]`.
-fn is_in_unread_brackets(word: &ast::Word) -> bool {
-    let end = word.token.text_range().end();
-    let is_bracket =
-        |kind| matches!(kind, SyntaxKind::ListExpr | SyntaxKind::ArgList | SyntaxKind::ParenExpr);
-    let brackets = word.token.parent_ancestors().filter(|node| is_bracket(node.kind()));
-    let mut last = brackets.flat_map(|node| node.children().last());
-    last.any(|child| child.kind() == SyntaxKind::Error && child.text_range().start() >= end)
-}
-
-/// Says how `sum(i in 0..<n)` is written.
-fn index_of_sum(word: &ast::Word) -> Option<String> {
-    let name = word.token.parent()?;
-    let within = ast::BinaryExpr::cast(name.parent()?)?;
-    let Some(Expr::Range(range)) = within.right() else { return None };
-    let call = ast::CallExpr::cast(name.ancestors().nth(4)?)?;
-    let range = range.syntax().text().to_string();
-    let i = word.text();
-    matches!(call.syntax().first_token()?.text(), "sum" | "product" | "min" | "max" | "mean")
-        .then(|| format!("what is summed over a range is `({range}).map({i} => 2 * {i}).sum`"))
 }
 
 /// Says how `5/s` is written where a number is divided by what is a unit and no name.

@@ -3,10 +3,11 @@
 //! In: a side of a rule, and whose it is. Out: whether it is what is declared as an `Angle`, a sum of such or so many
 //! times one. Among the numbers themselves an angle is a plain one.
 
+use crate::by_hand::class_at;
 use crate::state::State;
 use crate::words;
 use eval::{Answer, Evaluator};
-use kernel::{BinaryOperator, ClassId, Path, Step, Term, ThingId};
+use kernel::{BinaryOperator, ClassId, DOCUMENT, Path, Step, Term, ThingId};
 
 /// The class of angles.
 const ANGLE: &str = "Angle";
@@ -48,4 +49,17 @@ fn is_angle<'a>(state: &State, evaluator: &Evaluator<'a>, owner: ThingId, term: 
         }
         _ => false,
     }
+}
+
+/// Returns true for a path to an angle that a class computes, or a step of a program is.
+pub(crate) fn is_path_of_one(state: &State, path: &Path) -> bool {
+    let document = &state.lowered.document;
+    let Some((Step::Part(name), whole)) = path.0.split_last() else { return false };
+    let whole = match whole {
+        [] => Some(state.structure.things[DOCUMENT].class),
+        _ => class_at(state, &Path(whole.to_vec())),
+    };
+    let message = whole.and_then(|class| document.find_message(class, name, None));
+    let class = message.and_then(|(_, message)| message.class);
+    class.is_some_and(|class| *document.classes[class].name == *"Angle")
 }

@@ -1,5 +1,6 @@
 //! A drag: from press to release nothing is written, and nothing but numbers is computed.
 
+use crate::angles;
 use crate::apply::{self, Aim};
 use crate::by_hand::class_at;
 use crate::document::Open;
@@ -390,7 +391,7 @@ pub(crate) fn press_computed(
     )?;
     let wish = [start[0], start.get(1).copied().unwrap_or(0.0)];
     let (slots, values) = (read.into_iter().collect(), state.values.clone());
-    let turning = if is_angle(state, &path) { Turning::Plain } else { Turning::No };
+    let turning = if angles::is_path_of_one(state, &path) { Turning::Plain } else { Turning::No };
     Ok(Drag {
         turning,
         path,
@@ -406,19 +407,6 @@ pub(crate) fn press_computed(
         wish,
         grasp: None,
     })
-}
-
-/// Returns true for a path to an angle that a class computes.
-fn is_angle(state: &State, path: &Path) -> bool {
-    let document = &state.lowered.document;
-    let Some((Step::Part(name), whole)) = path.0.split_last() else { return false };
-    let whole = match whole {
-        [] => Some(state.structure.things[DOCUMENT].class),
-        _ => class_at(state, &Path(whole.to_vec())),
-    };
-    let message = whole.and_then(|class| document.find_message(class, name, None));
-    let class = message.and_then(|(_, message)| message.class);
-    class.is_some_and(|class| *document.classes[class].name == *"Angle")
 }
 
 /// Returns an angle without its whole turns.

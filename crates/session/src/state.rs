@@ -435,6 +435,9 @@ fn ended_diagnostics(lowered: &Lowered, structure: &Structure, values: &Values) 
     let diagnostic = |thing: ThingId| {
         let run = evaluator.run(thing).ok()??;
         let ended = run.ended.as_ref()?;
+        if ended.reason.ends_with(eval::programs::UNCLEAR) {
+            return None;
+        }
         let path = structure.path(document, thing);
         let message = format!("{path} is not drawn to its end: {ended}");
         let d = Diagnostic::warning("run-ended", lowered.place(ended.origin), message);

@@ -198,8 +198,8 @@ pub(crate) fn measure(state: &State, source: Source) -> Option<(Dimension, &'sta
 }
 
 /// Returns the two sides of a constraint's rule, where it is a comparison, and the constraint.
-fn sides_of(state: &State, source: Source) -> Option<(ConstraintInstance, &Term, &Term)> {
-    let Source::Constraint(index) = source else { return None };
+pub(crate) fn sides_of(state: &State, of: Source) -> Option<(ConstraintInstance, &Term, &Term)> {
+    let Source::Constraint(index) = of else { return None };
     let instance = state.structure.constraints[index as usize];
     let class = &state.lowered.document.classes[instance.class];
     match &*class.constraints[instance.index as usize].rule {
@@ -232,6 +232,9 @@ pub(crate) fn sides_in_words(state: &State, source: Source, values: &Values) -> 
         let answer = evaluator.evaluate(term, instance.owner).ok()?;
         let value = match &answer {
             eval::Answer::Text(text) => format!("\"{text}\""),
+            eval::Answer::Number(x, dimension) if dimension.is_none() && rule.contains('%') => {
+                views::values::in_percent(&state.lowered.document, *x)
+            }
             answer => views::values::in_words_as(&state.lowered.document, answer, class)?,
         };
         // a number needs no saying what it is

@@ -76,7 +76,12 @@ pub(super) fn totals_of(of: &Name, value: &Value) -> Vec<(Name, Name)> {
     };
     let carried = with_of(value).into_iter().flat_map(|with| with.bindings());
     let names = carried.filter_map(|binding| Some(binding.name()?.name()));
-    names.filter(|name| adds_up(name) && !is_used(name)).map(|n| (of.clone(), n)).collect()
+    // a loop that makes nothing is for what it ends with
+    let makes_nothing = !members.is_empty() && members.iter().all(|member| is_next(&member));
+    names
+        .filter(|name| (makes_nothing || adds_up(name)) && !is_used(name))
+        .map(|n| (of.clone(), n))
+        .collect()
 }
 
 fn speaks_of(node: &syntax::SyntaxNode, name: &Name) -> bool {

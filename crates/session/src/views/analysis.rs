@@ -7,6 +7,7 @@ use crate::texts::Texts;
 use crate::view::{Analysis, Choice, ContradictionView, MotionView, RedundantView, Velocity};
 use crate::{rules, words};
 use base::Place;
+use expr::Dimension;
 use kernel::{Command, Literal, Primitive, SlotId, ThingId, Values};
 use plan::{
     Certainty, Combination, Contradiction, Motion, MotionKind, Redundant, RedundantKind, Repair,
@@ -240,7 +241,11 @@ pub(crate) fn contradiction(open: &Open, c: &Contradiction) -> ContradictionView
     let repair = |r: &Repair| match *r {
         Repair::LeaveOut { source, ref numbers } => {
             let name = rules::told(state, source)?;
-            let sides = words::sides_in_words(state, source, &left(open, numbers));
+            let values = left(open, numbers);
+            // what was only searched for is no repair where a figure comes to nothing
+            let is_found = matches!(c.certainty, Certainty::NoSolution { .. });
+            let is_none = is_found && collapses(state, source, &values);
+            let sides = words::sides_in_words(state, source, &values).filter(|_| !is_none);
             let sides = sides.map_or(String::new(), |sides| format!("; then {sides}"));
             Some(format!("delete {name} or switch it off{sides}"))
         }
@@ -260,6 +265,21 @@ pub(crate) fn contradiction(open: &Open, c: &Contradiction) -> ContradictionView
         repairs.push(label);
     }
     ContradictionView { constraints, anchors, decided, message, repairs, choices }
+}
+
+/// A side of a rule comes to nothing where it is a smaller part than this of the other.
+const NOTHING: f64 = 1e-9;
+
+/// Returns true if one length of a constraint's rule comes to nothing beside the other: the figure would collapse.
+fn collapses(state: &State, source: plan::Source, values: &Values) -> bool {
+    let Some((instance, left, right)) = words::sides_of(state, source) else { return false };
+    let evaluator = state.evaluator(values);
+    let size = |term| match evaluator.evaluate(term, instance.owner) {
+        Ok(eval::Answer::Number(x, Dimension::LENGTH)) => Some(x.abs()),
+        _ => None,
+    };
+    let (Some(left), Some(right)) = (size(left), size(right)) else { return false };
+    left.min(right) <= NOTHING * left.max(right)
 }
 
 /// How many digits a number of a repair has at first.

@@ -158,3 +158,15 @@ fn a_curve_over_a_whole_turn_does_not_run_back_where_the_angle_begins_again() {
     assert_eq!(over.len(), 25);
     assert!(over.windows(2).all(|pair| pair[0] < pair[1]), "{over:?}");
 }
+
+#[test]
+fn a_sweep_of_an_angle_goes_on_past_half_a_turn_either_way() {
+    let desk = Desk::of(
+        "use geometry\ncrank: Line { p1 = (0, 0)  p2 = (30, 0) }\nanchor crank.p1\n\
+         constraint crank.length = 30\n",
+    );
+    let plot = swept(&desk, &["crank.p2.y"], ("crank.direction", "-360 deg", "360 deg"), 8);
+    let heights = plot.curves[0].points.iter().flatten().map(|(_, y)| (y * 1e6).round() / 1e6);
+    let heights: Vec<f64> = heights.collect();
+    assert_eq!(heights, [0.0, 30.0, 0.0, -30.0, 0.0, 30.0, 0.0, -30.0, 0.0], "{:?}", plot.notes);
+}

@@ -137,6 +137,27 @@ fn a_repair_tells_texts_in_quotes_and_nothing_of_a_written_number() {
             "set b to 60 deg"
         ]
     );
+    // a sum of percentages is one
+    assert_eq!(
+        repairs(
+            "a: Real = 70 %\nb: Real = 40 %\nanchor a\nanchor b\nconstraint all: a + b = 100 %\n"
+        )[0],
+        "delete all or switch it off; then a + b is 110 %"
+    );
+}
+
+#[test]
+fn no_repair_praises_a_rectangle_that_comes_to_nothing() {
+    let mut desk = Desk::of(
+        "use geometry\nunit mm\na, b, c, d: Line\nmerge a.p2 = b.p1\nmerge b.p2 = c.p1\n\
+         merge c.p2 = d.p1\nmerge d.p2 = a.p1\nconstraint a.parallel(to: c)\n\
+         constraint b.parallel(to: d)\nconstraint a.perpendicular(to: b)\n\
+         constraint long: a.length = 40\nconstraint longer: c.length = 45\nconstraint b.length = 20\n",
+    );
+    let found = desk.session.analysis(desk.id).contradictions;
+    let repairs: Vec<String> = found.into_iter().flat_map(|c| c.repairs).collect();
+    assert!(repairs.contains(&"delete long or switch it off".to_string()), "{repairs:?}");
+    assert!(repairs.iter().all(|r| !r.contains("is 0") && !r.contains("fm")), "{repairs:?}");
 }
 
 /// A beam between two joints, and one that hangs from it: along both their pulls say the same twice.

@@ -6,7 +6,7 @@ use crate::desk::Desk;
 const WRONG: &[(&str, &str, &str, &str)] = &[
     ("a: Real = 1 / 0", "no-answer", "1 / 0", "divided by zero"),
     ("a: Real = sqrt(0 - 1)", "no-answer", "sqrt(0 - 1)", "sqrt(-1)"),
-    ("a: Integer = 5 / 2", "wrong-kind", "5 / 2", "whole number"),
+    ("a: Integer = 5 / 2", "value-of-wrong-class", "5 / 2", "whole number"),
     ("a: Real = \"x\".number", "no-answer", "\"x\".number", "number"),
     (
         "class A { f(n: Real) => f(n + 1) }\na: A\nx: Real = copy of a.f(0)",

@@ -3,8 +3,9 @@
 use super::expressions::{self, expression};
 use super::mistakes;
 use crate::kind::SyntaxKind::{
-    Colon, Comma, Domain, Dot, DottedName, Eq, Error, Greater, Ident, LParen, Less, Minus, Number,
-    NumberExpr, Param, ParamList, Plus, RParen, Slash, Star, Text, Type, Unit,
+    Colon, Comma, Domain, Dot, DottedName, Eq, Error, Greater, GreaterEq, Ident, LParen, Less,
+    LessEq, Minus, Number, NumberExpr, Param, ParamList, Plus, RParen, Slash, Star, Text, Type,
+    Unit,
 };
 use crate::parser::Parser;
 
@@ -180,6 +181,27 @@ pub(super) fn parameters(p: &mut Parser<'_>) {
     p.finish();
 }
 
+/// `rise: Length > 0`: returns true where it was reported; it is read as if `in` stood there.
+fn bound_without_in(p: &mut Parser<'_>) -> bool {
+    let is_one = matches!(p.current(), Greater | GreaterEq | Less | LessEq)
+        && p.behind(1) == Ident
+        && matches!(p.nth(1), Number | Minus);
+    if is_one {
+        let at = p.pos();
+        let declared = p.text_between(at.saturating_sub(3), at - 1);
+        let said = (
+            "expected-word",
+            format!("found `{}`, wanted `in` before it", p.word(0)),
+            format!("what is allowed stands behind `in`: `{declared} in {} …`", p.word(0)),
+        );
+        p.report_mistake((at, at), said, None);
+        p.start(Domain);
+        expressions::domain(p);
+        p.finish();
+    }
+    is_one
+}
+
 fn parameter(p: &mut Parser<'_>) {
     if !p.at(Ident) {
         p.expected("expected-parameter", "a parameter: `name: Class`");
@@ -205,7 +227,9 @@ fn parameter(p: &mut Parser<'_>) {
         p.expected_hint("expected-class", "`:` and the parameter's class", Some(hint));
     } else if p.expect(Colon, "expected-class", "`:` and the parameter's class") {
         class_name(p);
-        domain(p);
+        if !bound_without_in(p) {
+            domain(p);
+        }
     }
     if p.eat(Eq) {
         expression(p);
