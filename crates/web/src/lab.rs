@@ -173,6 +173,8 @@ pub struct Lab {
     pub ghosts: RwSignal<Vec<drawing::Drawing>>,
     /// How often something else was meant to be tried before it is done: only the last is shown.
     pub foreseen: StoredValue<u32>,
+    /// What was seen before what is foreseen was brought into sight.
+    pub seen_before: StoredValue<Option<View>>,
     /// What there is to say.
     pub notice: RwSignal<Option<Notice>>,
     /// Where the present drag has got to, if there is one.
@@ -380,6 +382,7 @@ impl Lab {
             motion: RwSignal::new(Vec::new()),
             ghosts: RwSignal::new(Vec::new()),
             foreseen: StoredValue::new(0),
+            seen_before: StoredValue::new(None),
             notice: RwSignal::new(None),
             dragging: RwSignal::new(None),
             listed: RwSignal::new(Vec::new()),

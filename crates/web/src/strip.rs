@@ -2,7 +2,7 @@
 
 use crate::actions;
 use crate::dialog::Wish;
-use crate::lab::{Kind, Lab, Notice, Told};
+use crate::lab::{Kind, Lab, Notice, Told, Zoom};
 use crate::{keyboard, structure, words};
 use leptos::prelude::*;
 use presentation::numbers::to_read;
@@ -147,8 +147,9 @@ impl Lab {
     /// Shows what a command would do, or nothing any more.
     pub fn foresee_command(self, command: Option<&Command>) {
         self.forget_foreseen();
-        if let Some(command) = command {
-            self.foresee_then(command, |_| {});
+        match command {
+            Some(command) => self.foresee_then(command, |_| {}),
+            None => self.bring_into_sight(None),
         }
     }
 
@@ -176,13 +177,27 @@ impl Lab {
             let tell = tell.clone();
             self.ask_long(Kind::Foreseen, question.clone(), move |told| match told {
                 Told::Part(LongAnswer::Foreseen(found)) if is_meant() => {
-                    self.ghosts.set(found.iter().map(|found| found.picture.clone()).collect());
+                    let picture = found.as_ref().ok().map(|found| found.picture.clone());
+                    self.bring_into_sight(picture.as_ref());
+                    self.ghosts.set(picture.into_iter().collect());
                     tell(found);
                 }
                 Told::Part(_) | Told::Over | Told::Stopped | Told::Failed(_) => {}
             });
         };
         set_timeout(ask, PAUSE);
+    }
+
+    /// Shows as much of the sheet as what is foreseen needs; what was seen before once nothing is foreseen any more.
+    fn bring_into_sight(self, foreseen: Option<&drawing::Drawing>) {
+        if let Some(drawn) = foreseen.and_then(drawing::bounds) {
+            let view = self.view.get_untracked();
+            self.seen_before.update_value(|seen| *seen = seen.or(Some(view)));
+            self.zoom.set(Some(Zoom::Over(drawn)));
+        } else if let Some(view) = self.seen_before.get_value() {
+            self.seen_before.set_value(None);
+            self.view.set(view);
+        }
     }
 
     /// Does what an offer says; where a value goes there, it is asked for.

@@ -236,3 +236,22 @@ async fn the_card_of_a_lesson_that_begins_with_an_empty_sheet_shows_what_is_to_b
     let card = "[...document.querySelectorAll('.card')].find(c => c.querySelector('h3').textContent.startsWith('A figure of your own'))";
     visit.until(&format!("{card}?.querySelector('canvas')")).await;
 }
+
+#[tokio::test]
+async fn a_repair_that_reaches_out_of_the_sheet_is_brought_into_sight() {
+    let visit = Visit::open_empty().await;
+    visit.put(
+        "apart.thing",
+        "use geometry\na: Line { p1 = (0, 0)  p2 = (100, 0) }\n\
+         constraint short: a.length = 100\nconstraint long: a.length = 900\n",
+    );
+    show(&visit, "apart.thing").await;
+    chord(&visit, &[], 'w').await;
+    visit.until("document.querySelectorAll('.why .repair').length === 2").await;
+    let scale = "window.__thinglab.state().sheet.scale";
+    let fitted = state(&visit).await["sheet"]["scale"].clone();
+    visit.script("document.querySelector('.why .repair').focus()").await;
+    visit.until(&format!("{scale} < {fitted} / 2")).await;
+    visit.script("document.querySelector('.why .repair').blur()").await;
+    visit.until(&format!("{scale} === {fitted}")).await;
+}

@@ -397,6 +397,7 @@ impl Lab {
         self.hovered.set(None);
         self.motion.set(Vec::new());
         self.ghosts.set(Vec::new());
+        self.seen_before.set_value(None);
         self.plotting.clear();
         self.sums.set(Vec::new());
         self.notice.set(None);
