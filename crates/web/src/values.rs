@@ -16,7 +16,7 @@ use wasm_bindgen::JsCast;
 /// At most so many rows are in the page at once; the filter finds the others.
 const MOST_ROWS: usize = 300;
 /// So many rows are made in one frame.
-const ROWS_A_FRAME: usize = 40;
+const ROWS_A_FRAME: usize = 16;
 
 /// The table of the open document's values.
 #[component]
