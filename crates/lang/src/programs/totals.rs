@@ -64,24 +64,27 @@ pub(super) fn totals_of(of: &Name, value: &Value) -> Vec<(Name, Name)> {
         steps.any(|step| speaks_of(step.syntax(), name))
             || ends.as_ref().is_some_and(|end| speaks_of(end.syntax(), name))
     };
-    let adds_up = |name: &Name| {
+    // what a next turn begins with, made of what this one does
+    let is_made_of = |name: &Name, of: &[Name]| {
         let nexts = members.iter().filter_map(|member| match member {
             Member::Next(next) => Some(next.bindings()),
             _ => None,
         });
         nexts.flatten().any(|binding| {
-            let value = binding.value().filter(|value| speaks_of(value.syntax(), name));
-            value.is_some() && binding.name().is_some_and(|word| word.name() == *name)
+            let speaks = |value: Expr| of.iter().any(|name| speaks_of(value.syntax(), name));
+            binding.name().is_some_and(|word| word.name() == *name)
+                && binding.value().is_some_and(speaks)
         })
     };
     let carried = with_of(value).into_iter().flat_map(|with| with.bindings());
-    let names = carried.filter_map(|binding| Some(binding.name()?.name()));
+    let carried: Vec<Name> = carried.filter_map(|binding| Some(binding.name()?.name())).collect();
     // a loop that makes nothing is for what it ends with
-    let makes_nothing = !members.is_empty() && members.iter().all(|member| is_next(&member));
-    names
-        .filter(|name| (makes_nothing || adds_up(name)) && !is_used(name))
-        .map(|n| (of.clone(), n))
-        .collect()
+    let makes_nothing = members.iter().all(|member| is_next(&member));
+    let adds_up = |name: &Name| {
+        is_made_of(name, if makes_nothing { &carried } else { std::slice::from_ref(name) })
+    };
+    let totals = carried.iter().filter(|name| adds_up(name) && !is_used(name));
+    totals.map(|total| (of.clone(), total.clone())).collect()
 }
 
 fn speaks_of(node: &syntax::SyntaxNode, name: &Name) -> bool {
