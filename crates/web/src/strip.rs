@@ -4,6 +4,7 @@ use crate::actions;
 use crate::dialog::Wish;
 use crate::lab::{Kind, Lab, Notice, Told, Zoom};
 use crate::{keyboard, structure, words};
+use drawing::Bounds;
 use leptos::prelude::*;
 use presentation::numbers::to_read;
 use session::Command;
@@ -49,7 +50,6 @@ pub fn Strip(
     view! {
         <Show when=is_shown>
             <div class="strip" role="toolbar" aria-label=words::CONSTRAIN
-                on:pointerleave=move |_| lab.foresee(None)
                 on:keydown=|e| keyboard::go_beside(".strip", &e)>
                 // a finger has no key that selects besides
                 <Show when=move || lab.touch.get()>
@@ -97,6 +97,7 @@ fn Button(lab: Lab, offer: Offer) -> impl IntoView {
     view! {
         <button title=title data-offer=name
             on:pointerenter=move |_| look()
+            on:pointerleave=move |_| lab.foresee(None)
             on:focus=move |_| look()
             on:blur=move |_| lab.foresee(None)
             on:click=move |_| lab.take_offer(&offer.get_value())>{label}</button>
@@ -146,10 +147,9 @@ impl Lab {
 
     /// Shows what a command would do, or nothing any more.
     pub fn foresee_command(self, command: Option<&Command>) {
-        self.forget_foreseen();
         match command {
             Some(command) => self.foresee_then(command, |_| {}),
-            None => self.bring_into_sight(None),
+            None => self.forget_foreseen(),
         }
     }
 
@@ -178,7 +178,6 @@ impl Lab {
             self.ask_long(Kind::Foreseen, question.clone(), move |told| match told {
                 Told::Part(LongAnswer::Foreseen(found)) if is_meant() => {
                     let picture = found.as_ref().ok().map(|found| found.picture.clone());
-                    self.bring_into_sight(picture.as_ref());
                     self.ghosts.set(picture.into_iter().collect());
                     tell(found);
                 }
@@ -188,12 +187,30 @@ impl Lab {
         set_timeout(ask, PAUSE);
     }
 
-    /// Shows as much of the sheet as what is foreseen needs; what was seen before once nothing is foreseen any more.
-    fn bring_into_sight(self, foreseen: Option<&drawing::Drawing>) {
-        if let Some(drawn) = foreseen.and_then(drawing::bounds) {
+    /// Shows what a repair would do, with as much of the sheet as that needs; what was seen before once it is nothing any
+    /// more.
+    pub fn foresee_repair(self, command: Option<&Command>) {
+        match command {
+            Some(command) => self.foresee_then(command, move |found| {
+                let picture = found.ok().map(|found| found.picture);
+                self.bring_into_sight(picture.as_ref().and_then(drawing::bounds));
+            }),
+            None => {
+                self.forget_foreseen();
+                self.bring_into_sight(None);
+            }
+        }
+    }
+
+    /// Shows as much of the sheet as what is drawn and what is foreseen need; what was seen before, where nothing is.
+    fn bring_into_sight(self, foreseen: Option<Bounds>) {
+        if let Some(foreseen) = foreseen {
+            let whole = self
+                .drawn_box()
+                .map_or(foreseen, |drawn| foreseen.with(drawn.least).with(drawn.most));
             let view = self.view.get_untracked();
             self.seen_before.update_value(|seen| *seen = seen.or(Some(view)));
-            self.zoom.set(Some(Zoom::Over(drawn)));
+            self.zoom.set(Some(Zoom::Over(whole)));
         } else if let Some(view) = self.seen_before.get_value() {
             self.seen_before.set_value(None);
             self.view.set(view);

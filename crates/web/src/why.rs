@@ -221,7 +221,7 @@ fn Contradiction(lab: Lab, contradiction: ContradictionView) -> impl IntoView {
             {listed(lab, words::IN_THE_WAY, paths)}
             {(!choices.is_empty()).then(|| view! {
                 <p>{words::REPAIRS}</p>
-                <ul class="repairs" on:pointerleave=move |_| lab.foresee_command(None)>
+                <ul class="repairs" on:pointerleave=move |_| lab.foresee_repair(None)>
                     {choices.into_iter().map(|c| view! { <RepairButton lab=lab choice=c /> }).collect_view()}
                 </ul>
             })}
@@ -237,15 +237,15 @@ fn Contradiction(lab: Lab, contradiction: ContradictionView) -> impl IntoView {
 #[component]
 fn RepairButton(lab: Lab, choice: Choice) -> impl IntoView {
     let command = StoredValue::new(choice.command);
-    let look = move || command.with_value(|command| lab.foresee_command(Some(command)));
+    let look = move || command.with_value(|command| lab.foresee_repair(Some(command)));
     let mend = move |_| {
-        lab.foresee_command(None);
+        lab.foresee_repair(None);
         lab.apply(&command.get_value());
     };
     view! {
         <li>
             <button class="repair" on:pointerenter=move |_| look() on:focus=move |_| look()
-                on:blur=move |_| lab.foresee_command(None) on:click=mend>{choice.label}</button>
+                on:blur=move |_| lab.foresee_repair(None) on:click=mend>{choice.label}</button>
         </li>
     }
 }
