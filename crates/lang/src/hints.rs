@@ -314,12 +314,9 @@ impl Lowerer<'_> {
                     _ => d,
                 }
             }
-            (Kind::Number(_), Kind::Text | Kind::Color, Expr::Number(_)) => {
-                let quoted = format!("\"{written}\"");
-                d.hint(format!("a text stands in quotes: `{quoted}`"))
-                    .fix(format!("write {quoted}"), [(place, quoted)])
-            }
-            (Kind::Number(_), Kind::Text, Expr::Binary(_)) if is_date(&written) => {
+            (Kind::Number(_), Kind::Text | Kind::Color, Expr::Number(_) | Expr::Binary(_))
+                if matches!(value, Expr::Number(_)) || is_date(&written) =>
+            {
                 let quoted = format!("\"{written}\"");
                 d.hint(format!("a text stands in quotes: `{quoted}`"))
                     .fix(format!("write {quoted}"), [(place, quoted)])
@@ -344,21 +341,11 @@ impl Lowerer<'_> {
                     .fix(format!("write {plain}"), [(place, plain)]),
                 _ => {
                     let options = &self.document.classes[*choice].options;
-                    let options: Vec<&str> = options.iter().map(|o| o.as_str()).collect();
+                    let options: Vec<&str> = options.iter().map(Name::as_str).collect();
                     d.hint(format!("its options are {}", options.join(", ")))
                 }
             },
-            (Kind::List(_), Kind::Number(_), Expr::Range(_)) => {
-                let (first, last) = written.split_once("..").unwrap_or_default();
-                let (to, last) = match last.strip_prefix('<') {
-                    Some(last) => ("<", last),
-                    None => ("<=", last),
-                };
-                let (first, last) = (first.trim(), last.trim());
-                d.hint(format!(
-                    "what lies between two values is a rule: `constraint {first} <= x {to} {last}`"
-                ))
-            }
+            (Kind::List(_), Kind::Number(_), Expr::Range(_)) => d.hint(between(&written)),
             (Kind::Bool, Kind::Number(_), Expr::Binary(equation))
                 if equation.op() == Some(BinaryOp::Equal) =>
             {
@@ -717,6 +704,17 @@ pub(crate) fn called_otherwise(word: &str) -> Option<&'static str> {
         "Polygon" => "a polygon is of lines, or a class: `Triangle`, `Rectangle`, `RegularPolygon`",
         _ => return None,
     })
+}
+
+/// Says how a range is told as a rule.
+fn between(range: &str) -> String {
+    let (first, last) = range.split_once("..").unwrap_or_default();
+    let (to, last) = match last.strip_prefix('<') {
+        Some(last) => ("<", last),
+        None => ("<=", last),
+    };
+    let (first, last) = (first.trim(), last.trim());
+    format!("what lies between two values is a rule: `constraint {first} <= x {to} {last}`")
 }
 
 /// Returns true for `2026-01-31` and `10/2026`: three numbers, or two with a year, and one sort of sign between them.

@@ -275,7 +275,8 @@ impl Lowerer<'_> {
             _ => None,
         };
         // `repeat while c` was told already
-        let words = value.syntax().descendants_with_tokens().filter_map(|n| n.into_token());
+        let words =
+            value.syntax().descendants_with_tokens().filter_map(syntax::NodeOrToken::into_token);
         let mut words = words.filter(|token| !token.kind().is_trivia());
         let is_misread = words.nth(1).is_some_and(|word| word.text() == "while");
         if let (Value::Repeat(_), None, None, false) = (value, &times, &until, is_misread) {
