@@ -11,7 +11,7 @@ use crate::document::{Document, Side};
 use crate::structure::{Form, GivenIn, Givens, NO_SLOT, Slot, SlotId, ThingId, Unlike};
 use crate::term::OriginId;
 use base::IdVec;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
 /// Gives slots to the primitive things, and members to the sets.
 pub(super) fn finish(maker: &mut Maker<'_>, body: Body, givens: &Givens) -> Form {
@@ -166,7 +166,7 @@ fn give_slots(
             let last = document.classes[of].options.len().saturating_sub(1);
             structure.ranges.insert(slot, (0, last as i64));
         }
-        structure.slots[slot].is_layout &= layout.contains(&thing);
+        structure.slots[slot].is_layout &= layout[thing];
         structure.own_slots[first] = slot;
         structure.own_slots[thing] = slot;
         let given = body.givens[thing]
@@ -195,14 +195,14 @@ fn give_slots(
     }
 }
 
-/// Returns the things that only say where something is drawn, and all their parts.
+/// Returns which things only say where something is drawn, or are parts of those.
 fn of_layout(
     document: &Document,
     structure: &Form,
     body: &Body,
     order: &[ThingId],
-) -> BTreeSet<ThingId> {
-    let mut found = BTreeSet::new();
+) -> IdVec<ThingId, bool> {
+    let mut found = IdVec::filled(false, body.len());
     if document.classes.iter().all(|(_, class)| class.parts.iter().all(|part| !part.is_layout)) {
         return found;
     }
@@ -212,9 +212,7 @@ fn of_layout(
         let layout = structure.layouts[body.things[owner].class].as_ref();
         let field = layout.and_then(|layout| layout.fields.get(t.field as usize));
         let part = field.and_then(|field| document.declared(*field));
-        if found.contains(&owner) || part.is_some_and(|part| part.is_layout) {
-            found.insert(thing);
-        }
+        found[thing] = found[owner] || part.is_some_and(|part| part.is_layout);
     }
     found
 }
