@@ -199,11 +199,6 @@ impl Open {
         let more = self.status.more.or(self.presumed);
         (self.status.freedom + more.unwrap_or_default(), more.is_some())
     }
-    /// Returns a document of the same text.
-    pub(crate) fn copied(&self, host: &dyn Host) -> Self {
-        let text = self.state.text.clone();
-        Self::again(&self.name, text, Some(&self.state), host, Plans::default())
-    }
     /// Returns a copy to try something in: the same state, without its steps. Nothing is read or solved.
     pub(crate) fn trial(&self) -> Self {
         let state = (self.state.clone(), self.status.clone());

@@ -247,7 +247,7 @@ fn missing(
     for (at, source) in sources.iter().enumerate() {
         let said = source.strip_prefix("expect ").unwrap_or(source).trim();
         let found = match statements.get(at).map(|s| &s.kind) {
-            Some(StatementKind::Expect(expectation)) => expected(open, host, expectation, said),
+            Some(StatementKind::Expect(expectation)) => expected(open, expectation, said),
             _ => Err(message.clone().unwrap_or_else(|| "this means nothing here".into())),
         };
         missing.extend(found.err().map(|why| format!("not yet: {said} ({why})")));
@@ -256,12 +256,7 @@ fn missing(
 }
 
 /// Tests what a lesson may expect.
-fn expected(
-    open: &Open,
-    host: &dyn Host,
-    expectation: &Expectation,
-    source: &str,
-) -> Result<(), String> {
+fn expected(open: &Open, expectation: &Expectation, source: &str) -> Result<(), String> {
     match expectation {
         Expectation::Rule { rule, within } => {
             expect_rule(&open.state, rule, within.as_ref(), source)
@@ -273,7 +268,7 @@ fn expected(
         Expectation::Free(n) => {
             let found = match open.status.more {
                 Some(_) => open.freedom().0,
-                None => open.copied(host).counted(),
+                None => open.trial().counted(),
             };
             if n.holds(found as u64) {
                 Ok(())

@@ -310,11 +310,15 @@ pub(crate) fn keep_layout(
     planner: Planner,
     host: &dyn Host,
 ) -> (State, Planner) {
-    let mut values = state.values.clone();
     // what a constraint speaks of is where that wants it
     let is_open = |slot: &SlotId| state.structure.given(*slot).is_none() && planner.is_lone(*slot);
     let layout = state.structure.slots.iter().filter(|(_, slot)| slot.is_layout);
-    for slot in layout.map(|(id, _)| id).filter(is_open) {
+    let open: Vec<SlotId> = layout.map(|(id, _)| id).filter(is_open).collect();
+    if open.is_empty() {
+        return (state, planner);
+    }
+    let mut values = state.values.clone();
+    for slot in open {
         let was = before.structure.follow(DOCUMENT, &state.slot_path(slot)).ok();
         if let Some(was) = was.and_then(|thing| before.structure.slot_of(thing)) {
             values.put(slot, before.values.get(was));
