@@ -5,9 +5,11 @@
 
 use crate::host::Host;
 use crate::plain::{plain_enum, plain_struct};
+use crate::remote::{Executed, LongEdit};
 use crate::session::Session;
 use crate::view::{
-    Analysis, DocumentId, FamilyAxis, FamilyMap, FamilyRow, Foreseen, Ghost, RowFormats, RowOutcome,
+    Analysis, DocumentId, FamilyAxis, FamilyMap, FamilyRow, Foreseen, Ghost, Refusal, RowFormats,
+    RowOutcome,
 };
 use kernel::{Command, Path};
 
@@ -53,6 +55,8 @@ pub enum LongQuestion {
         /// The two parameters.
         axes: [FamilyAxis; 2],
     },
+    /// To do an edit; the document that is asked changes.
+    Edit(LongEdit),
     /// What hands do first, in the document of [`Job::rehearsal`]; an answer says only that something of it was refused.
     Rehearsal,
 }
@@ -75,6 +79,8 @@ pub enum LongAnswer {
     Foreseen(Result<Foreseen, String>),
     /// To [`LongQuestion::Elsewhere`].
     Elsewhere(Vec<Ghost>),
+    /// To [`LongQuestion::Edit`], or why it was refused; nothing where the page has to do it itself.
+    Edited(Result<Option<Executed>, Refusal>),
     /// To [`LongQuestion::Map`]; or why there is none.
     Map(Result<FamilyMap, String>),
     /// To [`LongQuestion::Rehearsal`]: why it could not go on.
@@ -89,7 +95,8 @@ plain_enum!(LongQuestion {
     3: More,
     4: Rehearsal,
     5: Foreseen(command),
-    6: Elsewhere(about)
+    6: Elsewhere(about),
+    7: Edit(edit)
 });
 plain_enum!(LongAnswer {
     0: Analysis(analysis),
@@ -98,7 +105,8 @@ plain_enum!(LongAnswer {
     3: More { form, more },
     4: Refused(why),
     5: Foreseen(found),
-    6: Elsewhere(ghosts)
+    6: Elsewhere(ghosts),
+    7: Edited(outcome)
 });
 
 impl LongQuestion {
@@ -111,7 +119,8 @@ impl LongQuestion {
             | Self::Map { .. }
             | Self::Rehearsal
             | Self::Foreseen(_)
-            | Self::Elsewhere(_) => 1,
+            | Self::Elsewhere(_)
+            | Self::Edit(_) => 1,
         }
     }
 }
@@ -149,7 +158,16 @@ impl Desk {
     /// Returns a part of the answer by its number; nothing after the last.
     pub fn answer(&mut self, part: usize) -> Option<LongAnswer> {
         let (session, id, job) = self.open.as_mut()?;
-        session.answer(*id, &job.question, part)
+        let answer = session.answer(*id, &job.question, part);
+        if let Some(LongAnswer::Edited(_)) = answer {
+            let open = session.document(*id);
+            job.text.clone_from(&open.state.text);
+            // opened again, the text would come to something else
+            if open.done.last().is_some_and(|step| step.came.is_some()) {
+                self.open = None;
+            }
+        }
+        answer
     }
 }
 
@@ -196,6 +214,7 @@ impl Session {
             LongQuestion::Elsewhere(about) => {
                 Some(LongAnswer::Elsewhere(self.ghosts(id, about).unwrap_or_default()))
             }
+            LongQuestion::Edit(edit) => Some(LongAnswer::Edited(self.execute(id, edit))),
             LongQuestion::Rehearsal => {
                 self.rehearse(id).err().map(|refusal| LongAnswer::Refused(refusal.message))
             }

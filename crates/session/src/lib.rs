@@ -56,6 +56,7 @@ pub mod plotting;
 mod prototype;
 mod recognise;
 mod rehearsal;
+pub mod remote;
 mod rules;
 mod session;
 mod sheet;

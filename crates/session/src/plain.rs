@@ -4,8 +4,10 @@
 //! is no version, and bytes that another program wrote are nothing.
 
 use crate::view::{
-    Advice, Analysis, Choice, ContradictionView, FamilyAxis, FamilyMap, FamilyRow, Foreseen, Ghost,
-    GhostMove, MapAxis, MapReason, MotionView, RedundantView, RowFormats, RowOutcome, Velocity,
+    Advice, Affected, Analysis, Change, Choice, ContradictionView, DiagnosticView, DocumentId,
+    FamilyAxis, FamilyMap, FamilyRow, FixView, Foreseen, Ghost, GhostMove, LabelView, Limit,
+    MapAxis, MapReason, ModeView, MotionView, RedundantView, Refusal, RowFormats, RowOutcome,
+    TextChange, Velocity,
 };
 use kernel::{Command, Literal, Path, Step};
 
@@ -50,7 +52,7 @@ macro_rules! numbers {
         }
     )* };
 }
-numbers!(u8, u32, f64);
+numbers!(u8, u32, u64, f64);
 
 impl Plain for bool {
     fn put(&self, bytes: &mut Vec<u8>) {
@@ -115,6 +117,15 @@ impl<T: Plain, E: Plain> Plain for Result<T, E> {
     }
     fn take(bytes: &mut &[u8]) -> Option<Self> {
         Some(if bool::take(bytes)? { Ok(T::take(bytes)?) } else { Err(E::take(bytes)?) })
+    }
+}
+
+impl<T: Plain> Plain for Box<T> {
+    fn put(&self, bytes: &mut Vec<u8>) {
+        (**self).put(bytes);
+    }
+    fn take(bytes: &mut &[u8]) -> Option<Self> {
+        T::take(bytes).map(Self::new)
     }
 }
 
@@ -229,6 +240,48 @@ plain_enum!(Command {
     11: Undo,
     12: Redo
 });
+impl Plain for DocumentId {
+    fn put(&self, bytes: &mut Vec<u8>) {
+        self.0.put(bytes);
+    }
+    fn take(bytes: &mut &[u8]) -> Option<Self> {
+        u32::take(bytes).map(Self)
+    }
+}
+
+plain_struct!(TextChange { start, end, insert });
+plain_struct!(ModeView { constraint, message, span });
+plain_struct!(Affected { document, unsatisfied });
+plain_struct!(Change {
+    label,
+    edits,
+    moved,
+    structure,
+    class_of_one,
+    class,
+    along,
+    unsatisfied,
+    documents,
+    modes,
+    unit
+});
+plain_struct!(LabelView { file, line, column, message });
+plain_struct!(FixView { title, edits });
+plain_struct!(DiagnosticView {
+    severity,
+    code,
+    message,
+    hint,
+    file,
+    start,
+    end,
+    line,
+    column,
+    labels,
+    fixes
+});
+plain_struct!(Limit { path, value });
+plain_struct!(Refusal { message, constraints, diagnostics, repairs, limit });
 plain_struct!(Foreseen { picture, moved });
 plain_struct!(GhostMove { path, value });
 plain_struct!(Ghost { label, moves, picture, command });

@@ -170,14 +170,7 @@ impl Session {
         if !fix.edits.iter().all(fits) {
             return Err(words::refuse("the text has changed meanwhile".into()));
         }
-        let edits: Vec<syntax::TextEdit> = fix
-            .edits
-            .iter()
-            .map(|e| syntax::TextEdit {
-                span: base::Span::new(e.start, e.end),
-                insert: e.insert.clone(),
-            })
-            .collect();
+        let edits: Vec<syntax::TextEdit> = fix.edits.iter().map(syntax::TextEdit::from).collect();
         let text = syntax::edit::apply(text, &edits);
         self.apply(id, &Command::Text(text))
     }

@@ -90,11 +90,43 @@ impl State {
         let load = |name: &str| host.read(name);
         let lowered = lang::lower_written(&text, &load, &before.lowered);
         let (mut state, planner) = Self::meant(text, lowered, Some(before), host, plans);
-        let (now, was) = (&state.structure, &before.structure);
-        if now.has_things_of(was) && now.constraints == was.constraints {
-            state.form = before.form.clone();
-        }
+        state.keep_form_of(before);
         (state, planner)
+    }
+
+    /// Makes the state of a text whose values a copy of the document has found, and its planner: nothing is solved.
+    ///
+    /// # Errors
+    /// The text has other slots; the plans come back.
+    pub(crate) fn found(
+        text: String,
+        before: &Self,
+        host: &dyn Host,
+        plans: Plans,
+        found: Found,
+    ) -> Result<(Self, Planner), Plans> {
+        let load = |name: &str| host.read(name);
+        let lowered = match found.has_form {
+            true => lang::lower_written(&text, &load, &before.lowered),
+            false => lang::lower(&text, &load, Some(&before.lowered)),
+        };
+        let of = Structured::of(text, lowered, Some(before));
+        if of.structure.slots.len() != found.values.numbers.len() {
+            return Err(plans);
+        }
+        let has_form = found.has_form;
+        let (mut state, planner) = of.planned(plans).holding(found).told(host);
+        if has_form {
+            state.keep_form_of(before);
+        }
+        Ok((state, planner))
+    }
+
+    fn keep_form_of(&mut self, before: &Self) {
+        let (now, was) = (&self.structure, &before.structure);
+        if now.has_things_of(was) && now.constraints == was.constraints {
+            self.form = before.form.clone();
+        }
     }
     /// Returns the tree of its text.
     pub(crate) fn file(&self) -> ast::File {
@@ -194,6 +226,14 @@ impl State {
     }
 }
 
+/// What a copy of a document found of a text that an edit led to.
+pub(crate) struct Found {
+    pub(crate) values: Values,
+    pub(crate) double_roots: Vec<SlotId>,
+    /// The edit was one of values alone.
+    pub(crate) has_form: bool,
+}
+
 /// The first stage of a state: what the text means, and its things.
 pub(crate) struct Structured {
     text: String,
@@ -287,9 +327,24 @@ impl Planned {
             ),
         }));
         crate::placing::place_layout(&lowered.document, structure, &self.planner, &mut values);
+        self.note_course_faults();
+        Solved { of: self, given, given_faults, values, double_roots }
+    }
+
+    /// Takes the values that were found elsewhere.
+    fn holding(mut self, found: Found) -> Solved {
+        let Structured { lowered, structure, .. } = &self.of;
+        let model = Model { document: &lowered.document, structure };
+        let (given, given_faults) = eval::given_values(&lowered.document, structure);
+        let Found { values, double_roots, .. } = found;
+        self.planner.take_course(model, &values);
+        self.note_course_faults();
+        Solved { of: self, given, given_faults, values, double_roots }
+    }
+
+    fn note_course_faults(&mut self) {
         let on_course = self.planner.course_faults().iter().filter(|f| !follows(&self.of, f));
         self.unplanned.extend(on_course.cloned());
-        Solved { of: self, given, given_faults, values, double_roots }
     }
 }
 

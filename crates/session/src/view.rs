@@ -126,6 +126,13 @@ pub struct TextChange {
     pub insert: String,
 }
 
+impl From<&TextChange> for syntax::TextEdit {
+    fn from(change: &TextChange) -> Self {
+        let span = base::Span::new(change.start, change.end);
+        Self { span, insert: change.insert.clone() }
+    }
+}
+
 /// Why a command changed nothing.
 #[derive(Clone, PartialEq, Debug, Default, Serialize)]
 pub struct Refusal {

@@ -36,6 +36,7 @@ mod prototypes;
 mod proving;
 mod recognising;
 mod refusing;
+mod remote;
 mod repairing;
 mod restructuring;
 mod saving;
