@@ -8,8 +8,7 @@ use crate::plain::{plain_enum, plain_struct};
 use crate::remote::{Executed, LongEdit};
 use crate::session::Session;
 use crate::view::{
-    Analysis, DocumentId, FamilyAxis, FamilyMap, FamilyRow, Foreseen, Ghost, Refusal, RowFormats,
-    RowOutcome,
+    Analysis, DocumentId, FamilyAxis, FamilyMap, FamilyRow, Foreseen, Ghost, RowFormats, RowOutcome,
 };
 use kernel::{Command, Path};
 
@@ -55,7 +54,7 @@ pub enum LongQuestion {
         /// The two parameters.
         axes: [FamilyAxis; 2],
     },
-    /// To do an edit; the document that is asked changes.
+    /// To do an edit in the copy, so that the document can take it over; asked of the document itself it is nothing.
     Edit(LongEdit),
     /// What hands do first, in the document of [`Job::rehearsal`]; an answer says only that something of it was refused.
     Rehearsal,
@@ -79,8 +78,8 @@ pub enum LongAnswer {
     Foreseen(Result<Foreseen, String>),
     /// To [`LongQuestion::Elsewhere`].
     Elsewhere(Vec<Ghost>),
-    /// To [`LongQuestion::Edit`], or why it was refused; nothing where the page has to do it itself.
-    Edited(Result<Option<Executed>, Refusal>),
+    /// To [`LongQuestion::Edit`].
+    Edited(Executed),
     /// To [`LongQuestion::Map`]; or why there is none.
     Map(Result<FamilyMap, String>),
     /// To [`LongQuestion::Rehearsal`]: why it could not go on.
@@ -106,7 +105,7 @@ plain_enum!(LongAnswer {
     4: Refused(why),
     5: Foreseen(found),
     6: Elsewhere(ghosts),
-    7: Edited(outcome)
+    7: Edited(executed)
 });
 
 impl LongQuestion {
@@ -158,16 +157,20 @@ impl Desk {
     /// Returns a part of the answer by its number; nothing after the last.
     pub fn answer(&mut self, part: usize) -> Option<LongAnswer> {
         let (session, id, job) = self.open.as_mut()?;
-        let answer = session.answer(*id, &job.question, part);
-        if let Some(LongAnswer::Edited(_)) = answer {
-            let open = session.document(*id);
-            job.text.clone_from(&open.state.text);
-            // opened again, the text would come to something else
-            if open.done.last().is_some_and(|step| step.came.is_some()) {
-                self.open = None;
-            }
+        let LongQuestion::Edit(edit) = &job.question else {
+            return session.answer(*id, &job.question, part);
+        };
+        if part > 0 {
+            return None;
         }
-        answer
+        let executed = session.execute(*id, edit);
+        let open = session.document(*id);
+        job.text.clone_from(&open.state.text);
+        // opened again, the text would come to something else
+        if open.done.last().is_some_and(|step| step.came.is_some()) {
+            self.open = None;
+        }
+        Some(LongAnswer::Edited(executed))
     }
 }
 
@@ -214,7 +217,7 @@ impl Session {
             LongQuestion::Elsewhere(about) => {
                 Some(LongAnswer::Elsewhere(self.ghosts(id, about).unwrap_or_default()))
             }
-            LongQuestion::Edit(edit) => Some(LongAnswer::Edited(self.execute(id, edit))),
+            LongQuestion::Edit(_) => None,
             LongQuestion::Rehearsal => {
                 self.rehearse(id).err().map(|refusal| LongAnswer::Refused(refusal.message))
             }

@@ -9,7 +9,7 @@ use crate::document::{Open, Step};
 use crate::plain::{plain_enum, plain_struct};
 use crate::session::{Session, thing_at};
 use crate::state::{Found, State};
-use crate::view::{Change, DocumentId, Refusal};
+use crate::view::{Change, DocumentId, Question, Refusal};
 use base::Mixer;
 use kernel::{Command, Path, SlotId, Values};
 use std::collections::BTreeSet;
@@ -25,6 +25,8 @@ const MANY: usize = 40;
 pub enum LongEdit {
     /// A command.
     Command(Command),
+    /// A command of a hand: what has to be asked first is asked.
+    Offered(Command),
     /// A value as a person types it.
     Typed {
         /// Of what.
@@ -37,11 +39,27 @@ pub enum LongEdit {
 /// What an edit came to in a copy of the document.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Executed {
-    change: Change,
     /// The state that the copy was in.
     before: u64,
+    /// What was done; nothing where that is more than a step, so that it cannot be taken over.
+    outcome: Result<Option<Done>, Refusal>,
+}
+
+/// What was done.
+#[derive(Clone, PartialEq, Debug)]
+struct Done {
+    came: Came,
     /// Where it led; nothing where nothing changed.
     after: Option<After>,
+}
+
+/// What an edit came to.
+#[derive(Clone, PartialEq, Debug)]
+pub enum Came {
+    /// It is done.
+    Changed(Change),
+    /// Something has to be asked first; nothing has changed.
+    Asked(Question),
 }
 
 /// The state after an edit, apart from its text.
@@ -64,8 +82,11 @@ struct Plainly {
     texts: Vec<(u32, String)>,
 }
 
-plain_enum!(LongEdit { 0: Command(command), 1: Typed { path, typed } });
-plain_struct!(Executed { change, before, after });
+plain_enum!(LongEdit { 0: Command(command), 1: Typed { path, typed }, 2: Offered(command) });
+plain_enum!(Came { 0: Changed(change), 1: Asked(question) });
+plain_struct!(Question { message, choices });
+plain_struct!(Executed { before, outcome });
+plain_struct!(Done { came, after });
 plain_struct!(After { state, values, double_roots, has_form, edited, wishes, came });
 plain_struct!(Plainly { numbers, texts });
 
@@ -90,11 +111,20 @@ impl From<&Plainly> for Values {
 }
 
 impl LongEdit {
-    fn execute(&self, session: &mut Session, id: DocumentId) -> Result<Change, Refusal> {
-        match self {
+    /// Does it.
+    ///
+    /// # Errors
+    /// Why it was refused; then nothing has changed.
+    pub fn apply(&self, session: &mut Session, id: DocumentId) -> Result<Came, Refusal> {
+        let change = match self {
             Self::Command(command) => session.apply(id, command),
+            Self::Offered(command) => match session.over_constrained(id, command) {
+                Some(question) => return Ok(Came::Asked(question)),
+                None => session.apply(id, command),
+            },
             Self::Typed { path, typed } => session.set_typed(id, path, typed),
-        }
+        };
+        change.map(Came::Changed)
     }
     /// The paths of what it is about, where more may hang together with them.
     fn paths(&self) -> Vec<Path> {
@@ -108,7 +138,7 @@ impl LongEdit {
                 | Command::Anchor { path, .. }
                 | Command::Enable { path, .. },
             ) => vec![path.clone()],
-            Self::Command(_) => Vec::new(),
+            Self::Command(_) | Self::Offered(_) => Vec::new(),
             Self::Typed { path, .. } => crate::parse_path(path).into_iter().collect(),
         }
     }
@@ -136,35 +166,48 @@ impl Session {
     }
 
     /// Executes an edit in a document that is the copy of another.
-    ///
-    /// # Errors
-    /// Why it was refused.
-    pub(crate) fn execute(
-        &mut self,
-        id: DocumentId,
-        edit: &LongEdit,
-    ) -> Result<Option<Executed>, Refusal> {
+    pub(crate) fn execute(&mut self, id: DocumentId, edit: &LongEdit) -> Executed {
         let before = self.document(id).state.clone();
         self.document_mut(id).done.clear();
-        let change = edit.execute(self, id)?;
-        let open = self.document(id);
-        let after = match &open.done[..] {
-            [] => None,
-            [step] if !open.state.has_errors() => Some(After::of(open, step, &before)),
-            _ => return Ok(None),
-        };
-        Ok(Some(Executed { change, before: print(&before), after }))
+        let outcome = edit.apply(self, id).map(|came| {
+            let open = self.document(id);
+            match &open.done[..] {
+                [] => Some(Done { came, after: None }),
+                [step] if !open.state.has_errors() => {
+                    Some(Done { came, after: Some(After::of(open, step, &before)) })
+                }
+                _ => None,
+            }
+        });
+        Executed { before: print(&before), outcome }
     }
 
-    /// Takes over what an edit came to in a copy, as one step; nothing, and nothing has changed, where the document is
-    /// not what the copy was.
-    pub fn take_over(&mut self, id: DocumentId, executed: &Executed) -> Option<Change> {
-        let (open, beside) = self.beside_others(id);
+    /// Takes over what an edit came to in a copy, as one step, or why it was refused there; nothing, and nothing has
+    /// changed, where the document is not what the copy was.
+    pub fn take_over(
+        &mut self,
+        id: DocumentId,
+        executed: &Executed,
+    ) -> Option<Result<Came, Refusal>> {
+        let open = self.document(id);
         if open.drag.is_some() || print(&open.state) != executed.before {
             return None;
         }
-        let Executed { change, after, .. } = executed;
-        let Some(after) = after else { return Some(change.clone()) };
+        let Done { came, after } = match &executed.outcome {
+            Ok(done) => done.as_ref()?,
+            Err(refusal) => return Some(Err(refusal.clone())),
+        };
+        let mut came = came.clone();
+        if let (Came::Changed(change), Some(after)) = (&mut came, after) {
+            self.step_over(id, change, after)?;
+            change.documents = self.reach(id);
+        }
+        Some(Ok(came))
+    }
+
+    /// Makes the state after an edit the present one, if it is what the copy found.
+    fn step_over(&mut self, id: DocumentId, change: &Change, after: &After) -> Option<()> {
+        let (open, beside) = self.beside_others(id);
         let before = open.state.clone();
         let edits: Vec<TextEdit> = change.edits.iter().map(TextEdit::from).collect();
         let text = syntax::edit::apply(&before.text, &edits);
@@ -193,25 +236,38 @@ impl Session {
             step.wishes = after.wishes.iter().map(|&(slot, x)| (SlotId(slot), x)).collect();
             step.came = after.came.as_ref().map(Values::from);
         }
-        let mut change = change.clone();
-        if !change.edits.is_empty() {
-            change.documents = self.reach(id);
-        }
-        Some(change)
+        Some(())
     }
 
-    /// Takes a step back that is not to be done again: of two that are one, the second was refused.
-    pub fn withdraw(&mut self, id: DocumentId) {
-        let (open, beside) = self.beside_others(id);
-        if apply::apply(open, &beside, &Command::Undo).is_ok() {
+    /// Ends a drag on something that it joins, where the joining may take long; returns the command that joins them,
+    /// and if something moved, how many steps there were before: [`Session::joined`] is to be told what came of it.
+    ///
+    /// # Errors
+    /// Why it could not be kept or joined; then all is as it was before the press.
+    pub fn release_to_join(
+        &mut self,
+        id: DocumentId,
+        target: &Path,
+    ) -> Result<(Command, Option<usize>), Refusal> {
+        let held = self.held_path(id).ok_or_else(Refusal::default)?;
+        let command = self.join(id, &[target.clone(), held]).inspect_err(|_| self.cancel(id))?;
+        let home = self.home(id);
+        let steps = self.document(home).done.len();
+        self.release(id)?;
+        let has_moved = self.document(home).done.len() > steps;
+        Ok((command, has_moved.then_some(steps)))
+    }
+
+    /// Ends what [`Session::release_to_join`] began, where something moved: both are one step, or neither.
+    pub fn joined(&mut self, id: DocumentId, since: usize, is_done: bool) {
+        let home = self.home(id);
+        let (open, beside) = self.beside_others(home);
+        if is_done {
+            open.one_step(since);
+        } else if apply::apply(open, &beside, &Command::Undo).is_ok() {
             open.undone.clear();
+            self.renew_pane(id);
         }
-    }
-
-    /// Makes one step of the last two.
-    pub fn join_steps(&mut self, id: DocumentId) {
-        let open = self.document_mut(id);
-        open.one_step(open.done.len().saturating_sub(2));
     }
 }
 

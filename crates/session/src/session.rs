@@ -276,7 +276,7 @@ impl Session {
     pub fn join(&self, id: DocumentId, paths: &[Path]) -> Result<Command, Refusal> {
         joining::joined(&self.document(id).state, paths).map(Command::Merge)
     }
-    fn held_path(&self, id: DocumentId) -> Option<Path> {
+    pub(crate) fn held_path(&self, id: DocumentId) -> Option<Path> {
         self.document(id).drag.as_ref().map(|drag| drag.held_path().clone())
     }
     /// Returns what was pressed and the handle that a hand holds instead of it since it was dragged across what stays;
@@ -296,27 +296,13 @@ impl Session {
     /// # Errors
     /// Why it could not be kept or joined; then all is as it was before the press.
     pub fn release_onto(&mut self, id: DocumentId, target: &Path) -> Result<Change, Refusal> {
-        let Some(held) = self.held_path(id) else { return Ok(Change::default()) };
-        let paths = [target.clone(), held];
-        let command = match self.join(id, &paths) {
-            Ok(command) => command,
-            Err(refusal) => {
-                self.cancel(id);
-                return Err(refusal);
-            }
-        };
-        let home = self.home(id);
-        let steps = self.document(home).done.len();
-        self.release(id)?;
-        let moved = self.document(home).done.len() > steps;
+        if self.held_path(id).is_none() {
+            return Ok(Change::default());
+        }
+        let (command, moved_since) = self.release_to_join(id, target)?;
         let joined = self.apply(id, &command);
-        let (open, beside) = self.beside_others(home);
-        if moved && joined.is_err() {
-            apply::apply(open, &beside, &Command::Undo)?;
-            open.undone.clear();
-            self.renew_pane(id);
-        } else if moved {
-            open.one_step(steps);
+        if let Some(since) = moved_since {
+            self.joined(id, since, joined.is_ok());
         }
         joined
     }

@@ -48,13 +48,19 @@ pub fn Edit(
     let accept = move || {
         let Some(field) = input.get_untracked() else { return };
         let typed = begun.with_value(|value| exactly(&field.value(), value));
-        match lab.set_typed(&path.get_untracked(), &typed) {
+        // the field may have gone until it is known what came of it
+        lab.set_typed(&path.get_untracked(), &typed, move |outcome| match outcome {
             Ok(()) => {
-                over.set_value(true);
-                done();
+                if over.try_set_value(true).is_none() {
+                    done();
+                }
             }
-            Err(refusal) => error.set(Some(refusal.in_a_line())),
-        }
+            Err(refusal) => {
+                if let Some(why) = error.try_set(Some(refusal.in_a_line())).flatten() {
+                    lab.say_refused(why);
+                }
+            }
+        });
     };
     let key = move |e: KeyboardEvent| {
         e.stop_propagation();

@@ -40,6 +40,7 @@ mod edits;
 mod export;
 mod jobs;
 mod prototype;
+mod remote;
 mod views;
 
 pub use drafts::Offered;

@@ -243,14 +243,16 @@ impl Lab {
         };
         let command = said?;
         Ok(match &offer.deed {
-            Deed::Add | Deed::Rule(_) if !matches!(command, Command::Text(_)) => {
-                self.apply(&command)
-            }
+            Deed::Add | Deed::Rule(_) if !matches!(command, Command::Text(_)) => match value {
+                Some(_) => self.apply(&command),
+                // nobody waits beside a field
+                None => self.apply_offered(&command, &self.selected_paths()),
+            },
             Deed::Add | Deed::Rule(_) => self.apply_called(&command, &offer.label),
             // as where the number itself is typed over, with its unit
             Deed::Give(path) => {
                 let typed = value.or(offer.value.as_deref()).unwrap_or_default();
-                self.set_typed(&path.to_string(), typed)?;
+                self.set_typed_now(&path.to_string(), typed)?;
                 true
             }
             Deed::Round(_) | Deed::InLines(_) => self.apply_called(&command, &offer.label),

@@ -369,8 +369,10 @@ pub fn Slider(
             lab.keep_in_sight(drawn.get_value(), true);
         }
         if let Some(to) = counted.try_update_value(Option::take).flatten() {
-            let said = path.with_untracked(|path| lab.set_typed(path, &to.to_string()));
-            lab.notice.set(said.err().map(Notice::Refused));
+            let say = move |said: Result<(), session::view::Refusal>| {
+                lab.notice.set(said.err().map(Notice::Refused));
+            };
+            path.with_untracked(|path| lab.set_typed(path, &to.to_string(), say));
         }
     };
     // a hand that the browser takes away has chosen nothing
@@ -447,13 +449,20 @@ fn Field(lab: Lab, row: Memo<Option<ValueRow>>, selects: bool) -> impl IntoView 
         let Some(words) = typed.get_untracked() else { return };
         let unit =
             row.with_untracked(|row| row.as_ref().map(|r| r.unit.clone()).unwrap_or_default());
-        match lab.set_typed(&path.get_untracked(), &meant_in(&words, &unit)) {
-            Ok(()) => {
+        let meant = meant_in(&words, &unit);
+        // the field may have gone, or say something else, until it is known what came of it
+        lab.set_typed(&path.get_untracked(), &meant, move |outcome| match outcome {
+            Ok(()) if typed.try_get_untracked().flatten().as_ref() == Some(&words) => {
                 typed.set(None);
                 error.set(None);
             }
-            Err(refusal) => error.set(Some(refusal.in_a_line())),
-        }
+            Ok(()) => {}
+            Err(refusal) => {
+                if let Some(why) = error.try_set(Some(refusal.in_a_line())).flatten() {
+                    lab.say_refused(why);
+                }
+            }
+        });
     };
     let options = Memo::new(move |_| {
         row.with(|row| row.as_ref().map(|r| r.options.clone()).unwrap_or_default())

@@ -200,7 +200,7 @@ fn Parameter(lab: Lab, example: String, row: ParameterRow, used: Use) -> impl In
     let typed = move |e: leptos::ev::Event| {
         let typed = event_target_value(&e);
         let outcome = match used {
-            Use::Tried | Use::Recorded => lab.set_typed(&path.get_value(), &typed),
+            Use::Tried | Use::Recorded => lab.set_typed_now(&path.get_value(), &typed),
             Use::Visited => match lab.tell(|s, id| s.visit_by(id, &[(name.get_value(), typed)])) {
                 Some(Err(refusal)) => Err(refusal),
                 done => {

@@ -1,11 +1,13 @@
 //! Edits: commands, drags, joins, typed text, and what came of them.
 
+use super::remote::Outcome;
 use super::{InPlace, Lab, Notice, Zoom};
 use crate::sheet::bounds;
 use crate::{js, words};
 use drawing::Bounds;
 use leptos::prelude::*;
 use presentation::typing::is_of_unfinished;
+use session::remote::{Came, LongEdit};
 use session::view::{
     Caught, Change, Choice, Deed, DiagnosticView, DragState, FixView, Offer, Pointer, Question,
     Refusal,
@@ -16,10 +18,13 @@ use std::time::Duration;
 const TYPING_PAUSE: Duration = Duration::from_millis(150);
 
 impl Lab {
-    /// Applies a command to the shown document, or asks first what it is meant of; what comes of it
-    /// stands in the signals.
+    /// Applies a command to the shown document, or asks first what it is meant of; what comes of it stands in the
+    /// signals. Returns whether it is done: of one that may take long, not yet.
     pub fn apply(self, command: &Command) -> bool {
         self.flush_text();
+        if *command == Command::Undo && self.stop_edits() {
+            return false;
+        }
         let asked = self.id().and_then(|id| self.ask(|session| session.preview(id, command).ok()));
         let over = || self.ask_of_shown(|session, id| session.over_constrained(id, command));
         match asked.flatten().or_else(|| over().flatten()) {
@@ -27,7 +32,16 @@ impl Lab {
                 self.notice.set(Some(Notice::Asked(question)));
                 false
             }
-            None => self.apply_as_meant(command),
+            None => {
+                let edit = LongEdit::Command(command.clone());
+                if !self.is_long(&edit, &[]) {
+                    return self.apply_as_meant(command);
+                }
+                self.edit(edit, &[], move |outcome| {
+                    self.settle_edit(outcome);
+                });
+                false
+            }
         }
     }
 
@@ -61,26 +75,44 @@ impl Lab {
         done
     }
 
-    /// Sets a value as a person types it.
+    /// Sets a value as a person types it; the caller is told what came of it, at once or later, and shows beside the
+    /// field why not.
+    pub fn set_typed(
+        self,
+        path: &str,
+        typed: &str,
+        then: impl FnOnce(Result<(), Refusal>) + 'static,
+    ) {
+        self.flush_text();
+        let before = self.drawn_box();
+        let edit = LongEdit::Typed { path: path.into(), typed: typed.into() };
+        let path = String::from(path);
+        self.edit(edit, &[], move |outcome| then(self.typed(&path, before, outcome)));
+    }
+
+    /// The same, always at once.
     ///
     /// # Errors
     /// Why not; the caller shows it beside the field.
-    pub fn set_typed(self, path: &str, typed: &str) -> Result<(), Refusal> {
+    pub fn set_typed_now(self, path: &str, typed: &str) -> Result<(), Refusal> {
         self.flush_text();
         let before = self.drawn_box();
-        match self.tell(|session, id| session.set_typed(id, path, typed)) {
-            Some(Err(refusal)) => Err(refusal),
-            outcome => {
-                let size = |all: Option<Bounds>| {
-                    all.map(|all| (all.most.x - all.least.x, all.most.y - all.least.y))
-                };
-                let is_right = self.settle(outcome);
-                if is_right && size(self.drawn_box()) != size(before) && self.is_length(path) {
-                    self.look_at_size();
-                }
-                Ok(())
-            }
+        let outcome = self.tell(|session, id| session.set_typed(id, path, typed));
+        self.typed(path, before, outcome.map(|done| done.map(Came::Changed)))
+    }
+
+    fn typed(self, path: &str, before: Option<Bounds>, outcome: Outcome) -> Result<(), Refusal> {
+        if let Some(Err(refusal)) = outcome {
+            return Err(refusal);
         }
+        let size = |all: Option<Bounds>| {
+            all.map(|all| (all.most.x - all.least.x, all.most.y - all.least.y))
+        };
+        let is_right = self.settle_edit(outcome);
+        if is_right && size(self.drawn_box()) != size(before) && self.is_length(path) {
+            self.look_at_size();
+        }
+        Ok(())
     }
 
     /// Returns the box around what is drawn; nothing while that is nothing.
@@ -139,6 +171,7 @@ impl Lab {
         press: impl FnOnce(&mut Session, DocumentId, &[Path]) -> Result<(f64, f64), Refusal>,
     ) -> Option<(f64, f64)> {
         self.flush_text();
+        self.finish_edits();
         let paths: Option<Vec<Path>> = paths.iter().map(|p| session::parse_path(p)).collect();
         match self.tell(|session, id| press(session, id, &paths.unwrap_or_default()))? {
             Ok(handle) => {
@@ -171,7 +204,7 @@ impl Lab {
     }
 
     /// Selects the handle that is held since another was dragged across what stays, where that one was selected.
-    fn select_held(self) {
+    pub(super) fn select_held(self) {
         let instead = self.id().and_then(|id| self.ask(|session| session.held_instead(id)));
         let Some((pressed, held)) = instead else { return };
         let pressed = pressed.to_string();
@@ -193,14 +226,6 @@ impl Lab {
         if self.dropping.with_untracked(|old| *old != found) {
             self.dropping.set(found);
         }
-    }
-
-    /// Ends a drag where it joins something: one step for the undo list.
-    pub fn release_onto(self, target: &Path) {
-        self.dragging.set(None);
-        self.dropping.set(None);
-        self.select_held();
-        self.settle(self.tell(|session, id| session.release_onto(id, target)));
     }
 
     /// Merges what is selected: of each what sticks there.
@@ -266,7 +291,7 @@ impl Lab {
         }
     }
 
-    fn selected_paths(self) -> Vec<Path> {
+    pub(crate) fn selected_paths(self) -> Vec<Path> {
         self.selection_untracked().iter().filter_map(|p| session::parse_path(p)).collect()
     }
 

@@ -9,6 +9,7 @@ use crate::js::{self, Worker};
 use crate::words;
 use js_sys::Uint8Array;
 use leptos::prelude::*;
+use session::DocumentId;
 use session::jobs::{LongAnswer, LongQuestion};
 use session::plain::{read, written};
 use std::fmt;
@@ -30,6 +31,8 @@ pub enum Kind {
     Elsewhere,
     /// How much is free, where that was not said at once; nobody waits for it.
     Freedom,
+    /// An edit: each is done, in the order in which they were asked for.
+    Edit,
     /// What comes of the rows of a family.
     Rows,
     /// The map of a program.
@@ -38,6 +41,14 @@ pub enum Kind {
     Svg,
     /// In millimetres.
     Dxf,
+}
+
+impl Kind {
+    /// Whether nobody waits any more for a question of another kind once one of this kind is asked.
+    fn displaces(self, other: Self) -> bool {
+        let is_passing = matches!(other, Self::Freedom | Self::Foreseen | Self::Elsewhere);
+        other == self || other == Self::Freedom || self == Self::Edit && is_passing
+    }
 }
 
 /// What is told of a job.
@@ -98,6 +109,7 @@ struct Queue {
 
 struct Task {
     kind: Kind,
+    of: DocumentId,
     question: LongQuestion,
     tell: Box<dyn Fn(Told)>,
 }
@@ -111,24 +123,61 @@ impl fmt::Debug for Task {
 impl Lab {
     /// Asks something of the shown document that may take long.
     pub fn ask_long(self, kind: Kind, question: LongQuestion, tell: impl Fn(Told) + 'static) {
+        let Some(of) = self.id() else { return };
         if kind == Kind::Freedom && self.jobs.queue.with_value(|queue| queue.is_refused) {
             return;
         }
         let going = self.jobs.going.get_untracked();
-        if let Some(going) = going.filter(|g| g.kind == kind || g.kind == Kind::Freedom) {
-            // nobody waits for the count: whoever asks something else does not either
-            if going.kind != kind {
+        if let Some(going) = going.filter(|g| g.kind != Kind::Edit && kind.displaces(g.kind)) {
+            // nobody waits for the count: whoever asks something else does not either; an edit goes on from the copy
+            if going.kind != kind && kind != Kind::Edit {
                 self.end_worker();
             }
             self.give_up(going);
         }
-        let task = Task { kind, question, tell: Box::new(tell) };
+        let task = Task { kind, of, question, tell: Box::new(tell) };
         self.jobs.queue.update_value(|queue| {
-            queue.tasks.retain(|task| task.kind != kind);
+            queue.tasks.retain(|task| task.kind == Kind::Edit || !kind.displaces(task.kind));
             queue.tasks.push(task);
-            queue.tasks.sort_by_key(|task| task.kind == Kind::Freedom);
+            queue.tasks.sort_by_key(|task| match task.kind {
+                Kind::Edit => 0,
+                Kind::Freedom => 2,
+                _ => 1,
+            });
         });
         self.next_job();
+    }
+
+    /// Whether a worker would do an edit next: it is not refused, and nothing that somebody waits for goes on.
+    pub fn is_worker_free(self) -> bool {
+        let is_idle = |kind: Kind| kind == Kind::Edit || Kind::Edit.displaces(kind);
+        let going = self.jobs.going.get_untracked();
+        going.is_none_or(|going| is_idle(going.kind))
+            && self
+                .jobs
+                .queue
+                .with_value(|q| !q.is_refused && q.tasks.iter().all(|t| is_idle(t.kind)))
+    }
+
+    /// Ends the edits that a worker has not done yet: they are told so. Returns whether there were any.
+    pub(super) fn end_edits(self, how: impl Fn() -> Told) -> bool {
+        let is_edit = |task: &Task| task.kind == Kind::Edit;
+        if !self.jobs.queue.with_value(|queue| queue.tasks.iter().any(is_edit)) {
+            return false;
+        }
+        let edits = self.jobs.queue.try_update_value(|queue| {
+            let (edits, others) = std::mem::take(&mut queue.tasks).into_iter().partition(is_edit);
+            queue.tasks = others;
+            edits
+        });
+        let going = self.jobs.going.get_untracked();
+        if let Some(going) = going.filter(|going| going.kind == Kind::Edit) {
+            self.give_up(going);
+        }
+        let edits: Vec<Task> = edits.unwrap_or_default();
+        edits.iter().for_each(|task| (task.tell)(how()));
+        self.next_job();
+        true
     }
 
     /// Gives up a question whose answer nobody waits for any more.
@@ -209,10 +258,9 @@ impl Lab {
 
     /// Hands the worker the first job.
     fn hand_over(self) {
-        let question = self.jobs.queue.with_value(|q| q.tasks.first().map(|t| t.question.clone()));
-        let Some(question) = question else { return };
-        let job = self.ask_of_shown(|session, id| session.job(id, question));
-        let Some(job) = job else { return self.end_job(Told::Stopped) };
+        let first = |queue: &Queue| queue.tasks.first().map(|t| (t.of, t.question.clone()));
+        let Some((of, question)) = self.jobs.queue.with_value(first) else { return };
+        let job = self.ask(|session| session.job(of, question));
         let bytes = Uint8Array::from(&written(&job)[..]);
         self.jobs.queue.update_value(|queue| {
             queue.is_handed = true;

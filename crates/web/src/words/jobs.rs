@@ -22,6 +22,7 @@ pub fn job(kind: Kind) -> &'static str {
         Kind::Analysis => "Analysing",
         Kind::Foreseen => "Trying it",
         Kind::Elsewhere => "Looking where else it could be",
+        Kind::Edit => "Computing what follows",
         Kind::Freedom => "Counting what is free",
         Kind::Rows => "Drawing rows",
         Kind::Map => "Making the map",
