@@ -5,8 +5,11 @@
 //! that lies where its prototype does needs nothing; for any other the place is given in its own text.
 //!
 //! What a class only draws with (`layout at: Point`) and nobody gives is put where there is room when a document is
-//! opened, along the parts that stand between such places.
+//! opened, along the parts that stand between such places. Parts that share both places stand side by side
+//! (`placing/lanes.rs`).
 
+mod gridded;
+mod lanes;
 mod linked;
 
 use crate::document::Open;
@@ -94,8 +97,8 @@ const ROOM: f64 = 50.0;
 /// Puts every place of layout that neither is given nor is spoken of by a constraint on a spot of its own, where none
 /// that is given lies near.
 ///
-/// Places between which parts stand (two attachers of one thing) are laid out along these, as many as are compared with
-/// each other. All others lie on a spiral as the seeds of a sunflower do: evenly apart, and hardly ever three in a line.
+/// Places between which parts stand (two attachers of one thing) are laid out along these, and compared with each other
+/// where they are few. All others lie on a spiral as the seeds of a sunflower do: evenly apart, and hardly ever three in a line.
 /// Of these, those declared later come later, so that a new one moves none that was there.
 /// **Source:** Vogel, *A better way to construct the sunflower head*, Math. Biosci. 44 (1979).
 pub(crate) fn place_layout(
@@ -104,6 +107,7 @@ pub(crate) fn place_layout(
     planner: &Planner,
     values: &mut Values,
 ) {
+    lanes::place_in_lanes(document, structure, planner, values);
     let places: Vec<[SlotId; 2]> = structure
         .slots
         .iter()
@@ -164,10 +168,11 @@ fn place_linked(
             links: group.links.iter().filter_map(|[a, b]| Some([index(a)?, index(b)?])).collect(),
             hanging: hanging.iter().filter_map(index).collect(),
         };
-        if net.given.len() > linked::MOST {
-            continue;
-        }
-        let mut cells = linked::arranged(&net);
+        let mut cells = match net.given.len() {
+            0..=linked::MOST => linked::arranged(&net),
+            ..=gridded::MOST => gridded::gridded(&net, 2.0 * ROW),
+            _ => continue,
+        };
         if net.given.iter().all(Option::is_none) {
             let most = |axis: usize| cells.iter().fold(0.0, |most: f64, cell| most.max(cell[axis]));
             let (width, height) = (most(0), most(1));
@@ -217,26 +222,35 @@ type Link = [[SlotId; 2]; 2];
 
 /// Returns the places of layout between which things stand, thing after thing, and those at which one stands alone.
 fn links(document: &Document, structure: &Structure) -> (Vec<Link>, BTreeSet<[SlotId; 2]>) {
-    let mut attachers: BTreeMap<ClassId, &[Path]> = BTreeMap::new();
     let (mut links, mut hanging) = (Vec::new(), BTreeSet::new());
-    for (id, thing) in structure.things.iter() {
-        let paths = attachers
-            .entry(thing.class)
-            .or_insert_with(|| joining::attachers(document, thing.class));
-        if paths.is_empty() || structure.identity(id) != id {
-            continue;
-        }
-        let place = |path: &Path| {
-            let slots = stages::coordinates_in(structure, structure.follow(id, path).ok()?)?;
-            slots.iter().all(|&slot| structure.slots[slot].is_layout).then_some(slots)
-        };
-        let places: Vec<[SlotId; 2]> = paths.iter().filter_map(place).collect();
+    for (_, places) in standing(document, structure) {
         if let [only] = places[..] {
             hanging.insert(only);
         }
         links.extend(places.windows(2).filter(|two| two[0] != two[1]).map(|two| [two[0], two[1]]));
     }
     (links, hanging)
+}
+
+/// Returns what sticks to places of layout, in order of declaration, with these places.
+fn standing(
+    document: &Document,
+    structure: &Structure,
+) -> impl Iterator<Item = (ThingId, Vec<[SlotId; 2]>)> {
+    let mut attachers: BTreeMap<ClassId, &[Path]> = BTreeMap::new();
+    structure.things.iter().filter_map(move |(id, thing)| {
+        let paths = attachers
+            .entry(thing.class)
+            .or_insert_with(|| joining::attachers(document, thing.class));
+        if paths.is_empty() || structure.identity(id) != id {
+            return None;
+        }
+        let place = |path: &Path| {
+            let slots = stages::coordinates_in(structure, structure.follow(id, path).ok()?)?;
+            slots.iter().all(|&slot| structure.slots[slot].is_layout).then_some(slots)
+        };
+        Some((id, paths.iter().filter_map(place).collect()))
+    })
 }
 
 /// Places that hang together, in order, and the links between them.

@@ -68,6 +68,69 @@ fn no_wires_of_a_typed_bridge_cross() {
 }
 
 #[test]
+fn parts_across_the_same_two_nodes_stand_side_by_side() {
+    let mut desk = Desk::of(
+        "use circuits\ny down\nbattery: Battery\nr1, r2, r3: Resistor\nwire: Wire\n\
+         merge battery.a.node = r1.a.node = r2.b.node = r3.a.node = wire.a.node\n\
+         merge battery.b.node = r1.b.node = r2.a.node = r3.b.node\n",
+    );
+    let middles = ["battery", "r1", "r2", "r3"].map(|part| {
+        let [a, b] = ends(&mut desk, part);
+        let lane = desk.number(&format!("{part}.lane"));
+        // square to the way from lead to lead
+        let long = f64::hypot(b.0 - a.0, b.1 - a.1);
+        (
+            (a.0 + b.0) / 2.0 - lane * (b.1 - a.1) / long,
+            (a.1 + b.1) / 2.0 + lane * (b.0 - a.0) / long,
+        )
+    });
+    for (n, one) in middles.iter().enumerate() {
+        for other in &middles[..n] {
+            let apart = f64::hypot(one.0 - other.0, one.1 - other.1);
+            assert!(apart > 40.0, "{middles:?}");
+        }
+    }
+    // the first goes straight on, and so does what shares one node alone
+    assert_eq!([desk.number("battery.lane"), desk.number("wire.lane")], [0.0, 0.0]);
+}
+
+/// A net of resistors, so many nodes wide and high, nowhere placed.
+fn net_of_resistors(wide: usize, high: usize) -> (String, Vec<String>) {
+    let mut text = String::from("use circuits\ny down\n");
+    let mut parts = Vec::new();
+    let mut ends = vec![Vec::new(); wide * high];
+    for node in 0..wide * high {
+        let right = (node % wide + 1 < wide).then_some(node + 1);
+        let below = (node / wide + 1 < high).then_some(node + wide);
+        for to in [right, below].into_iter().flatten() {
+            let name = format!("r{node}to{to}");
+            text.push_str(&format!("{name}: Resistor\n"));
+            ends[node].push(format!("{name}.a.node"));
+            ends[to].push(format!("{name}.b.node"));
+            parts.push(name);
+        }
+    }
+    for node in ends.iter().filter(|node| node.len() > 1) {
+        text.push_str(&format!("merge {}\n", node.join(" = ")));
+    }
+    (text, parts)
+}
+
+#[test]
+fn more_parts_that_hang_together_than_are_compared_stand_in_rows_too() {
+    for (wide, high) in [(7, 6), (40, 1), (20, 2)] {
+        let (text, parts) = net_of_resistors(wide, high);
+        let mut desk = Desk::of(&text);
+        for part in &parts {
+            let [a, b] = ends(&mut desk, part);
+            assert!((a.0 == b.0) != (a.1 == b.1), "{wide} by {high}: {part} from {a:?} to {b:?}");
+        }
+        let parts: Vec<&str> = parts.iter().map(String::as_str).collect();
+        assert_eq!(crossings(&mut desk, &parts), 0, "{wide} by {high}");
+    }
+}
+
+#[test]
 fn what_hangs_together_with_a_place_that_is_given_is_laid_out_from_there() {
     let mut desk = Desk::of(
         "use circuits\ny down\nr: Resistor { a.node.at = (1000, 1000) }\nw: Wire\n\
