@@ -361,7 +361,8 @@ impl Session {
     pub fn bin_of_library(&self, library: &str) -> Vec<BinEntry> {
         let beside = Beside::opening(&*self.host, &self.documents, "");
         let open = Open::of("", begun_with(library, &beside), &beside);
-        let mut entries = tools::bin::entries(&open.state, &mut tools::bin::Tiles::default());
+        let mut tiles = tools::bin::Tiles::default();
+        let mut entries = tools::bin::entries(&open.state, &mut tiles, &beside);
         entries.retain(|entry| entry.library == library);
         entries
     }

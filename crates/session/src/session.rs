@@ -432,7 +432,8 @@ impl Session {
     }
     /// Returns what can be inserted: the classes in use, each with the picture of its prototype.
     pub fn bin(&self, id: DocumentId) -> Vec<BinEntry> {
-        tools::bin::entries(&self.document(id).state, &mut self.tiles.borrow_mut())
+        let beside = Beside::of(&*self.host, &self.documents, id);
+        tools::bin::entries(&self.document(id).state, &mut self.tiles.borrow_mut(), &beside)
     }
     /// Returns the command that inserts a thing of a class where there is room.
     ///

@@ -9,6 +9,7 @@ pub(crate) mod bin;
 mod catch;
 pub(crate) mod copies;
 pub(crate) mod digits;
+mod examples;
 mod lengths;
 pub(crate) mod room;
 pub(crate) mod stages;
@@ -91,9 +92,14 @@ impl Tool {
         let is_placed =
             document.program(known).is_some() && !recognise::asks_for_its_place(document, known);
         let written = if is_placed { "Placed of " } else { "" };
-        let body = match values {
+        let examples = if is_placed { Vec::new() } else { examples::lists(document, known) };
+        let values: Vec<&String> = values.iter().chain(&examples).collect();
+        let body = match &values[..] {
             [] => String::new(),
-            values => format!(" {{\n    {}\n}}", values.join("\n    ")),
+            values => {
+                let lines: String = values.iter().map(|value| format!("\n    {value}")).collect();
+                format!(" {{{lines}\n}}")
+            }
         };
         let text = trial_text(&state.text, &format!("{name}: {written}{class}{body}"));
         let winding = Winding::of(state, known, &text);

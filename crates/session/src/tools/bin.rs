@@ -1,9 +1,12 @@
 //! The bin: the classes that things can be made of, each with the picture of its prototype.
 
-use super::stages;
+use super::{examples, stages, trial_text};
+use crate::document::Open;
+use crate::host::Host;
 use crate::joining;
 use crate::prototype::Lone;
 use crate::recognise;
+use crate::session::thing_at;
 use crate::state::State;
 use crate::texts::Texts;
 use crate::view::BinEntry;
@@ -11,7 +14,7 @@ use base::Name;
 use drawing::{Drawing, Element, Shape};
 use eval::Evaluator;
 use expr::Dimension;
-use kernel::{ClassId, Primitive, Scale, SlotId, Usual, Value, Values, Vertical};
+use kernel::{ClassId, Path, Primitive, Scale, SlotId, Step, Usual, Value, Values, Vertical};
 use plan::{Model, Planner, Plans};
 use std::collections::BTreeMap;
 use std::rc::Rc;
@@ -76,18 +79,25 @@ impl Said {
 
 impl Tiles {
     /// The picture of a class of a library; of the document's own, which is edited, anew each time.
-    fn picture(&mut self, state: &State, class: ClassId, library: &str) -> Drawing {
+    fn picture(
+        &mut self,
+        state: &State,
+        class: ClassId,
+        library: &str,
+        host: &dyn Host,
+    ) -> Drawing {
+        let look = || exemplified(state, class, host).unwrap_or_else(|| solved(state, class));
         if library.is_empty() {
-            return solved(state, class);
+            return look();
         }
         let name = state.lowered.document.classes[class].name.to_string();
         let known = self.pictures.entry((library.into(), name));
-        known.or_insert_with(|| solved(state, class)).clone()
+        known.or_insert_with(look).clone()
     }
 }
 
 /// Returns what a document can make things of, in the order of the bin.
-pub(crate) fn entries(state: &State, tiles: &mut Tiles) -> Vec<BinEntry> {
+pub(crate) fn entries(state: &State, tiles: &mut Tiles, host: &dyn Host) -> Vec<BinEntry> {
     let said = Some(Said::of(state));
     if tiles.of != said {
         *tiles = Tiles { of: said, ..Tiles::default() };
@@ -99,7 +109,7 @@ pub(crate) fn entries(state: &State, tiles: &mut Tiles) -> Vec<BinEntry> {
         BinEntry {
             class: class.name.to_string(),
             doc: class.doc.clone(),
-            picture: tiles.picture(state, id, &library),
+            picture: tiles.picture(state, id, &library, host),
             library,
             toolbox: toolbox.map(|b| boxes[b].title.clone()),
         }
@@ -111,6 +121,21 @@ pub(crate) fn entries(state: &State, tiles: &mut Tiles) -> Vec<BinEntry> {
 pub(crate) fn picture(state: &State, class: ClassId) -> Drawing {
     let prototype = Lone::of(&state.lowered.document, class);
     prototype.map(|lone| drawn(&lone, &spread(&lone, class))).unwrap_or_default()
+}
+
+/// The picture of a thing of a class whose lists have examples; nothing for a class that needs none.
+fn exemplified(state: &State, class: ClassId, host: &dyn Host) -> Option<Drawing> {
+    const NAME: &str = "lone";
+    let document = &state.lowered.document;
+    let lists = examples::lists(document, class);
+    if lists.is_empty() {
+        return None;
+    }
+    let class = &document.classes[class].name;
+    let alone = format!("{NAME}: {class} {{\n    {}\n}}", lists.join("\n    "));
+    let trial = Open::of("", trial_text(&state.text, &alone), host);
+    let thing = thing_at(&trial.state, &Path(vec![Step::Part(Name::new(NAME))]))?;
+    Some(trial.state.evaluator(trial.values()).picture(thing).drawing)
 }
 
 /// The same as its constraints want it, where it is small enough to be solved for a tile.

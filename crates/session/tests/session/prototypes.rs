@@ -214,6 +214,20 @@ fn no_tile_of_dimensions_and_notes_is_empty() {
     let is_drawn = |text: &drawing::Shape| matches!(text, drawing::Shape::Text { text, .. } if !text.is_empty());
     let note = bin.iter().find(|entry| entry.class == "Note").expect("drafting has it");
     assert!(note.picture.elements.iter().any(|element| is_drawn(&element.shape)));
-    // of a list of points that has none there is nothing to see
-    assert_eq!(empty, ["Bezier", "Nurbs"]);
+    assert_eq!(empty, [""; 0]);
+}
+
+#[test]
+fn a_curve_by_a_list_of_points_has_a_tile_and_points_to_drag_when_it_is_inserted() {
+    for class in ["Spline", "Bezier", "Nurbs"] {
+        let mut desk = Desk::of("use drafting\n");
+        let bin = desk.session.bin(desk.id);
+        let tile = bin.iter().find(|entry| entry.class == class).expect("drafting has it");
+        let around = drawing::bounds(&tile.picture).expect("something is drawn");
+        assert!(around.width() > 50.0 && around.height() > 10.0, "{class}: {around:?}");
+        let command = desk.session.insertion(desk.id, class).expect("there is room");
+        desk.apply(&command).expect("it is inserted");
+        let grips = desk.session.picture(desk.id).grips;
+        assert!(grips.len() >= 4, "{class}: {grips:?} {}", desk.text());
+    }
 }
