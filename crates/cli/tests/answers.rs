@@ -169,7 +169,7 @@ fn what_cannot_be_laid_out_is_said_and_stays() {
 fn a_drawing_fits_whatever_the_units_and_says_what_it_lacks() {
     let metres = "use geometry\nunit km\nl: Line { p1 = (0, 0)  p2 = (3, 0.4) }\nclass Plain { x: Real }\np: Plain\n";
     let drawn = asked("draw-small", metres, "draw", &[]);
-    assert!(String::from_utf8_lossy(&drawn.stdout).contains("width=\"832\""), "{drawn:?}");
+    assert!(String::from_utf8_lossy(&drawn.stdout).contains("width=\"432\""), "{drawn:?}");
     assert_eq!(String::from_utf8_lossy(&drawn.stderr), "p has no picture\n");
 }
 

@@ -320,6 +320,8 @@ pub(crate) fn changed(state: &State, values: &Values) -> drawing::Drawing {
 const READABLE: std::ops::RangeInclusive<f64> = 200.0..=1600.0;
 /// So many pixels long is then its longer side.
 const FITTED: f64 = 800.0;
+/// So many where it is small, and needs no room for dimensions: words that are as large in any picture are not lost.
+const ENLARGED: f64 = 400.0;
 
 /// Returns a picture as SVG of a readable size, each element with the path of its thing.
 pub(crate) fn svg(picture: &PictureView) -> String {
@@ -330,7 +332,11 @@ pub(crate) fn svg(picture: &PictureView) -> String {
 pub fn readable(picture: &PictureView) -> f64 {
     let longest = longest(picture);
     let is_readable = READABLE.contains(&longest) || longest <= 0.0 || !longest.is_finite();
-    if is_readable { 1.0 } else { FITTED / longest }
+    match is_readable {
+        true => 1.0,
+        false if longest < *READABLE.start() => ENLARGED / longest,
+        false => FITTED / longest,
+    }
 }
 
 /// Returns the same where words that are as large in any picture need room: then none is small.
