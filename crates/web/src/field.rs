@@ -36,6 +36,7 @@ pub fn Edit(
     let begun = StoredValue::new(value);
     let error = RwSignal::new(None::<String>);
     let over = StoredValue::new(false);
+    let sent = StoredValue::new(false);
     Effect::new(move |_| {
         if let Some(input) = input.get() {
             request_animation_frame(move || {
@@ -47,17 +48,23 @@ pub fn Edit(
     });
     let accept = move || {
         let Some(field) = input.get_untracked() else { return };
+        if sent.try_update_value(|sent| std::mem::replace(sent, true)) == Some(true) {
+            return;
+        }
         let typed = begun.with_value(|value| exactly(&field.value(), value));
         // the field may have gone until it is known what came of it
-        lab.set_typed(&path.get_untracked(), &typed, move |outcome| match outcome {
-            Ok(()) => {
-                if over.try_set_value(true).is_none() {
+        lab.set_typed(&path.get_untracked(), &typed, move |outcome| {
+            let is_gone = sent.try_set_value(false).is_some();
+            match outcome {
+                Ok(()) if is_gone => {}
+                Ok(()) => {
+                    over.set_value(true);
                     done();
                 }
-            }
-            Err(refusal) => {
-                if let Some(why) = error.try_set(Some(refusal.in_a_line())).flatten() {
-                    lab.say_refused(why);
+                Err(refusal) => {
+                    if let Some(why) = error.try_set(Some(refusal.in_a_line())).flatten() {
+                        lab.say_refused(why);
+                    }
                 }
             }
         });

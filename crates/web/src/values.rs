@@ -435,6 +435,7 @@ pub(crate) fn whole_turn(row: &ValueRow) -> Option<(f64, f64)> {
 fn Field(lab: Lab, row: Memo<Option<ValueRow>>, selects: bool) -> impl IntoView {
     let typed = RwSignal::new(None::<String>);
     let error = RwSignal::new(None::<String>);
+    let sent = StoredValue::new(None::<String>);
     let active = RwSignal::new(false);
     let text = Memo::new(move |_| {
         row.with(|row| row.as_ref().map(|r| r.text.clone()).unwrap_or_default())
@@ -447,19 +448,27 @@ fn Field(lab: Lab, row: Memo<Option<ValueRow>>, selects: bool) -> impl IntoView 
     });
     let commit = move || {
         let Some(words) = typed.get_untracked() else { return };
+        // until it is known what came of it, it is not typed again
+        if sent.with_value(|sent| sent.as_ref() == Some(&words)) {
+            return;
+        }
+        sent.set_value(Some(words.clone()));
         let unit =
             row.with_untracked(|row| row.as_ref().map(|r| r.unit.clone()).unwrap_or_default());
         let meant = meant_in(&words, &unit);
         // the field may have gone, or say something else, until it is known what came of it
-        lab.set_typed(&path.get_untracked(), &meant, move |outcome| match outcome {
-            Ok(()) if typed.try_get_untracked().flatten().as_ref() == Some(&words) => {
-                typed.set(None);
-                error.set(None);
-            }
-            Ok(()) => {}
-            Err(refusal) => {
-                if let Some(why) = error.try_set(Some(refusal.in_a_line())).flatten() {
-                    lab.say_refused(why);
+        lab.set_typed(&path.get_untracked(), &meant, move |outcome| {
+            let _ = sent.try_set_value(None);
+            match outcome {
+                Ok(()) if typed.try_get_untracked().flatten().as_ref() == Some(&words) => {
+                    typed.set(None);
+                    error.set(None);
+                }
+                Ok(()) => {}
+                Err(refusal) => {
+                    if let Some(why) = error.try_set(Some(refusal.in_a_line())).flatten() {
+                        lab.say_refused(why);
+                    }
                 }
             }
         });

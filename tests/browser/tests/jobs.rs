@@ -32,6 +32,43 @@ async fn a_conflict_is_explained_and_repaired_by_a_button() {
         .await;
 }
 
+#[tokio::test]
+async fn what_many_values_hang_together_with_is_computed_beside_the_page() {
+    let visit = Visit::open_empty().await;
+    show(&visit, "bridge.thing").await;
+    let opened = text_of(&state(&visit).await);
+    visit.script("window.__thinglab.select('bridge.load')").await;
+    let field = ".inspector input.field[aria-label$='load.size']";
+    let typed = |value: &str| {
+        format!(
+            "const field = document.querySelector(\"{field}\"); field.focus(); field.value = '{value}';
+             field.dispatchEvent(new Event('input'));
+             field.dispatchEvent(new KeyboardEvent('keydown', {{ key: 'Enter', bubbles: true }}));
+             return window.__thinglab.state().text"
+        )
+    };
+    visit.until(&format!("document.querySelector(\"{field}\")")).await;
+    // the page has not waited: its text is as it was
+    assert_eq!(visit.script(&typed("6 N")).await, opened.as_str());
+    visit.until("window.__thinglab.state().text.includes('load.size = 6 N')").await;
+    let bent = "window.__thinglab.state().values.some(v => v.path === 'bridge.load.size' && v.number === 6)";
+    visit.until(bent).await;
+    // undone while it goes on, it is not done
+    let six = text_of(&state(&visit).await);
+    visit.script(&typed("7 N")).await;
+    visit.script("document.querySelector('[data-action=undo]').click()").await;
+    assert_eq!(text_of(&state(&visit).await), six);
+    // a hand that begins to drag goes on from what was typed
+    visit.script(&typed("8 N")).await;
+    let from = grip(&state(&visit).await, "bridge.top1");
+    drag(&visit, from, (from.0 + 12.0, from.1)).await;
+    visit.until("window.__thinglab.state().status.undo === 'move bridge.top1'").await;
+    visit.until("window.__thinglab.state().text.includes('load.size = 8 N')").await;
+    // what cannot be is refused beside the field
+    visit.script(&typed("-4 W")).await;
+    visit.until("document.querySelector('.inspector .error')").await;
+}
+
 /// A lattice of so many points a side, of which one diagonal is wanted longer than it can be, and a point apart.
 fn lattice(side: usize) -> String {
     let mut text = String::from("use geometry\napart: Point = (-30, -30)\n");
