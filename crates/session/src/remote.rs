@@ -258,13 +258,17 @@ impl Session {
         Ok((command, has_moved.then_some(steps)))
     }
 
-    /// Ends what [`Session::release_to_join`] began, where something moved: both are one step, or neither.
+    /// Ends what [`Session::release_to_join`] began, where something moved: both are one step, or neither. Where something
+    /// else was done meanwhile the steps stay.
     pub fn joined(&mut self, id: DocumentId, since: usize, is_done: bool) {
         let home = self.home(id);
         let (open, beside) = self.beside_others(home);
-        if is_done {
+        if is_done && open.done.len() <= since + 2 {
             open.one_step(since);
-        } else if apply::apply(open, &beside, &Command::Undo).is_ok() {
+        } else if !is_done
+            && open.done.len() == since + 1
+            && apply::apply(open, &beside, &Command::Undo).is_ok()
+        {
             open.undone.clear();
             self.renew_pane(id);
         }
