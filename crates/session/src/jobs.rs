@@ -79,7 +79,7 @@ pub enum LongAnswer {
     /// To [`LongQuestion::Elsewhere`].
     Elsewhere(Vec<Ghost>),
     /// To [`LongQuestion::Edit`].
-    Edited(Executed),
+    Edited(Box<Executed>),
     /// To [`LongQuestion::Map`]; or why there is none.
     Map(Result<FamilyMap, String>),
     /// To [`LongQuestion::Rehearsal`]: why it could not go on.
@@ -170,7 +170,7 @@ impl Desk {
         if open.done.last().is_some_and(|step| step.came.is_some()) {
             self.open = None;
         }
-        Some(LongAnswer::Edited(executed))
+        Some(LongAnswer::Edited(Box::new(executed)))
     }
 }
 

@@ -169,8 +169,8 @@ fn place_linked(
             hanging: hanging.iter().filter_map(index).collect(),
         };
         let mut cells = match net.given.len() {
-            0..=linked::MOST => linked::arranged(&net),
-            ..=gridded::MOST => gridded::gridded(&net, 2.0 * ROW),
+            many if many <= linked::MOST => linked::arranged(&net),
+            many if many <= gridded::MOST => gridded::gridded(&net, 2.0 * ROW),
             _ => continue,
         };
         if net.given.iter().all(Option::is_none) {

@@ -220,7 +220,7 @@ impl Session {
         let (state, mut planner) = match State::found(text, &before, &beside, plans, found) {
             Ok(made) => made,
             Err(plans) => {
-                open.planner.give_plans(plans);
+                open.planner.give_plans(*plans);
                 open.back_on_course();
                 return None;
             }

@@ -104,7 +104,7 @@ impl State {
         host: &dyn Host,
         plans: Plans,
         found: Found,
-    ) -> Result<(Self, Planner), Plans> {
+    ) -> Result<(Self, Planner), Box<Plans>> {
         let load = |name: &str| host.read(name);
         let lowered = match found.has_form {
             true => lang::lower_written(&text, &load, &before.lowered),
@@ -112,7 +112,7 @@ impl State {
         };
         let of = Structured::of(text, lowered, Some(before));
         if of.structure.slots.len() != found.values.numbers.len() {
-            return Err(plans);
+            return Err(Box::new(plans));
         }
         let has_form = found.has_form;
         let (mut state, planner) = of.planned(plans).holding(found).told(host);

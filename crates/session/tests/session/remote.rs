@@ -12,7 +12,7 @@ fn asked(worker: &mut Worker, desk: &Desk, edit: &LongEdit) -> Executed {
     worker.take(read(&written(&job)).expect("a job is plain data"));
     let answer = worker.answer(0).expect("an edit has an answer");
     match read::<LongAnswer>(&written(&answer)) {
-        Some(LongAnswer::Edited(executed)) => executed,
+        Some(LongAnswer::Edited(executed)) => *executed,
         other => panic!("not an edit's answer: {other:?}"),
     }
 }
