@@ -57,9 +57,7 @@ pub(crate) fn of<'a>(
     used: impl Iterator<Item = &'a File>,
     before: Option<Scale>,
 ) -> Counting {
-    let stated = stated(parse);
-    let with_units: Vec<NumberExpr> =
-        stated.iter().filter(|number| number.unit().is_some()).cloned().collect();
+    let with_units = stated_with_units(parse);
     let quantities: Vec<(f64, Dimension)> = with_units.iter().filter_map(quantity).collect();
     let has_unit = parse.outline().any(|(kind, _)| kind == SyntaxKind::UnitLine);
     let any = |is: fn(Dimension) -> bool| quantities.iter().any(|(_, d)| is(*d));
@@ -70,7 +68,7 @@ pub(crate) fn of<'a>(
     let writes_lengths = !has_unit
         && (any(is_of_the_sheet)
             || with_units.iter().chain(&read).any(joins_a_length)
-                && !has_bare_places(parse, &stated));
+                && !has_bare_places(parse, &stated(parse)));
     let usual = usual(parse, &with_units);
     let written = written_units(parse, &with_units);
     let customary = Customary::of(written.iter().map(|unit| &**unit));
@@ -313,11 +311,23 @@ pub(crate) fn stated(parse: &Parse) -> Vec<NumberExpr> {
     said(parse)
 }
 
+/// Returns those of them that have units. Only what holds a unit is looked at: many long texts have none.
+fn stated_with_units(parse: &Parse) -> Vec<NumberExpr> {
+    let file = parse.file();
+    let members = parse.holding(SyntaxKind::Unit).filter_map(|span| file.member_at(span));
+    let numbers = members.flat_map(|member| said_in::<NumberExpr>(member.syntax()));
+    numbers.filter(|number| number.unit().is_some()).collect()
+}
+
 /// Returns what a text says of one kind, checks and tolerances apart.
 fn said<N: AstNode>(parse: &Parse) -> Vec<N> {
+    said_in(&parse.syntax())
+}
+
+/// Returns what is said of one kind in a node.
+fn said_in<N: AstNode>(node: &SyntaxNode) -> Vec<N> {
     let mut found = Vec::new();
-    let root = parse.syntax();
-    let mut walk = root.preorder();
+    let mut walk = node.preorder();
     while let Some(event) = walk.next() {
         let WalkEvent::Enter(node) = event else { continue };
         match node.kind() {

@@ -42,7 +42,7 @@ impl Parse {
             Some((kind::Language::kind_from_raw(node.kind()), Span::new(start, at)))
         })
     }
-    /// Returns the bytes of every member at the top of the file that is of a kind or holds a node of it, in
+    /// Returns the bytes of every member at the top of the file that is of a kind or holds a node or token of it, in
     /// order. It costs less than to look for them.
     pub fn holding(&self, kind: SyntaxKind) -> impl Iterator<Item = Span> {
         let raw = rowan::SyntaxKind::from(kind);
@@ -53,7 +53,13 @@ impl Parse {
                 if node.kind() == raw {
                     return Some(span);
                 }
-                open.extend(node.children().filter_map(NodeOrToken::into_node));
+                for child in node.children() {
+                    match child {
+                        NodeOrToken::Node(node) => open.push(node),
+                        NodeOrToken::Token(token) if token.kind() == raw => return Some(span),
+                        NodeOrToken::Token(_) => {}
+                    }
+                }
             }
             None
         };
