@@ -9,6 +9,7 @@ use crate::lower::{Lowered, Lowerer, OWN};
 use crate::scope::Scope;
 use base::{Id, Name};
 use kernel::{ClassId, Constraint, Document, OriginId, Part, Search, Term};
+use std::cell::OnceCell;
 use std::collections::BTreeSet;
 use std::rc::Rc;
 use syntax::ast;
@@ -18,10 +19,38 @@ use syntax::ast;
 pub(crate) struct Used {
     /// So many classes come first: the language's own, and those that used texts declare.
     classes: usize,
-    /// Messages that speak of other classes, which may be others next time: by class and place.
+    /// What speaks of other classes, once that was asked for: few texts are followed by another.
+    others: OnceCell<Others>,
+}
+
+/// What of used texts speaks of other classes than theirs, which may be others next time.
+#[derive(Debug)]
+struct Others {
+    /// Messages: by class and place.
     messages: BTreeSet<(ClassId, usize)>,
-    /// Constraints that do.
+    /// Constraints.
     constraints: BTreeSet<(ClassId, usize)>,
+}
+
+impl Others {
+    fn of(document: &Document, classes: usize) -> Self {
+        let all = || document.classes.iter().take(classes);
+        let is_other = |term: &Term| !is_of_first(term, classes);
+        let messages = all().flat_map(|(id, class)| {
+            let others = class.messages.iter().enumerate().filter(|(_, m)| is_other(&m.answer));
+            others.map(move |(i, _)| (id, i))
+        });
+        let says_other = |c: &Constraint| {
+            let values = c.methods.iter().flat_map(|m| &m.values);
+            let mut terms = values.chain(c.within.as_deref()).chain([&*c.rule]);
+            terms.any(is_other)
+        };
+        let constraints = all().flat_map(|(id, class)| {
+            let others = class.constraints.iter().enumerate().filter(|(_, c)| says_other(c));
+            others.map(move |(i, _)| (id, i))
+        });
+        Self { messages: messages.collect(), constraints: constraints.collect() }
+    }
 }
 
 impl<'l> Lowerer<'l> {
@@ -57,26 +86,9 @@ impl<'l> Lowerer<'l> {
             && !self.kin.is_asked_by_used
             && self.diagnostics.iter().all(|d| d.place.file == OWN)
             && self.replacements.iter().all(|(scope, ..)| scope.file == OWN);
-        let classes = self.used_classes();
-        let document = &self.document;
-        let all = || document.classes.iter().take(classes);
-        let is_other = |term: &Term| !is_of_first(term, classes);
-        let messages = all().flat_map(|(id, class)| {
-            let others = class.messages.iter().enumerate().filter(|(_, m)| is_other(&m.answer));
-            others.map(move |(i, _)| (id, i))
-        });
-        let says_other = |c: &Constraint| {
-            let values = c.methods.iter().flat_map(|m| &m.values);
-            let mut terms = values.chain(c.within.as_deref()).chain([&*c.rule]);
-            terms.any(is_other)
-        };
-        let constraints = all().flat_map(|(id, class)| {
-            let others = class.constraints.iter().enumerate().filter(|(_, c)| says_other(c));
-            others.map(move |(i, _)| (id, i))
-        });
         is_plain.then(|| {
-            let (messages, constraints) = (messages.collect(), constraints.collect());
-            Rc::new(Used { classes, messages, constraints })
+            let classes = self.used_classes();
+            Rc::new(Used { classes, others: OnceCell::new() })
         })
     }
 
@@ -109,9 +121,10 @@ impl<'l> Lowerer<'l> {
             return false;
         };
         let class = scope.class();
+        let others = used.others(before);
         let was = before.document.classes[class].messages.get(index);
         let is = &mut self.document.classes[class].messages[index];
-        match was.filter(|was| was.name == is.name && !used.messages.contains(&(class, index))) {
+        match was.filter(|was| was.name == is.name && !others.messages.contains(&(class, index))) {
             Some(was) => {
                 is.answer = was.answer.clone();
                 // what is said here may be a list's class, which is made anew; what is not is found by the answer
@@ -134,10 +147,12 @@ impl<'l> Lowerer<'l> {
         };
         let class = scope.class();
         let index = self.document.classes[class].constraints.len();
+        let others = used.others(before);
         let was = before.document.classes[class].constraints.get(index);
         let place = self.origins.place(origin);
         let is_it = |was: &&Constraint| {
-            before.origins.place(was.origin) == place && !used.constraints.contains(&(class, index))
+            before.origins.place(was.origin) == place
+                && !others.constraints.contains(&(class, index))
         };
         let Some(was) = was.filter(is_it) else { return false };
         let mut constraint = Constraint { origin, ..was.clone() };
@@ -153,6 +168,10 @@ impl<'l> Lowerer<'l> {
 }
 
 impl Used {
+    /// What speaks of other classes in the text that this is of.
+    fn others(&self, of: &Lowered) -> &Others {
+        self.others.get_or_init(|| Others::of(&of.document, self.classes))
+    }
     /// Whether what stands here is of a class that a used text declares, as it is declared.
     fn has(&self, scope: &Scope) -> bool {
         let is_alone = scope.constants.is_empty() && scope.elements.is_empty();
