@@ -26,7 +26,10 @@ impl Lowered {
         let mut warnings = Vec::new();
         for (_, class) in self.document.classes.iter() {
             let mut latest: IndexMap<&Path, OriginId, BuildHasherDefault<Mixer>> =
-                IndexMap::default();
+                IndexMap::with_capacity_and_hasher(
+                    class.givens.len(),
+                    BuildHasherDefault::default(),
+                );
             for given in class.givens.iter().map(|given| &**given) {
                 let Given { path, origin, .. } = given;
                 let place = self.place(*origin);

@@ -8,6 +8,7 @@
 use crate::state::State;
 use crate::view::TextChange;
 use crate::words;
+use kernel::Part;
 use std::collections::BTreeSet;
 use syntax::ast::AstNode;
 
@@ -51,6 +52,12 @@ pub(crate) fn label_of_text(before: &State, after: &State) -> String {
             let document = &state.lowered.document;
             &document.classes[document.root].parts
         });
+        // most of them stand where they stood
+        let is_same = |(a, b): &(&Part, &Part)| a.name == b.name;
+        let head = own.iter().zip(others).take_while(is_same).count();
+        let (own, others) = (&own[head..], &others[head..]);
+        let tail = own.iter().rev().zip(others.iter().rev()).take_while(is_same).count();
+        let (own, others) = (&own[..own.len() - tail], &others[..others.len() - tail]);
         let known: BTreeSet<&base::Name> = others.iter().map(|part| &part.name).collect();
         let names = own.iter().map(|part| &part.name);
         names.filter(|name| !known.contains(name)).map(ToString::to_string).collect()
