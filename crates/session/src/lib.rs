@@ -60,6 +60,7 @@ pub mod remote;
 mod rules;
 mod session;
 mod sheet;
+mod shown;
 mod state;
 mod texts;
 mod tools;

@@ -425,12 +425,7 @@ impl<'a> Maker<'a> {
         let (document, structure) = (&self.state.lowered.document, &self.state.structure);
         let end = path.len();
         for part in structure.parts(thing).filter(|&p| !structure.is_unseen(document, p)) {
-            match structure.field_name(document, part) {
-                Some(name) => append(&mut path, name),
-                None => {
-                    let _ = write!(path, "[{}]", structure.things[part].field);
-                }
-            }
+            append_field(self.state, part, &mut path);
             self.work.open.push(Open::Thing(part, path.clone()));
             path.truncate(end);
         }
@@ -662,10 +657,32 @@ fn options(document: &Document, primitive: Primitive) -> Vec<String> {
 
 /// Returns the shortest path to a thing, the first declared of several.
 fn shortest_path(state: &State, thing: ThingId) -> String {
+    if !state.structure.is_merged(thing) {
+        let mut path = String::new();
+        append_path(state, thing, &mut path);
+        return path;
+    }
     let paths = state.structure.merged_with(thing).into_iter();
     let paths = paths.map(|t| state.structure.path(&state.lowered.document, t));
     let shortest = paths.min_by_key(|path| path.0.len());
     shortest.map_or_else(String::new, |path| path.to_string())
+}
+
+/// Writes the path to a thing as a [`Path`] is written: most rows have one of their own.
+fn append_path(state: &State, thing: ThingId, path: &mut String) {
+    let Some(owner) = state.structure.things[thing].owner else { return };
+    append_path(state, owner, path);
+    append_field(state, thing, path);
+}
+
+/// Adds the step that leads to a thing from what it is stored in.
+fn append_field(state: &State, thing: ThingId, path: &mut String) {
+    match state.structure.field_name(&state.lowered.document, thing) {
+        Some(name) => append(path, name),
+        None => {
+            let _ = write!(path, "[{}]", state.structure.things[thing].field);
+        }
+    }
 }
 
 /// Adds a step to the part of this name.
