@@ -25,6 +25,7 @@
 //! `edits`, `references`, `mentions`.
 mod alone;
 mod angles;
+mod answers;
 mod bindings;
 mod calls;
 mod checks;

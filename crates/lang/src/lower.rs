@@ -308,6 +308,11 @@ pub(crate) struct Lowerer<'l> {
     pub(crate) constraints: BTreeSet<(ClassId, Name)>,
     /// How many expressions are being lowered inside one another.
     pub(crate) depth: u32,
+    /// Whether what things of the document's top are merged with is known.
+    pub(crate) has_merged: bool,
+    /// How often something was left open that another reading may settle: a report that was not told, a message whose
+    /// worth was being found out.
+    pub(crate) open_readings: usize,
     /// While positive, nothing is reported.
     pub(crate) silent: u32,
     /// Products and quotients of the text's loops that may be meant otherwise: they are looked at once.
@@ -400,6 +405,8 @@ impl<'l> Lowerer<'l> {
             declared_classes: 0,
             repeated: Vec::new(),
             unrolled: 0,
+            has_merged: false,
+            open_readings: 0,
             silent: 0,
             read_in_turns: BTreeSet::new(),
             untaken: 0,
@@ -493,6 +500,7 @@ impl<'l> Lowerer<'l> {
         if is_told && self.said.insert((diagnostic.place, diagnostic.code)) {
             self.diagnostics.push(diagnostic);
         }
+        self.open_readings += usize::from(!is_told);
     }
     #[cold]
     #[inline(never)]

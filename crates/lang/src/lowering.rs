@@ -206,6 +206,7 @@ impl Lowerer<'_> {
                 }
                 continue;
             }
+            self.has_merged = true;
             if let Some((scope, each, from)) = self.define_one(pending, of) {
                 self.take_turns(&scope, &each, from);
                 waiting.push(self.begin_pending());

@@ -11,6 +11,7 @@ use crate::scope::Scope;
 use base::{Diagnostic, FileId, Name, Place, Span};
 use kernel::{
     ClassId, ClassKind, Count, Message, OriginId, Parameter, Part, Path, Primitive, Stay, Step,
+    Term,
 };
 use std::cell::OnceCell;
 use std::collections::BTreeSet;
@@ -61,6 +62,8 @@ pub(crate) struct Definition {
     pub(crate) loops: Vec<ast::For>,
     /// The elements of the answer where it is a list that is written out, once they were asked for.
     pub(crate) elements: OnceCell<Option<Rc<[Expr]>>>,
+    /// What it answers, and what that is worth, where it was read to find that out and is read alike once more.
+    pub(crate) read: OnceCell<(Rc<Term>, Kind)>,
 }
 
 /// The word that a `for` begins with.
@@ -701,9 +704,10 @@ impl Lowerer<'_> {
         let key = (class, message.name.clone());
         self.named_at.insert(key.clone(), Place { file: scope.file, span: word.span() });
         let (answer, loops) = (answer.clone(), loops.to_vec());
-        let elements = OnceCell::new();
+        let (elements, read) = (OnceCell::new(), OnceCell::new());
         let scope = Rc::new(scope.clone());
-        let definition = Rc::new(Definition { answer, scope: scope.clone(), loops, elements });
+        let definition =
+            Rc::new(Definition { answer, scope: scope.clone(), loops, elements, read });
         self.definitions.insert(key, definition.clone());
         let index = self.document.classes[class].messages.len();
         self.messages.insert((class, message.name.clone()), index);

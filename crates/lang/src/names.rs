@@ -3,16 +3,13 @@
 use crate::hints::MOST_SHOWN;
 use crate::kinds::Kind;
 use crate::lower::{Lowered, Lowerer, OWN};
-use crate::members::{Definition, FOR, FOR_AS_VALUE};
+use crate::members::{FOR, FOR_AS_VALUE};
 use crate::scope::{Constant, Element, Scope};
 use base::{Diagnostic, FileId, Name, Place, Span};
 use kernel::builtin;
 use kernel::{ClassId, ClassKind, Document, PartRef, PartRole, Path, Step, Term};
 use syntax::SyntaxKind;
 use syntax::ast::{self, AstNode, BinaryOp, Expr};
-
-/// How many expressions may stand inside one another before a message's worth is left open.
-const DEEPEST: u32 = 200;
 
 /// Beyond so many diagnostics no nearest name is looked for: each costs a look at every name.
 const MOST_GUESSES: usize = 100;
@@ -520,28 +517,6 @@ impl Lowerer<'_> {
         }
         let (definer, _) = self.find_message(class, name, None)?;
         Some(self.message_kind(definer, name))
-    }
-
-    /// Finds out what a message is worth, once.
-    pub(crate) fn message_kind(&mut self, definer: ClassId, name: &Name) -> Kind {
-        let key = (definer, name.clone());
-        if let Some(known) = self.message_kinds.get(&key) {
-            return known.clone().unwrap_or(Kind::Unknown);
-        }
-        if self.depth > DEEPEST {
-            return Kind::Unknown;
-        }
-        let Some(definition) = self.definitions.get(&key).cloned() else {
-            self.define_program_of(definer);
-            return self.message_kinds.get(&key).cloned().flatten().unwrap_or(Kind::Unknown);
-        };
-        let Definition { answer, scope, loops, .. } = &*definition;
-        self.message_kinds.insert(key.clone(), None);
-        self.silent += 1;
-        let kind = self.kind_of_answer(scope, loops, answer).unwrap_or(Kind::Unknown);
-        self.silent -= 1;
-        self.message_kinds.insert(key, Some(kind.clone()));
-        kind
     }
 
     pub(crate) fn class_at(&self, class: ClassId, path: &Path) -> Option<ClassId> {

@@ -5,7 +5,7 @@ use crate::hints::{is_a_unit, unit_before_equals};
 use crate::kinds::{Kind, measured};
 use crate::lower::Lowerer;
 use crate::lowering::Waiting;
-use crate::members::{Definition, Pending};
+use crate::members::Pending;
 use crate::scope::Scope;
 use crate::terms::code_for;
 use crate::trails::Trails;
@@ -115,26 +115,6 @@ impl Lowerer<'_> {
             }
         }
         None
-    }
-
-    fn define_answer(&mut self, scope: &Scope, index: usize, definition: &Definition) {
-        let class = scope.class();
-        let name = self.document.classes[class].messages[index].name.clone();
-        let wanted = self.message_kind(class, &name);
-        let Definition { answer, loops, .. } = definition;
-        match self.answer_of(scope, loops, answer, &wanted) {
-            Some(term) => {
-                self.speaks_of_no_thing(scope, &name, answer, &term);
-                self.document.classes[class].messages[index].answer = Rc::new(term);
-                if loops.is_empty() {
-                    self.tell_angle(scope, index, answer);
-                }
-            }
-            None => {
-                self.messages.shift_remove(&(class, name.clone()));
-                self.broken.insert((class, name));
-            }
-        }
     }
 
     pub(crate) fn define_value(

@@ -228,6 +228,31 @@ fn what_a_library_says_is_what_it_says_anew() {
     assert!(compared > 8, "{compared} of them have nothing wrong");
 }
 
+#[test]
+fn a_library_answers_what_it_answers_where_it_is_the_document() {
+    let answers = |lowered: &Lowered| -> BTreeMap<(String, String), String> {
+        let classes = lowered.document.classes.iter().filter(|(_, class)| !class.name.is_empty());
+        let all = classes.flat_map(|(_, class)| {
+            let answer = |m: &kernel::Message| {
+                ((class.name.to_string(), m.name.to_string()), format!("{:?}", m.answer))
+            };
+            class.messages.iter().map(answer)
+        });
+        all.collect()
+    };
+    let mut compared = 0;
+    for name in ["geometry", "contours", "circuits"] {
+        let text = library(name).expect("it is there");
+        let [own, used] =
+            [text, format!("use {name}")].map(|text| answers(&lower(&text, &library, None)));
+        for (message, answer) in &own {
+            compared += u32::from(used.contains_key(message));
+            assert_eq!(used.get(message), Some(answer), "{message:?} of {name}");
+        }
+    }
+    assert!(compared > 200, "{compared} are compared");
+}
+
 const BOXES: &str = "class Held { a: Real = 1 }
 class Box { held: Held  heavy => 2 * held.weight  constraint held.weight = 5 }
 ";
