@@ -311,13 +311,13 @@ fn Document(lab: Lab) -> impl IntoView {
                 <Refused lab=lab />
                 <Asked lab=lab />
                 <Recognition lab=lab />
-                <Draft lab=lab />
                 <Conflict lab=lab />
             </div>
             <Coach lab=lab />
             <Drawer lab=lab />
             <Splitter name="left" way=Way::Right least=160.0 most=560.0 />
             <div class="centre">
+                <Draft lab=lab />
                 <div class="stage">
                     <Rail lab=lab />
                     <Picture lab=lab />
