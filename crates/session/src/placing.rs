@@ -169,9 +169,9 @@ fn place_linked(
             hanging: hanging.iter().filter_map(index).collect(),
         };
         let mut cells = match net.given.len() {
-            many if many <= linked::MOST => linked::arranged(&net),
-            many if many <= gridded::MOST => gridded::gridded(&net, 2.0 * ROW),
-            _ => continue,
+            many if many > gridded::MOST => continue,
+            many if many > linked::MOST => gridded::gridded(&net, 2.0 * ROW),
+            _ => linked::arranged(&net),
         };
         if net.given.iter().all(Option::is_none) {
             let most = |axis: usize| cells.iter().fold(0.0, |most: f64, cell| most.max(cell[axis]));
@@ -326,7 +326,9 @@ pub(crate) fn keep_layout(
 ) -> (State, Planner) {
     // what a constraint speaks of is where that wants it
     let is_open = |slot: &SlotId| state.structure.given(*slot).is_none() && planner.is_lone(*slot);
-    let layout = state.structure.slots.iter().filter(|(_, slot)| slot.is_layout);
+    // a lane is told by what shares both places, which the command may be about
+    let layout =
+        state.structure.slots.iter().filter(|(_, slot)| slot.is_layout && slot.place.is_some());
     let open: Vec<SlotId> = layout.map(|(id, _)| id).filter(is_open).collect();
     if open.is_empty() {
         return (state, planner);

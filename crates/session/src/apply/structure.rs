@@ -234,8 +234,10 @@ fn carried_over(
             thing = before.structure.follow(DOCUMENT, &path).ok();
         }
         let was = thing.and_then(|t| before.structure.slot_of(t));
-        let is_kept =
-            |was: &SlotId| !anew.contains(&slot) || before.structure.given(*was).is_some();
+        // how far parts stand beside each other is told by what shares their places now
+        let is_lane = s.is_layout && s.place.is_none();
+        let is_told_anew = is_lane || anew.contains(&slot);
+        let is_kept = |was: &SlotId| !is_told_anew || before.structure.given(*was).is_some();
         if let Some(was) = was.filter(is_kept) {
             values.put(slot, before.values.get(was));
         }

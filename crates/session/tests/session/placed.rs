@@ -1,6 +1,7 @@
 //! Where is drawn what says no place.
 
 use crate::desk::{Desk, at};
+use base::number::hypot;
 use kernel::{Command, Path};
 
 /// Two resistors on a battery, and a voltmeter over the second, joined and nowhere placed.
@@ -78,7 +79,7 @@ fn parts_across_the_same_two_nodes_stand_side_by_side() {
         let [a, b] = ends(&mut desk, part);
         let lane = desk.number(&format!("{part}.lane"));
         // square to the way from lead to lead
-        let long = f64::hypot(b.0 - a.0, b.1 - a.1);
+        let long = hypot(b.0 - a.0, b.1 - a.1);
         (
             (a.0 + b.0) / 2.0 - lane * (b.1 - a.1) / long,
             (a.1 + b.1) / 2.0 + lane * (b.0 - a.0) / long,
@@ -86,12 +87,30 @@ fn parts_across_the_same_two_nodes_stand_side_by_side() {
     });
     for (n, one) in middles.iter().enumerate() {
         for other in &middles[..n] {
-            let apart = f64::hypot(one.0 - other.0, one.1 - other.1);
+            let apart = hypot(one.0 - other.0, one.1 - other.1);
             assert!(apart > 40.0, "{middles:?}");
         }
     }
     // the first goes straight on, and so does what shares one node alone
     assert_eq!([desk.number("battery.lane"), desk.number("wire.lane")], [0.0, 0.0]);
+}
+
+#[test]
+fn a_part_that_is_joined_by_hand_across_the_nodes_of_another_stands_beside_it() {
+    let mut desk = Desk::of("use circuits\ny down\nr1: Resistor\nr2: Resistor\n");
+    for end in ["a", "b"] {
+        let both = ["r1", "r2"].map(|part| at(&format!("{part}.{end}.node")));
+        desk.apply(&Command::Merge(both.to_vec())).expect("alike");
+    }
+    assert_eq!(
+        ["r1.lane", "r2.lane"].map(|lane| desk.number(lane)),
+        [0.0, 48.0],
+        "{}",
+        desk.text()
+    );
+    assert!(!desk.text().contains("lane"), "{}", desk.text());
+    desk.apply(&Command::Unmerge(at("r2.b.node"))).expect("it is merged");
+    assert_eq!(desk.number("r2.lane"), 0.0, "{}", desk.text());
 }
 
 /// A net of resistors, so many nodes wide and high, nowhere placed.
