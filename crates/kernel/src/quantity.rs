@@ -160,6 +160,13 @@ pub fn spelling_for(x: f64, quantity: Quantity<'_>, document: &Document) -> Stri
     if let Some(spelling) = written.filter(is_read) {
         return spelling.into();
     }
+    // what is written so is read so where no prefix belongs to the unit: `1.8e-5 mol/L`
+    let is_as_written = |s: &&str| {
+        s.contains(['*', '/']) && size(s) < READABLE.start && is_written_as(text, size(s))
+    };
+    if let Some(spelling) = written.filter(is_as_written) {
+        return spelling.into();
+    }
     // millions of light years are no easier to read as billions of terametres
     let other = spelling_of_text(x, quantity, document);
     match written {
@@ -450,6 +457,9 @@ fn prefixed(spelling: &str, size: impl Fn(&str) -> f64) -> String {
     {
         return spelling.into();
     }
+    if is_read_bare(stem, size(spelling)) {
+        return spelling.into();
+    }
     let Some(base) = units::unit(stem) else { return spelling.into() };
     let is_known = |unit: Unit, by: i8| {
         (unit.dimension, unit.mantissa) == (base.dimension, 1.0)
@@ -473,6 +483,27 @@ fn prefixed(spelling: &str, size: impl Fn(&str) -> f64) -> String {
         // below the smallest prefix that there is
         .or_else(smallest)
         .unwrap_or_else(|| spelling.into())
+}
+
+/// Returns true where a number of a product or quotient of units reads better as it is than with a prefix.
+///
+/// Prefixes belong to units of one symbol. 0.215 W/(m² K), 0.072 N/m and 0.2 m/s² are written so; a small one is kept for
+/// what has no power and one operator (5 mm/s, 1 mPa s, 8.85 pF/m), a large one for all but motion (4.2 kJ/(kg K)).
+fn is_read_bare(unit: &str, size: f64) -> bool {
+    let operators = unit.matches(['*', '/']).count();
+    // expansions are told in micrometres by metre and kelvin
+    if operators == 0 || unit == "m/m/K" {
+        return false;
+    }
+    let has_power = unit.contains('^');
+    let is_motion = has_power && unit.starts_with("m/");
+    if is_motion || size < 1.0 && operators > 1 {
+        return true;
+    }
+    let least = if has_power { 1e-3 } else { 1e-2 };
+    // as it is shown, so that 0.9999999 is one
+    let shown = significant(size, DIGITS).parse::<f64>().unwrap_or_default();
+    (least..1.0).contains(&shown)
 }
 
 /// Returns a number of SI in the document's base units. Powers of ten are shifted, not multiplied.
