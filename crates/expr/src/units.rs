@@ -385,18 +385,46 @@ pub fn read_quantity(number: &str, spelling: &str) -> Option<(f64, Dimension)> {
 
 impl Unit {
     /// Reads a number written in this unit and returns it in SI.
+    ///
+    /// A number of eighteen or nineteen digits is read more exactly than a number of base units is kept, so that each of
+    /// these can be written in every unit.
     pub fn read(self, number: &str) -> Option<f64> {
         if self.mantissa == 1.0 {
             return shifted(number, i32::from(self.exponent));
         }
+        if let Some(exact) = self.read_many_digits(number) {
+            return Some(exact);
+        }
         let scaled = number.parse::<f64>().ok()? * self.mantissa;
         shifted(&shortest(scaled), i32::from(self.exponent))
+    }
+    /// Reads a number of eighteen or nineteen digits: the number nearest to its product with the factor as that is written.
+    fn read_many_digits(self, number: &str) -> Option<f64> {
+        if number.len() < 18 {
+            return None;
+        }
+        let (sign, digits) = number.strip_prefix('-').map_or(("", number), |rest| ("-", rest));
+        let (n, n_power) = whole(digits)?;
+        if !(10_u128.pow(17)..10_u128.pow(19)).contains(&n) {
+            return None;
+        }
+        let (factor, power) = whole(&shortest(self.mantissa))?;
+        let product = n.checked_mul(factor)?;
+        shifted(&format!("{sign}{product}"), n_power + power + i32::from(self.exponent))
     }
     /// Returns a number in SI as one in this unit: what [`Unit::read`] reads back, rounding aside.
     pub fn show(self, in_si: f64) -> Option<f64> {
         let shown = shifted(&shortest(in_si), -i32::from(self.exponent))?;
         Some(shown / self.mantissa)
     }
+}
+
+/// Reads a decimal as a whole number times a power of ten.
+fn whole(number: &str) -> Option<(u128, i32)> {
+    let (digits, power) = number.split_once('e').unwrap_or((number, "0"));
+    let (before, behind) = digits.split_once('.').unwrap_or((digits, ""));
+    let power = power.parse::<i32>().ok()? - i32::try_from(behind.len()).ok()?;
+    Some((format!("{before}{behind}").parse().ok()?, power))
 }
 
 /// Reads a decimal times a power of ten, correctly rounded.

@@ -105,13 +105,20 @@ pub(crate) fn write_number(
         };
         let Some(shown) = unit.show(to_si(document, x, dimension)) else { continue };
         let read = |text: &str| unit.read(text).map(|si| from_si(document, si, dimension));
-        if let Some(text) = near(shown, |text| read(text).map(f64::to_bits) == Some(x.to_bits())) {
+        let is_it = |text: &str| read(text).map(f64::to_bits) == Some(x.to_bits());
+        if let Some(text) = near(shown, is_it).or_else(|| in_many_digits(shown, x, read)) {
             return format!("{text} {spelling}");
         }
     }
     let read = |text: &str| text.parse().ok().map(|x| from_bare(document, x, dimension));
     let bare = to_bare(document, x, dimension);
+    let written = || {
+        let spelling = written?;
+        let unit = units::unit(spelling).filter(|u| u.dimension == dimension)?;
+        Some(format!("{} {spelling}", shortest(unit.show(to_si(document, x, dimension))?)))
+    };
     near(bare, |text| read(text).map(f64::to_bits) == Some(x.to_bits()))
+        .or_else(written)
         .unwrap_or_else(|| shortest(bare))
 }
 
@@ -142,6 +149,34 @@ fn near(x: f64, reads: impl Fn(&str) -> bool) -> Option<String> {
             }
         }
         (up, down) = (up.next_up(), down.next_down());
+    }
+    None
+}
+
+/// Returns a decimal next to `shown` that reads as `x`, with more digits than a number keeps: not every one has a number
+/// of another unit that reads as it does.
+fn in_many_digits(shown: f64, x: f64, read: impl Fn(&str) -> Option<f64>) -> Option<String> {
+    let (digits, power) = format!("{:.17e}", shown.abs())
+        .split_once('e')
+        .map(|(d, p)| (d.replace('.', "").parse::<i64>(), p.parse::<i32>()))?;
+    let (digits, power) = (digits.ok()?, power.ok()?);
+    let decimals =
+        usize::try_from(17_i32.checked_sub(power)?).ok().filter(|d| (1..40).contains(d))?;
+    let sign = if shown < 0.0 { "-" } else { "" };
+    let text = |digits: i64| {
+        let all = format!("{digits:0>width$}", width = decimals + 1);
+        let (whole, parts) = all.split_at(all.len() - decimals);
+        format!("{sign}{whole}.{parts}").trim_end_matches('0').to_string()
+    };
+    let (mut low, mut high) = (digits - 1000, digits + 1000);
+    while low <= high {
+        let middle = low + (high - low) / 2;
+        let text = text(middle);
+        let is = read(&text)?;
+        if is.to_bits() == x.to_bits() {
+            return Some(text);
+        }
+        (low, high) = if is.abs() < x.abs() { (middle + 1, high) } else { (low, middle - 1) };
     }
     None
 }

@@ -272,7 +272,7 @@ impl Writer<'_> {
         let after = |each: &Member| Spot::After(each.syntax().clone());
         for member in members.about(path).into_iter().rev() {
             if let Some(each) = repeated.filter(|e| e.span().start > member.span().start) {
-                return self.add(after(each), path, value);
+                return self.add((after(each), body.owner), path, value);
             }
             match member {
                 Member::Assign(assign) => {
@@ -303,7 +303,8 @@ impl Writer<'_> {
                 _ => {}
             }
         }
-        self.add(repeated.map_or_else(|| body.end.clone(), after), path, value);
+        let spot = repeated.map_or_else(|| body.end.clone(), after);
+        self.add((spot, body.owner), path, value);
     }
 
     /// Writes a value that is all or a coordinate of what an expression says, if that can be told.
@@ -382,16 +383,16 @@ impl Writer<'_> {
         let written = part.value().and_then(ast::Value::expr);
         if names > 1 {
             // the others keep what they share
-            return self.add(Spot::After(part.syntax().clone()), path, value);
+            return self.add((Spot::After(part.syntax().clone()), body.owner), path, value);
         }
         if let Some(written) = &written {
             if !self.write_inside(written, class, &rest.0, value) {
-                self.add(Spot::After(part.syntax().clone()), path, value);
+                self.add((Spot::After(part.syntax().clone()), body.owner), path, value);
             }
             return;
         }
         if let Some(Step::Index(_) | Step::Last | Step::Owner) = rest.0.first() {
-            return self.add(body.end.clone(), path, value);
+            return self.add((body.end.clone(), body.owner), path, value);
         }
         let inner = Body { owner: class, end: Spot::EndOf(part.syntax().clone()) };
         let members = part.body().into_iter().flat_map(|b| b.members());
@@ -461,6 +462,10 @@ impl Writer<'_> {
                 let text = self.number(*x, value, unit.as_ref().map(ast::Word::text));
                 self.edits.push(edit::replace(written.syntax(), &text));
             }
+            (Expr::Unary(_), Literal::Number(x)) if let Some(unit) = unit_of(written) => {
+                let text = self.number(*x, value, Some(&unit));
+                self.edits.push(edit::replace(written.syntax(), &text));
+            }
             _ => self.replace(written.syntax(), value),
         }
     }
@@ -491,9 +496,33 @@ impl Writer<'_> {
         }
     }
 
-    fn add(&mut self, spot: Spot, path: &Path, value: Value<'_>) {
-        let text = format!("{path} = {}", self.text(value));
+    /// Adds a member to a body of things of a class, if that is known.
+    fn add(&mut self, (spot, owner): (Spot, Option<ClassId>), path: &Path, value: Value<'_>) {
+        let unit = || self.unit_of_default(owner?, path);
+        let text = match value.literal {
+            Literal::Number(x) if let Some(unit) = unit() => self.number(*x, value, Some(&unit)),
+            _ => self.text(value),
+        };
+        let text = format!("{path} = {text}");
         self.added.entry(spot).or_default().push(text);
+    }
+
+    /// Returns the unit in which a class gives what has none of its own, a share in percent.
+    fn unit_of_default(&self, owner: ClassId, path: &Path) -> Option<Name> {
+        let mut begins = 0..path.0.len();
+        begins.find_map(|at| {
+            let (above, below) = path.0.split_at(at);
+            let class = self.lowered.class_at(owner, &Path(above.to_vec()))?;
+            let mut line = self.document.upwards(class);
+            let givens = |class: ClassId| self.document.classes[class].givens.iter();
+            let given = line.find_map(|class| givens(class).find(|g| g.path.0 == below))?;
+            let written = self.lowered.written(given.origin);
+            let unit = written
+                .trim_start_matches(|c: char| c == '-' || c == '.' || c.is_ascii_digit())
+                .trim();
+            let read = expr::units::unit(unit).filter(|_| !unit.is_empty())?;
+            read.dimension.is_none().then(|| Name::new(unit))
+        })
     }
 
     fn dimension(&self, class: Option<ClassId>) -> Dimension {

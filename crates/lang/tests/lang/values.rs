@@ -192,6 +192,65 @@ fn written_numbers_read_back_bit_for_bit() {
     }
 }
 
+#[test]
+fn what_is_written_anew_keeps_its_unit() {
+    let texts = [
+        ("rate: Real = 3 %", "%"),
+        ("rate: Real = -3%", "%"),
+        ("traces: Real = 40 ppm", "ppm"),
+        ("a: Angle = 30 deg", "deg"),
+        ("a: Length = 3 ft", "ft"),
+        ("a: Velocity = 55 mph", "mph"),
+        ("a: Pressure = 30 psi", "psi"),
+        ("a: Temperature = 300 K", "K"),
+        ("a: Voltage = -3 mV", "mV"),
+    ];
+    let mut seed = 1_u64;
+    for (text, unit) in texts {
+        let lowered = right(text);
+        let path =
+            at(text.split(": ").next().unwrap_or_default().lines().last().unwrap_or_default());
+        for _ in 0..200 {
+            seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+            let x = (seed >> 11) as f64 / (1_u64 << 53) as f64 * 0.7 + 0.01;
+            let edits = write_values(&lowered, &[(path.clone(), Literal::Number(x))]);
+            let written = syntax::edit::apply(text, &edits);
+            assert!(written.ends_with(&format!(" {unit}")), "{x} in {written}");
+            assert_eq!(reread(&written, &lowered), x.to_bits(), "{x} in {written}");
+        }
+    }
+}
+
+#[test]
+fn a_share_that_a_class_gives_in_percent_is_written_so() {
+    let class = "class Loan { rate: Real = 3 %  turn: Angle = 1 turn }\n";
+    assert_written(
+        &format!("{class}a: Loan\nb: Loan {{ rate = -4% }}"),
+        &[("a.rate", Literal::Number(0.025)), ("b.rate", Literal::Number(0.045))],
+        &format!("{class}a: Loan {{ rate = 2.5 % }}\nb: Loan {{ rate = 4.5 % }}"),
+    );
+    let bank = "class Bank { loan: Loan { rate = 3% } }\n";
+    assert_written(
+        &format!("{class}{bank}c: Bank"),
+        &[("c.loan.rate", Literal::Number(0.0252))],
+        &format!("{class}{bank}c: Bank {{ loan.rate = 2.52 % }}"),
+    );
+}
+
+#[test]
+fn a_small_number_of_a_quotient_is_shown_as_it_is_written() {
+    let lowered = right("");
+    let shown = |x, class: &str, written| {
+        let dimension = expr::dimension::Dimension::by_name(class).expect("it is a quantity");
+        show_quantity(x, Quantity { dimension, class, written }, &lowered.document).with_unit()
+    };
+    assert_eq!(shown(0.018, "Concentration", "1.8e-5 mol/L"), "0.000018 mol/L");
+    assert_eq!(shown(0.036, "Concentration", "1.8e-5 mol/L"), "0.036 mol/m^3");
+    assert_eq!(shown(0.215, "HeatTransferCoefficient", ""), "0.215 W/m^2/K");
+    // a unit of one symbol has a prefix for it
+    assert_eq!(shown(1e-14, "Current", "1e-14 A"), "10 fA");
+}
+
 fn typed(text: &str, class: &str, document: &str) -> Result<Literal, &'static str> {
     let lowered = lower(document);
     let class = lowered.document.class_named(class).expect("it is declared");
