@@ -91,7 +91,7 @@ fn make_body(maker: &mut Maker<'_>, class: ClassId) -> Body {
 }
 
 /// Tests whether a body may have so many things more; reports it once where it may not.
-fn has_room(maker: &mut Maker<'_>, body: &Body, more: usize, origin: OriginId) -> bool {
+pub(super) fn has_room(maker: &mut Maker<'_>, body: &Body, more: usize, origin: OriginId) -> bool {
     maker.copied = maker.copied.saturating_add(more);
     let is_within = body.len().saturating_add(more) <= MOST_THINGS;
     let fits = is_within && maker.copied <= MOST_COPIES;

@@ -1,8 +1,9 @@
 //! Given values on their way down: a value for a path in, a value for each primitive part out.
 
 use super::body::Body;
+use super::fill::has_room;
 use super::grown::Shared;
-use super::{FaultKind, Maker};
+use super::{FaultKind, MOST_COPIES, Maker};
 use crate::class::{ClassId, ClassKind};
 use crate::document::{Document, PartRef};
 use crate::path::{Path, Step};
@@ -63,6 +64,10 @@ pub(super) fn shares<'d>(
 
 /// Puts a given value over what the parts of a thing have.
 pub(super) fn put<'d>(maker: &mut Maker<'d>, body: &mut Body, thing: ThingId, b: Binding<'d>) {
+    if maker.copied > MOST_COPIES {
+        has_room(maker, body, 0, maker.givens[b.given.value].origin);
+        return;
+    }
     match maker.document.classes[body.things[thing].class].kind {
         ClassKind::Primitive(_) | ClassKind::Reference(_) | ClassKind::Set(_) => {
             if b.path.is_empty() {
@@ -225,6 +230,19 @@ fn is_written(list: &Term) -> bool {
     }
 }
 
+/// How many things take as much room as one level of a term.
+const LEVEL: usize = 2;
+
+/// Returns how many names follow one another in a path.
+fn depth(mut term: &Term) -> usize {
+    let mut levels = 0;
+    while let Term::Send { to, .. } = term {
+        term = to;
+        levels += 1;
+    }
+    levels
+}
+
 /// Returns what a part gets of a value for the whole: by position, by name, or by asking for it.
 ///
 /// Fields of a thing have a name, elements of a list have none.
@@ -252,6 +270,11 @@ fn share_of_whole(
         (other, None) => copied(element(other, part)),
     };
     let (origin, of_class) = (*origin, *of_class);
+    if of_copy {
+        // each level of what is copied has a term of its own
+        let levels = depth(&term).saturating_sub(usize::from(name.is_none()));
+        maker.copied = maker.copied.saturating_add(LEVEL * levels);
+    }
     let term = Rc::new(term);
     let value = maker.givens.push(GivenTerm { term, origin, of_class, of_copy });
     maker.shared.push(Shared { value, whole, part });
