@@ -245,9 +245,16 @@ fn while_anchored(
     if anchors.is_empty() {
         return refusal;
     }
-    let anchors = words::slots_listed(state, &anchors);
-    let are = if anchors.len() == 1 { "is" } else { "are" };
-    let message = format!("{} while {} {are} anchored", refusal.message, words::listed(&anchors));
+    let (constants, others): (Vec<SlotId>, Vec<SlotId>) =
+        anchors.into_iter().partition(|&slot| state.is_constant(slot));
+    let told = [(constants, "constant"), (others, "anchored")].into_iter();
+    let told = told.filter(|(slots, _)| !slots.is_empty()).map(|(slots, held)| {
+        let names = words::slots_listed(state, &slots);
+        let are = if names.len() == 1 { "is" } else { "are" };
+        format!("{} {are} {held}", words::listed(&names))
+    });
+    let told: Vec<String> = told.collect();
+    let message = format!("{} while {}", refusal.message, told.join(" and "));
     Refusal { message, ..refusal }
 }
 

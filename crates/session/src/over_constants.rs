@@ -10,7 +10,7 @@ use crate::session::thing_at;
 use crate::state::State;
 use crate::view::{Change, Refusal};
 use crate::words;
-use kernel::{Command, Literal, Path, SlotId, Step, ThingId};
+use kernel::{Command, Literal, Path, ThingId};
 
 /// Sets some parts, those that are given by expressions of constants in their text; nothing where none is.
 pub(crate) fn set(
@@ -60,19 +60,8 @@ fn is_of_constants(state: &State, part: ThingId) -> bool {
             return false;
         }
         let (_, read) = evaluator.listening(|| evaluator.evaluate(value, instance.owner));
-        !read.is_empty() && read.iter().all(|slot| is_constant(state, *slot))
+        !read.is_empty() && read.iter().all(|slot| state.is_constant(*slot))
     })
-}
-
-fn is_constant(state: &State, slot: SlotId) -> bool {
-    let path = state.slot_path(slot);
-    let owner = state.structure.things[state.structure.slots[slot].thing].owner;
-    match (path.0.last(), owner) {
-        (Some(Step::Part(name)), Some(owner)) => {
-            state.lowered.is_constant(state.structure.things[owner].class, name)
-        }
-        _ => false,
-    }
 }
 
 /// Has the text give parts these values where it gives expressions.

@@ -3,7 +3,7 @@
 
 use crate::state::State;
 use crate::words::{command_label, constraint_name, constraint_path, rule_alone, source_name};
-use kernel::{Command, ConstraintInstance, DOCUMENT, Path, Step};
+use kernel::{Command, ConstraintInstance, DOCUMENT, Path, SlotId, Step};
 use plan::Source;
 
 /// The longest rule that is told, in letters.
@@ -21,6 +21,22 @@ pub(crate) fn told(state: &State, source: Source) -> Option<String> {
 /// Returns what constraints are called.
 pub(crate) fn all_told(state: &State, sources: &[Source]) -> Vec<String> {
     sources.iter().filter_map(|&source| told(state, source)).collect()
+}
+
+/// Says what holds anchored places, those that the text declares as constants apart: `the constant g`, `the anchor of p`.
+pub(crate) fn anchors_told(state: &State, anchors: &[SlotId]) -> Vec<String> {
+    let mut told = Vec::new();
+    for &anchor in anchors {
+        let place = state.place_path(anchor);
+        let words = match state.is_constant(anchor) {
+            true => format!("the constant {place}"),
+            false => format!("the anchor of {place}"),
+        };
+        if !told.contains(&words) {
+            told.push(words);
+        }
+    }
+    told
 }
 
 /// Returns what a constraint says that has no name, in quotes; nothing where it has one, or says too much.

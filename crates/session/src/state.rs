@@ -224,6 +224,20 @@ impl State {
     pub(crate) fn slot_path(&self, slot: SlotId) -> kernel::Path {
         self.structure.path(&self.lowered.document, self.structure.slots[slot].thing)
     }
+    /// Returns the path of the place that a slot is a coordinate of, else its own.
+    pub(crate) fn place_path(&self, slot: SlotId) -> kernel::Path {
+        let s = &self.structure.slots[slot];
+        self.structure.path(&self.lowered.document, s.place.unwrap_or(s.thing))
+    }
+    /// Returns true for what its class, or the text, declares as a `constant`.
+    pub(crate) fn is_constant(&self, slot: SlotId) -> bool {
+        let thing = &self.structure.things[self.structure.slots[slot].thing];
+        let path = self.slot_path(slot);
+        let (Some(kernel::Step::Part(name)), Some(owner)) = (path.0.last(), thing.owner) else {
+            return false;
+        };
+        self.lowered.is_constant(self.structure.things[owner].class, name)
+    }
 }
 
 /// What a copy of a document found of a text that an edit led to.

@@ -192,16 +192,19 @@ const FEW: usize = 4;
 pub(crate) fn contradiction(open: &Open, c: &Contradiction) -> ContradictionView {
     let state = &open.state;
     let constraints = names(open, &c.constraints);
-    let anchors: Vec<String> = c.anchors.iter().map(|&a| place(open, a)).collect();
+    let anchors: Vec<String> = c.anchors.iter().map(|&a| state.place_path(a).to_string()).collect();
     let mut all = rules::all_told(state, &c.constraints);
-    all.extend(anchors.iter().map(|a| format!("the anchor of {a}")));
+    all.extend(rules::anchors_told(state, &c.anchors));
     let list = words::listed(&all);
     let (decided, message) = match (c.certainty, all.len()) {
-        (Certainty::Contradiction, 1) => (true, format!("{list} cannot hold")),
+        (Certainty::Contradiction, 1) => {
+            let domains = domains(state, &c.constraints).unwrap_or_default();
+            (true, format!("{list} cannot hold{domains}"))
+        }
         (Certainty::Contradiction, _) => {
             let proof = c.proof.as_ref().and_then(|p| combination(open, p));
-            let proof = proof.map_or(String::new(), |p| format!(": {p}"));
-            (true, format!("{list} contradict each other{proof}"))
+            let proof = proof.map(|p| format!(": {p}")).or_else(|| domains(state, &c.constraints));
+            (true, format!("{list} contradict each other{}", proof.unwrap_or_default()))
         }
         (Certainty::NoSolution { starts }, count) => {
             let together = if count == 1 { "" } else { " together" };
@@ -249,7 +252,10 @@ pub(crate) fn contradiction(open: &Open, c: &Contradiction) -> ContradictionView
             let sides = sides.map_or(String::new(), |sides| format!("; then {sides}"));
             Some(format!("delete {name} or switch it off{sides}"))
         }
-        Repair::LetGo { slot } => Some(format!("let go of {}", place(open, slot))),
+        // what is constant is not to be given up for a rule
+        Repair::LetGo { slot } | Repair::Change { slot, .. } if state.is_constant(slot) => None,
+        Repair::Move { ref to } if to.iter().any(|(slot, _)| state.is_constant(*slot)) => None,
+        Repair::LetGo { slot } => Some(format!("let go of {}", state.place_path(slot))),
         Repair::Change { slot, to } => Some(set(slot, to)),
         Repair::Move { ref to } if to.len() <= FEW => {
             let each: Vec<String> = to.iter().map(|&(slot, to)| set(slot, to)).collect();
@@ -265,6 +271,29 @@ pub(crate) fn contradiction(open: &Open, c: &Contradiction) -> ContradictionView
         repairs.push(label);
     }
     ContradictionView { constraints, anchors, decided, message, repairs, choices }
+}
+
+/// Says between which whole numbers some constraints have to hold: `: a, b, c are in 1..3`; nothing where each may be any.
+fn domains(state: &State, constraints: &[plan::Source]) -> Option<String> {
+    let mut by_range: Vec<((i64, i64), Vec<SlotId>)> = Vec::new();
+    for slot in words::read_by(state, constraints) {
+        let Some(&range) = state.structure.ranges.get(&slot) else { continue };
+        match by_range.iter_mut().find(|known| known.0 == range) {
+            Some(known) => known.1.push(slot),
+            None => by_range.push((range, vec![slot])),
+        }
+    }
+    let told = by_range.iter().map(|((low, high), slots)| {
+        let names = words::slots_listed(state, slots);
+        let are = if names.len() == 1 { "is" } else { "are" };
+        let few = words::listed(&names[..names.len().min(FEW)]);
+        match names.len().checked_sub(FEW).filter(|more| *more > 0) {
+            Some(more) => format!("{few} and {more} more {are} in {low}..{high}"),
+            None => format!("{few} {are} in {low}..{high}"),
+        }
+    });
+    let told: Vec<String> = told.collect();
+    (!told.is_empty()).then(|| format!(": {}", told.join(", ")))
 }
 
 /// A side of a rule comes to nothing where it is a smaller part than this of the other.
@@ -333,7 +362,7 @@ fn mending(open: &Open, repair: &Repair) -> Option<Command> {
         }
         Repair::LeaveOut { .. } => None,
         Repair::LetGo { slot } => {
-            Some(Command::Anchor { path: parse_path(&place(open, slot))?, held: false })
+            Some(Command::Anchor { path: state.place_path(slot), held: false })
         }
         Repair::Change { slot, to } => Some(Command::Set(vec![set(slot, to)])),
         Repair::Move { ref to } => {
@@ -428,11 +457,4 @@ fn combination(open: &Open, proof: &Combination) -> Option<String> {
     let against = rules::told(&open.state, proof.against)?;
     let (said, denied) = (says(proof.says), says(proof.denies));
     (!sum.is_empty()).then(|| format!("{sum} says {said}, {against} says {denied}"))
-}
-
-/// Returns the path of the place that a slot is a coordinate of, else its own.
-fn place(open: &Open, slot: SlotId) -> String {
-    let s = &open.state.structure.slots[slot];
-    let thing = s.place.unwrap_or(s.thing);
-    open.state.structure.path(&open.state.lowered.document, thing).to_string()
 }

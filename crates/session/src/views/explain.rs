@@ -103,7 +103,7 @@ fn why(open: &Open, path: &Path) -> Explanation {
         ([], true) => format!("{opening}."),
         ([], false) => format!("{opening}: {}.", decided_by(&steps)),
         ([only], true) if slots == [only.slot] && state.slot_path(only.slot) == *path => {
-            format!("{opening}: it {}.", held_by(only.kind, 1))
+            format!("{opening}: it {}.", held_by((only.kind, open.state.is_constant(only.slot)), 1))
         }
         (_, _) => format!("{opening}, because {}.", enumerated(&reasons(open, &roots))),
     };
@@ -213,27 +213,30 @@ fn judged(
 /// Says where values begin, those that are held alike together.
 fn reasons(open: &Open, roots: &[Root]) -> Vec<String> {
     const MOST: usize = 6;
-    let mut kinds: Vec<RootKind> = Vec::new();
+    let kind = |root: &Root| (root.kind, open.state.is_constant(root.slot));
+    let mut kinds: Vec<(RootKind, bool)> = Vec::new();
     for root in roots {
-        if !kinds.contains(&root.kind) {
-            kinds.push(root.kind);
+        if !kinds.contains(&kind(root)) {
+            kinds.push(kind(root));
         }
     }
-    let of_kind = |kind: RootKind| {
-        let its: Vec<&Root> = roots.iter().filter(|r| r.kind == kind).collect();
+    let of_kind = |of: (RootKind, bool)| {
+        let its: Vec<&Root> = roots.iter().filter(|r| kind(r) == of).collect();
         let named =
             |r: &&Root| format!("{} = {}", open.state.slot_path(r.slot), value(open, r.slot));
         let mut names: Vec<String> = its.iter().take(MOST).map(named).collect();
         if its.len() > MOST {
             names.push(format!("{} more", its.len() - MOST));
         }
-        format!("{} {}", enumerated(&names), held_by(kind, its.len()))
+        format!("{} {}", enumerated(&names), held_by(of, its.len()))
     };
     kinds.into_iter().map(of_kind).collect()
 }
 
-fn held_by(kind: RootKind, number: usize) -> &'static str {
+fn held_by((kind, is_constant): (RootKind, bool), number: usize) -> &'static str {
     match (kind, number) {
+        (RootKind::Anchored, 1) if is_constant => "is constant",
+        (RootKind::Anchored, _) if is_constant => "are constant",
         (RootKind::Anchored, 1) => "is anchored",
         (RootKind::Anchored, _) => "are anchored",
         (RootKind::Given, 1) => "is given in the text",

@@ -1,6 +1,7 @@
 //! Why a thing does not move, in words.
 
 use crate::document::Open;
+use crate::state::State;
 use crate::texts::Texts;
 use crate::view::HeldView;
 use crate::{rules, words};
@@ -11,7 +12,8 @@ use plan::Source;
 #[derive(PartialEq)]
 struct Hold {
     constraints: Vec<Source>,
-    anchors: Vec<String>,
+    /// One coordinate of each anchored place.
+    anchors: Vec<SlotId>,
 }
 
 /// Says what holds the thing at a path; nothing where it can move, or where there is none.
@@ -20,11 +22,6 @@ pub(crate) fn view(open: &mut Open, about: &Path) -> Option<HeldView> {
     let thing = words::find(&state, about).ok()?;
     let slots = state.structure.slots_under(thing);
     let numbers = slots.into_iter().filter(|&s| state.structure.slots[s].primitive.is_number());
-    let place = |slot: SlotId| {
-        let thing = state.structure.slots[slot].place;
-        let thing = thing.unwrap_or(state.structure.slots[slot].thing);
-        state.structure.path(&state.lowered.document, thing).to_string()
-    };
     let mut texts = Texts::new(&state.lowered.document, &state.structure);
     let mut holds: Vec<(Hold, Vec<SlotId>)> = Vec::new();
     let mut loose = Vec::new();
@@ -35,7 +32,12 @@ pub(crate) fn view(open: &mut Open, about: &Path) -> Option<HeldView> {
         };
         let mut hold = Hold { constraints: Vec::new(), anchors: Vec::new() };
         by.constraints.into_iter().for_each(|source| push_new(&mut hold.constraints, source));
-        by.anchors.into_iter().for_each(|anchor| push_new(&mut hold.anchors, place(anchor)));
+        for anchor in by.anchors {
+            let is_of_other = |&a: &SlotId| state.place_path(a) != state.place_path(anchor);
+            if hold.anchors.iter().all(is_of_other) {
+                hold.anchors.push(anchor);
+            }
+        }
         match holds.iter_mut().find(|known| known.0 == hold) {
             Some(known) => known.1.push(slot),
             None => holds.push((hold, vec![slot])),
@@ -51,10 +53,13 @@ pub(crate) fn view(open: &mut Open, about: &Path) -> Option<HeldView> {
         let names = words::listed(&names);
         let by = words::listed(&rules::all_told(&state, &hold.constraints));
         let reason = match (hold.constraints.is_empty(), hold.anchors.is_empty()) {
+            (true, _) if slots.iter().all(|&slot| state.is_constant(slot)) => {
+                format!("{is} constant")
+            }
             (true, _) => format!("{is} anchored"),
             (false, true) => format!("held by {by}"),
             (false, false) => {
-                format!("held by {by}, and by the anchor of {}", words::listed(&hold.anchors))
+                format!("held by {by}, and by {}", held_at(&state, &hold.anchors))
             }
         };
         sentences.push(format!("{names} {moves} not move: {reason}"));
@@ -69,9 +74,28 @@ pub(crate) fn view(open: &mut Open, about: &Path) -> Option<HeldView> {
     for (hold, _) in holds {
         let names = hold.constraints.iter().filter_map(|&s| words::source_name(&state, s));
         names.for_each(|name| push_new(&mut constraints, name));
-        hold.anchors.into_iter().for_each(|path| push_new(&mut anchors, path));
+        let paths = hold.anchors.iter().map(|&a| state.place_path(a).to_string());
+        paths.for_each(|path| push_new(&mut anchors, path));
     }
     Some(HeldView { message: sentences.join("; "), constraints, anchors })
+}
+
+/// Names anchored places in a row, constants apart: `the constant g and the anchor of a, b`.
+fn held_at(state: &State, anchors: &[SlotId]) -> String {
+    let (constants, others): (Vec<SlotId>, Vec<SlotId>) =
+        anchors.iter().partition(|&&slot| state.is_constant(slot));
+    let names = |slots: &[SlotId]| {
+        let names: Vec<String> = slots.iter().map(|&a| state.place_path(a).to_string()).collect();
+        words::listed(&names)
+    };
+    let constant = if constants.len() == 1 { "the constant" } else { "the constants" };
+    match (constants.as_slice(), others.as_slice()) {
+        ([], others) => format!("the anchor of {}", names(others)),
+        (constants, []) => format!("{constant} {}", names(constants)),
+        (constants, others) => {
+            format!("{constant} {} and the anchor of {}", names(constants), names(others))
+        }
+    }
 }
 
 fn push_new<T: PartialEq>(names: &mut Vec<T>, name: T) {
