@@ -57,6 +57,7 @@ mod prototype;
 mod recognise;
 mod rehearsal;
 pub mod remote;
+mod rounding;
 mod rules;
 mod session;
 mod sheet;

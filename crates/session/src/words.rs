@@ -2,8 +2,9 @@
 
 use crate::angles;
 use crate::document::Open;
+pub(crate) use crate::rounding::ROUNDING;
 use crate::rules::told;
-pub(crate) use crate::shown::{ROUNDING, show_slot};
+pub(crate) use crate::shown::show_slot;
 use crate::state::State;
 use crate::view::{Freedom, Refusal};
 use crate::views;
@@ -60,7 +61,8 @@ pub(crate) fn refusal_for(state: &State, reason: &RefusalReason, report: &EditRe
             }
         }
         RefusalReason::Anchored(slot) => {
-            format!("refused: {} is anchored", state.slot_path(*slot))
+            let held = if state.is_constant(*slot) { "constant" } else { "anchored" };
+            format!("refused: {} is {held}", state.slot_path(*slot))
         }
         RefusalReason::Method(failure) => {
             let name = source_name(state, failure.source).unwrap_or_default();
@@ -537,6 +539,16 @@ pub(crate) fn slot_exactly(state: &State, slot: SlotId, values: &Values) -> Stri
     with_unit(exact, &unit)
 }
 
+/// So many digits are tried where six do not tell two numbers apart.
+const MORE_DIGITS: [usize; 3] = [8, 10, 12];
+
+/// Returns a value with its unit, to so many digits.
+fn slot_in_digits(state: &State, slot: SlotId, values: &Values, digits: usize) -> String {
+    let Shown { exact, unit, .. } = show_slot(state, slot, values);
+    let x = exact.parse().map(|x| base::number::significant(x, digits));
+    with_unit(x.unwrap_or(exact), &unit)
+}
+
 /// Puts a number and its unit together, where it has one.
 pub(crate) fn with_unit(text: String, unit: &str) -> String {
     if unit.is_empty() { text } else { format!("{text} {unit}") }
@@ -547,8 +559,8 @@ pub(crate) fn show_thing(state: &State, thing: ThingId, values: &Values) -> Opti
     each_slot(state, thing, |slot| slot_in_words(state, slot, values))
 }
 
-/// Returns what the value of a thing was and is, if it is primitive or a place: to six digits, or all where these do not
-/// tell them apart.
+/// Returns what the value of a thing was and is, if it is primitive or a place: to six digits, or to as many as tell
+/// them apart.
 pub(crate) fn show_both(
     state: &State,
     thing: ThingId,
@@ -558,8 +570,15 @@ pub(crate) fn show_both(
     if both[0] != both[1] {
         return Some(both);
     }
+    // a few more digits often tell them apart
+    let shown = |digits| {
+        let in_digits = |slot, values| slot_in_digits(state, slot, values, digits);
+        let show = |values| each_slot(state, thing, |slot| in_digits(slot, values));
+        Some([show(was)?, show(is)?])
+    };
+    let some = MORE_DIGITS.into_iter().filter_map(shown).find(|both| both[0] != both[1]);
     let exactly = |values| show_thing_exactly(state, thing, values);
-    Some([exactly(was)?, exactly(is)?])
+    some.or_else(|| Some([exactly(was)?, exactly(is)?]))
 }
 
 /// Returns the value of a thing with all its digits, if it is primitive or a place.

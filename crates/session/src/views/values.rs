@@ -579,8 +579,9 @@ fn around(row: &ValueRow) -> &str {
 fn settle(document: &Document, rows: &mut [ValueRow]) {
     let size = |row: &ValueRow| row.number.map_or(0.0, f64::abs);
     let largest = rows.iter().map(size).fold(0.0, f64::max);
-    for row in
-        rows.iter_mut().filter(|row| size(row) > 0.0 && size(row) < words::ROUNDING * largest)
+    for row in rows
+        .iter_mut()
+        .filter(|row| size(row) > 0.0 && size(row) < crate::rounding::ROUNDING * largest)
     {
         let Some(dimension) = expr::Dimension::by_name(&row.class) else { continue };
         let quantity = Quantity { dimension, class: &row.class, written: "" };

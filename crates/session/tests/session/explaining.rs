@@ -126,6 +126,41 @@ fn what_does_not_move_names_what_holds_it() {
     assert_eq!(held("c"), None);
 }
 
+#[test]
+fn what_is_constant_is_called_so() {
+    let mut desk = Desk::of(
+        "constant g: Acceleration = 9.81 m/s^2\nclass Ball { constant mass: Mass = 2 kg }\n\
+         b: Ball\nw: Force\nconstraint weight: w = b.mass * g\n",
+    );
+    let mut held = |path: &str| desk.session.held(desk.id, &at(path)).map(|h| h.message);
+    assert_eq!(held("g").as_deref(), Some("g does not move: it is constant"));
+    let weight = "w does not move: held by weight, and by the constants g, b.mass";
+    assert_eq!(held("w").as_deref(), Some(weight));
+    let message = desk.set("w", 5.0).expect_err("nothing may yield").message;
+    assert_eq!(message, "refused: weight would not hold while g, b.mass are constant");
+    let summary = desk.session.explain(desk.id, Some(&at("w"))).summary;
+    assert!(summary.ends_with("because g = 9.81 m/s^2 and b.mass = 2 kg are constant."), "{summary}");
+}
+
+#[test]
+fn what_rounding_leaves_of_a_rule_is_shown_as_nothing() {
+    // the ball goes on as before, and what is left of the other's velocity is -0.222 fm/s
+    let desk = Desk::of(
+        "m1: Mass = 2 kg\nm2: Mass = 1 kg\nu1: Velocity = 3 m/s\nu2: Velocity = 0 m/s\n\
+         v1, v2: Velocity\nconstraint momentum: m1 * u1 + m2 * u2 = m1 * v1 + m2 * v2\n\
+         constraint energy: m1 * u1^2 + m2 * u2^2 = m1 * v1^2 + m2 * v2^2\n",
+    );
+    let (one, other) = (desk.row("v1"), desk.row("v2"));
+    let is_nothing = |row: &session::view::ValueRow| row.text == "0" && row.unit == "m/s";
+    let is_four = |row: &session::view::ValueRow| row.text == "4" && row.unit == "m/s";
+    assert!(is_nothing(&other) || is_four(&other), "{} {} {}", one.text, other.text, other.unit);
+    // what is small and decides is no rounding
+    let diode = Desk::of(
+        "i: Current = 20 A\nx: Real = 36\nleast: Current\nconstraint i = least * (exp(x) - 1)\n",
+    );
+    assert_ne!(diode.row("least").text, "0");
+}
+
 const FLAT: &str = "use geometry
 k: Line { p1 = (0, 60)  p2 = (30, 60) }
 constraint flat: k.p1.y = k.p2.y
