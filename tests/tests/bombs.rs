@@ -256,6 +256,11 @@ fn what_is_huge_is_refused_before_it_is_made() {
             Error("too-many-things"),
         ),
         (
+            "copies that double",
+            doubled(30, |i| format!("class C{} {{ a: C{i}  b: C{i} = copy of a }}", i + 1), "c: C30\n"),
+            Error("too-many-things"),
+        ),
+        (
             "lists that double",
             format!("c: {}Real\n", "List of 2 ".repeat(40)),
             Error("too-many-things"),
