@@ -5,10 +5,11 @@
 
 use crate::kinds::Kind;
 use crate::lower::Lowerer;
-use crate::names::owners;
+use crate::names::{MOST_LISTED, owners};
 use crate::scope::{Constant, Scope};
 use base::{Diagnostic, FileId, Name, Place};
 use kernel::{ClassId, ClassKind, Document, Primitive, Term};
+use std::collections::BTreeSet;
 use syntax::ast::{self, AstNode, BinaryOp, Expr};
 
 /// What an expression means and is worth; nothing where it is wrong.
@@ -26,8 +27,9 @@ impl Lowerer<'_> {
         let object = self.object;
         let class = self.add_class(word.text(), ClassKind::Composite, &[object], origin);
         let mut options: Vec<Name> = Vec::new();
+        let mut known: BTreeSet<Name> = BTreeSet::new();
         for option in choice.options() {
-            if options.contains(&option.name()) {
+            if !known.insert(option.name()) {
                 let message = format!("{} has {} already", word.text(), option.text());
                 self.error("duplicate-name", file, option.span(), message);
                 continue;
@@ -126,6 +128,9 @@ impl Lowerer<'_> {
         let near = self.nearest(word.text(), options.iter().map(String::as_str));
         self.report(match near {
             Some(near) => d.meant(near),
+            None if options.len() > MOST_LISTED => {
+                d.hint(format!("it has {}, …", options[..MOST_LISTED].join(", ")))
+            }
             None => d.hint(format!("it has {}", options.join(", "))),
         });
     }

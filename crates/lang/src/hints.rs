@@ -691,6 +691,8 @@ pub(crate) fn called_otherwise(word: &str) -> Option<&'static str> {
         "IF" | "iff" | "iif" => "a value is chosen by `if c then a else b`",
         "e" | "E" | "euler" => "Euler's number is `exp(1)`, a power of it `exp(x)`",
         "range" | "Sequence" => "a range is `0..<n`, or `1..n` with its last",
+        "translate" | "moved" => "a thing is moved by `c.moved(by: Point(1, 2))`",
+        "rotate" => "a set of steps is turned by `steps.turned(about: p, by: 30 deg)`",
         "Midpoint" | "midpoint" => {
             "the point halfway is `a.halfway(to: b)`, that of a line `l.midpoint`"
         }

@@ -18,7 +18,7 @@ const MOST_GUESSES: usize = 100;
 pub(crate) const LONGEST_WORD: usize = 100;
 
 /// How many names a hint lists.
-const MOST_LISTED: usize = 12;
+pub(crate) const MOST_LISTED: usize = 12;
 
 impl Lowerer<'_> {
     /// Resolves a bare name.
@@ -451,6 +451,9 @@ impl Lowerer<'_> {
                 && names.iter().any(|name| name.starts_with("turned")) =>
             {
                 d.hint("what is turned is another: `turned(about: p, by: 90 deg)`")
+            }
+            _ if matches!(word.text(), "on" | "isOn" | "liesOn" | "lies" | "incident") => {
+                d.hint("a curve says what lies on it: `l.passes(through: p)`")
             }
             _ if matches!(word.text(), "copy" | "clone") => d.hint("write `copy of thing`"),
             _ if is_list && matches!(word.text(), "average" | "avg") => d.meant("mean"),

@@ -3,7 +3,7 @@
 //! In: a program's text. Out: warnings. What a turn begins with is often asked for, too, such as where the last ring lies. It
 //! is no total where the turn itself makes use of it, or the loop ends by it.
 
-use super::{members_of, with_of};
+use super::{members_of, step_name, with_of};
 use crate::lower::Lowerer;
 use base::{Diagnostic, FileId, Name, Place};
 use std::collections::BTreeSet;
@@ -31,6 +31,57 @@ impl Lowerer<'_> {
                 "make a step of the turn, `sum = …`, say `next {total} = sum`, and read `{of}.last.sum`"
             );
             self.report(Diagnostic::warning("total-before-next", place, message).hint(hint));
+        }
+    }
+    /// Warns of what a loop's turns each make of something of the same name outside, `total = total + i`: it is handed on
+    /// to no other turn. `outside` are the names that are known where the loop stands.
+    pub(super) fn warn_of_own_steps(
+        &mut self,
+        file: FileId,
+        value: &Value,
+        outside: &[(Name, crate::kinds::Kind)],
+    ) {
+        let body = match value {
+            Value::Repeat(block) => block.body(),
+            Value::While(block) => block.body(),
+            Value::For(block) => block.body(),
+            Value::Expr(_) | Value::If(_) => return,
+        };
+        let Some(body) = body else { return };
+        let carried: Vec<Name> = with_of(value)
+            .into_iter()
+            .chain(body.syntax().descendants().filter_map(ast::With::cast))
+            .flat_map(|with| with.bindings())
+            .filter_map(|binding| Some(binding.name()?.name()))
+            .collect();
+        for step in body.syntax().descendants().filter_map(ast::Assign::cast) {
+            let (Some(word), Some(Value::Expr(made))) = (step_name(&step), step.value()) else {
+                continue;
+            };
+            let name = word.name();
+            let mut around = step.syntax().ancestors().take_while(|node| node != body.syntax());
+            // what an inner loop makes is told there
+            if around.any(|node| {
+                matches!(
+                    Value::cast(node),
+                    Some(Value::Repeat(_) | Value::While(_) | Value::For(_))
+                )
+            }) {
+                continue;
+            }
+            let is_outside = outside.iter().any(|(known, _)| *known == name);
+            if !is_outside || carried.contains(&name) || !speaks_of(made.syntax(), &name) {
+                continue;
+            }
+            let message = format!(
+                "each turn makes a {name} of its own from the one outside, which stays as it is"
+            );
+            let made = made.syntax().text();
+            let hint = format!(
+                "to hand it on write `with {name} = {name}` before the brace of the loop, and in it `sum = {made}` and `next {name} = sum`; what the last turn comes to is its `sum`"
+            );
+            let place = Place { file, span: step.span() };
+            self.report(Diagnostic::warning("step-of-a-turn", place, message).hint(hint));
         }
     }
 }

@@ -335,7 +335,7 @@ fn primary(p: &mut Parser<'_>, start: Checkpoint) -> u32 {
             p.bump();
             p.eat(Unit);
             p.finish();
-            if let Some(length) = mistakes::elsewhere::strange_number(p) {
+            if let Some(length) = mistakes::numbers::strange_number(p) {
                 p.start_at(start, BinaryExpr);
                 (0..length).for_each(|_| p.bump());
                 p.eat(Unit);

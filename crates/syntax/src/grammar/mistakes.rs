@@ -161,6 +161,11 @@ fn declared_elsewhere(p: &mut Parser<'_>) -> bool {
         && !p.begins_line(1);
     if is_one {
         let (at, name) = (p.pos(), p.word(1));
+        let class = match p.word(0) {
+            "int" => "Integer",
+            "string" => "Text",
+            _ => "Real",
+        };
         let has_value = p.nth(2) == Eq && !p.begins_line(2);
         let value = if has_value { p.text_between(at + 3, p.line_end()) } else { "" };
         let is_plain = !value.contains(|c: char| c.is_alphabetic() || c == '(');
@@ -173,7 +178,7 @@ fn declared_elsewhere(p: &mut Parser<'_>) -> bool {
             "" if p.nth(2) == Colon && !p.begins_line(2) => {
                 format!("a part is declared by itself: `{}`", p.quoted_line(at + 1))
             }
-            "" => format!("a part is declared with its class: `{name}: Real`"),
+            "" => format!("a part is declared with its class: `{name}: {class}`"),
             _ if is_function => format!(
                 "what is computed is a message: `{name}({}: Real) => {}`",
                 p.word(4),
@@ -184,8 +189,8 @@ fn declared_elsewhere(p: &mut Parser<'_>) -> bool {
                 let class = unit.unwrap_or("Real");
                 format!("a part is declared with its class: `{name}: {class} = {value}`")
             }
-            value if is_plain => {
-                format!("a part is declared with its class: `{name}: Real = {value}`")
+            value if is_plain || class == "Text" => {
+                format!("a part is declared with its class: `{name}: {class} = {value}`")
             }
             value => format!("what is computed is a message: `{name} => {value}`"),
         };
@@ -660,6 +665,10 @@ pub(super) fn value_for_class(p: &Parser<'_>) -> Option<String> {
         Text => Some(format!(
             "write `{name} = {value}` for a value, `{name}: Text = {value}` for a new part"
         )),
+        Eq if !p.line_ended(1) => {
+            let value = p.quoted_line(p.pos() + 1);
+            Some(format!("what is computed is a message: `{name} => {value}`"))
+        }
         LBracket if p.nth(1) == Ident && p.nth(2) == RBracket => {
             Some(format!("a list is written `{name}: List of {}`", p.word(1)))
         }

@@ -92,12 +92,18 @@ fn parameters_without_class(p: &mut Parser<'_>) -> bool {
             format!(
                 "write `{name}({}) => {}`",
                 classed.join(", "),
-                p.text_between(first + end + 3, last)
+                returned(p.text_between(first + end + 3, last))
             ),
         );
         p.report_mistake((first, last), said, None);
     }
     is_one
+}
+
+/// Returns what is computed in `{ return 2 * x; }`.
+fn returned(body: &str) -> &str {
+    let inner = body.strip_prefix('{').map_or(body, |rest| rest.trim_end_matches('}').trim());
+    inner.strip_prefix("return ").map_or(body, |value| value.trim_end_matches(';').trim())
 }
 
 /// `cube([10, 20, 30])`, `connect(r1.b, r2.a)`, `minimize (x - 3)^2`: what no parameters stand in the brackets of.

@@ -3,9 +3,9 @@
 use super::MEMBER;
 use crate::kind::SyntaxKind;
 use crate::kind::SyntaxKind::{
-    AndKw, Arrow, Caret, Colon, ColonEq, Comma, Eof, Eq, FatArrow, Greater, GreaterEq, Ident,
-    LBrace, LBracket, LParen, Less, LessEq, Minus, NotEq, NotKw, Number, Plus, RBrace, RBracket,
-    RParen, Semicolon, Slash, Star, Text, Unit,
+    AndKw, Arrow, Colon, ColonEq, Comma, Eof, Eq, FatArrow, Greater, GreaterEq, Ident, LBrace,
+    LBracket, LParen, Less, LessEq, Minus, NotEq, NotKw, Number, Plus, RBrace, RBracket, RParen,
+    Semicolon, Slash, Star, Text, Unit,
 };
 use crate::parser::Parser;
 use crate::units::follows_operand;
@@ -29,6 +29,11 @@ fn word(p: &Parser<'_>) -> Option<String> {
     {
         return Some("each rule has its own word: `constraint x + y = 3`".into());
     }
+    if p.at_word(0, "begin") && p.begins_line(1) {
+        return Some(
+            "what belongs together stands in braces, `{ … }`, without `begin` and `end`".into(),
+        );
+    }
     if !p.at(Ident) || p.begins_line(1) || p.nth(1) == Eof {
         return None;
     }
@@ -46,6 +51,11 @@ fn word(p: &Parser<'_>) -> Option<String> {
         }
         "def" | "function" | "fn" | "func" | "fun" | "method" | "sub" if p.nth(2) == LParen => {
             format!("what is computed is a message: `{next}(x: Real) => 2 * x`")
+        }
+        "elif" | "elseif" | "elsif" => "another condition is `else if c { … }`".into(),
+        "do" if is_named && p.nth(2) == Eq && p.nth(4) == Comma => {
+            let (first, last) = (p.word(3), p.word(5));
+            format!("a loop goes through numbers: `for {next} in {first}..{last} {{ … }}`")
         }
         "connect" | "join" | "link" | "attach" | "glue" if is_named => {
             "two become one by `merge a = b`".into()
@@ -207,6 +217,13 @@ fn sign(p: &Parser<'_>) -> Option<String> {
             let (name, of, body) = (before(3), before(1), p.quoted_line(p.pos() + 1));
             format!("what is computed is a message: `{name}({of}: Real) => {body}`")
         }
+        FatArrow
+            if (p.behind(1), p.behind(2), p.behind(3)) == (RParen, Ident, LParen)
+                && (p.behind(4), p.behind(5)) == (Eq, Ident) =>
+        {
+            let (name, of, body) = (before(5), before(2), p.quoted_line(p.pos() + 1));
+            format!("what is computed is a message: `{name}({of}: Real) => {body}`")
+        }
         Number | Ident | Minus if is_bound(p) => {
             let bound = p.quoted(p.pos(), p.line_end());
             format!("a bound is a rule of its own: `constraint {bound}`")
@@ -247,6 +264,9 @@ fn behind_value(p: &Parser<'_>, of: &str) -> Option<String> {
             )
         }
         Ident if p.word(0) == "between" => "write `1 <= x <= 3`".into(),
+        Ident if p.word(0) == "div" => {
+            format!("how often it goes into it is `floor({} / {})`", before(1), p.word(1))
+        }
         ColonEq if of == "constraint" => {
             let rule = p.quoted_line(p.pos() + 1);
             format!("a rule is an equation: `constraint {} = {rule}`", before(1))
@@ -403,109 +423,6 @@ pub(in crate::grammar) fn name_without_colon(p: &mut Parser<'_>) -> bool {
         p.report_mistake((at + 1, at + 1), said, None);
     }
     is_one
-}
-
-/// `3x10^8`, `4k7`, `4k7 ohm` behind the number that it begins with. Returns how many tokens belong to it, where it was
-/// reported.
-pub(in crate::grammar) fn strange_number(p: &mut Parser<'_>) -> Option<usize> {
-    if !p.at(Ident) || !p.is_adjacent(0) {
-        return None;
-    }
-    let found = underscored(p).or_else(|| power_of_ten(p)).or_else(|| resistance(p));
-    let found = found.or_else(|| thousands(p)).or_else(|| spelled(p));
-    let ((length, number), at) = (found?, p.pos());
-    let (digits, last) = (p.text_between(at - 1, at - 1), at + length - 1);
-    // `2k` is perhaps twice a part that is called so
-    let may_be_product = p.word(0) == "k" && !number.ends_with("ohm");
-    let said = (
-        "implied-product",
-        format!("found `{}` right after `{digits}`, wanted one number", p.word(0)),
-        match length {
-            1 if p.word(0).starts_with('_') => {
-                format!("the digits of a number stand together: write `{number}`")
-            }
-            1 | 2 if number.ends_with("ohm") => {
-                format!("a number has its point and its unit: `{number}`")
-            }
-            _ if may_be_product => {
-                format!("so many thousands are `{number}`; a product has its sign, `{digits} * k`")
-            }
-            _ => format!("write `{number}`"),
-        },
-    );
-    let span = p.span_at(at - 1).join(p.span_at(last));
-    p.report_mistake((at - 1, last), said, (!may_be_product).then_some((span, number)));
-    Some(length)
-}
-
-/// `3x10^8`: how many tokens it has behind its number, and how it is written.
-fn power_of_ten(p: &Parser<'_>) -> Option<(usize, String)> {
-    if p.word(0) != "x10" || p.nth(1) != Caret {
-        return None;
-    }
-    let sign = usize::from(p.nth(2) == Minus);
-    let power = Some(p.word(2 + sign)).filter(|power| is_whole(power))?;
-    let digits = p.text_between(p.pos() - 1, p.pos() - 1);
-    let is_plain = digits.chars().all(|c| c.is_ascii_digit() || c == '.');
-    let (length, minus) = (3 + sign, if sign == 1 { "-" } else { "" });
-    is_plain.then(|| (length, format!("{digits}e{minus}{power}")))
-}
-
-/// `1_000_000`: how many tokens it has behind its number, and how it is written.
-fn underscored(p: &Parser<'_>) -> Option<(usize, String)> {
-    let (digits, rest) = (p.text_between(p.pos() - 1, p.pos() - 1), p.word(0));
-    let is_one = rest.starts_with('_') && rest.chars().all(|c| c.is_ascii_digit() || c == '_');
-    is_one.then(|| (1, format!("{digits}{}", rest.replace('_', ""))))
-}
-
-/// `4k7`, `4k7 ohm`: how many tokens it has behind its number, and how it is written.
-fn resistance(p: &Parser<'_>) -> Option<(usize, String)> {
-    let (digits, (prefix, rest)) =
-        (p.text_between(p.pos() - 1, p.pos() - 1), p.word(0).split_at_checked(1)?);
-    let unit = match prefix {
-        "k" => "kohm",
-        "M" => "Mohm",
-        "R" => "ohm",
-        _ => return None,
-    };
-    let has_unit = p.nth(1) == Ident && p.word(1) == "ohm" && !p.begins_line(1);
-    let is_one = is_whole(digits) && is_whole(rest) && (has_unit || p.is_of("Resistance"));
-    is_one.then(|| (1 + usize::from(has_unit), format!("{digits}.{rest} {unit}")))
-}
-
-/// `2h30m`, `2h30`, `45º`, `0x1F`: how many tokens it has behind its number, and how it is written. `2h1` is two heights.
-fn spelled(p: &Parser<'_>) -> Option<(usize, String)> {
-    let (digits, rest) = (p.text_between(p.pos() - 1, p.pos() - 1), p.word(0));
-    let minutes = rest.strip_suffix("min").or_else(|| rest.strip_suffix('m'));
-    // `3h30`, where a time is wanted
-    let minutes = minutes.or_else(|| Some(rest).filter(|w| w.len() == 3 && p.is_of("Time")));
-    let minutes = minutes.and_then(|rest| rest.strip_prefix('h')).filter(|rest| is_whole(rest));
-    let number = match rest.split_at_checked(1) {
-        _ if let Some(minutes) = minutes => format!("{digits} h + {minutes} min"),
-        Some(("x", hexadecimal)) if digits == "0" => {
-            i64::from_str_radix(hexadecimal, 16).ok()?.to_string()
-        }
-        _ if rest == "º" => format!("{digits} deg"),
-        _ => return None,
-    };
-    Some((1, number))
-}
-
-/// `4.7k`: how many tokens it has behind its number, and how it is written.
-fn thousands(p: &Parser<'_>) -> Option<(usize, String)> {
-    let digits = p.text_between(p.pos() - 1, p.pos() - 1);
-    let is_plain = digits.chars().all(|c| c.is_ascii_digit() || c == '.');
-    let number = match (p.word(0), p.is_of("Resistance")) {
-        ("k", true) => format!("{digits} kohm"),
-        ("M", true) => format!("{digits} Mohm"),
-        ("k", false) => format!("{digits}e3"),
-        _ => return None,
-    };
-    is_plain.then_some((1, number))
-}
-
-fn is_whole(number: &str) -> bool {
-    !number.is_empty() && number.chars().all(|c| c.is_ascii_digit())
 }
 
 /// Returns true where no more of the line follows, so many tokens ahead.

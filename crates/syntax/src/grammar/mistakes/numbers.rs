@@ -1,7 +1,9 @@
 //! Numbers and units that are written as elsewhere: `1,000`, `3,5`, `.5`, `8:30`, `2x`, `mm 3`.
 
 use super::is_keyword;
-use crate::kind::SyntaxKind::{Colon, Comma, Dot, Ident, LParen, Number, RBracket, RParen, Unit};
+use crate::kind::SyntaxKind::{
+    Caret, Colon, Comma, Dot, Ident, LParen, Minus, Number, RBracket, RParen, Unit,
+};
 use crate::parser::Parser;
 use crate::units::{follows_operand, unit_length};
 use base::Span;
@@ -206,4 +208,109 @@ pub(in crate::grammar) fn unit_before_number(p: &mut Parser<'_>) -> bool {
         p.report_mistake((at, at + 1), said, Some((p.span_at(at).join(p.span_at(at + 1)), right)));
     }
     is_one
+}
+
+/// `3x10^8`, `4k7`, `4k7 ohm` behind the number that it begins with. Returns how many tokens belong to it, where it was
+/// reported.
+pub(in crate::grammar) fn strange_number(p: &mut Parser<'_>) -> Option<usize> {
+    if !p.at(Ident) || !p.is_adjacent(0) {
+        return None;
+    }
+    let found = underscored(p).or_else(|| power_of_ten(p)).or_else(|| resistance(p));
+    let found = found.or_else(|| thousands(p)).or_else(|| spelled(p));
+    let ((length, number), at) = (found?, p.pos());
+    let (digits, last) = (p.text_between(at - 1, at - 1), at + length - 1);
+    // `2k` is perhaps twice a part that is called so
+    let may_be_product = p.word(0) == "k" && !number.ends_with("ohm");
+    let said = (
+        "implied-product",
+        format!("found `{}` right after `{digits}`, wanted one number", p.word(0)),
+        match length {
+            1 if p.word(0).starts_with('_') => {
+                format!("the digits of a number stand together: write `{number}`")
+            }
+            1 | 2 if number.ends_with("ohm") => {
+                format!("a number has its point and its unit: `{number}`")
+            }
+            _ if may_be_product => {
+                format!("so many thousands are `{number}`; a product has its sign, `{digits} * k`")
+            }
+            _ => format!("write `{number}`"),
+        },
+    );
+    let span = p.span_at(at - 1).join(p.span_at(last));
+    p.report_mistake((at - 1, last), said, (!may_be_product).then_some((span, number)));
+    Some(length)
+}
+
+/// `3x10^8`: how many tokens it has behind its number, and how it is written.
+fn power_of_ten(p: &Parser<'_>) -> Option<(usize, String)> {
+    if p.word(0) != "x10" || p.nth(1) != Caret {
+        return None;
+    }
+    let sign = usize::from(p.nth(2) == Minus);
+    let power = Some(p.word(2 + sign)).filter(|power| is_whole(power))?;
+    let digits = p.text_between(p.pos() - 1, p.pos() - 1);
+    let is_plain = digits.chars().all(|c| c.is_ascii_digit() || c == '.');
+    let (length, minus) = (3 + sign, if sign == 1 { "-" } else { "" });
+    is_plain.then(|| (length, format!("{digits}e{minus}{power}")))
+}
+
+/// `1_000_000`: how many tokens it has behind its number, and how it is written.
+fn underscored(p: &Parser<'_>) -> Option<(usize, String)> {
+    let (digits, rest) = (p.text_between(p.pos() - 1, p.pos() - 1), p.word(0));
+    let is_one = rest.starts_with('_') && rest.chars().all(|c| c.is_ascii_digit() || c == '_');
+    is_one.then(|| (1, format!("{digits}{}", rest.replace('_', ""))))
+}
+
+/// `4k7`, `4k7 ohm`: how many tokens it has behind its number, and how it is written.
+fn resistance(p: &Parser<'_>) -> Option<(usize, String)> {
+    let (digits, (prefix, rest)) =
+        (p.text_between(p.pos() - 1, p.pos() - 1), p.word(0).split_at_checked(1)?);
+    let unit = match prefix {
+        "k" => "kohm",
+        "M" => "Mohm",
+        "R" => "ohm",
+        _ => return None,
+    };
+    let has_unit = p.nth(1) == Ident && p.word(1) == "ohm" && !p.begins_line(1);
+    let is_one = is_whole(digits) && is_whole(rest) && (has_unit || p.is_of("Resistance"));
+    is_one.then(|| (1 + usize::from(has_unit), format!("{digits}.{rest} {unit}")))
+}
+
+/// `2h30m`, `2h30`, `45º`, `0x1F`: how many tokens it has behind its number, and how it is written. `2h1` is two heights.
+fn spelled(p: &Parser<'_>) -> Option<(usize, String)> {
+    let (digits, rest) = (p.text_between(p.pos() - 1, p.pos() - 1), p.word(0));
+    let minutes = rest.strip_suffix("min").or_else(|| rest.strip_suffix('m'));
+    // `3h30`, where a time is wanted
+    let minutes = minutes.or_else(|| Some(rest).filter(|w| w.len() == 3 && p.is_of("Time")));
+    let minutes = minutes.and_then(|rest| rest.strip_prefix('h')).filter(|rest| is_whole(rest));
+    let number = match rest.split_at_checked(1) {
+        _ if let Some(minutes) = minutes => format!("{digits} h + {minutes} min"),
+        Some(("x", hexadecimal)) if digits == "0" => {
+            i64::from_str_radix(hexadecimal, 16).ok()?.to_string()
+        }
+        _ if rest == "º" => format!("{digits} deg"),
+        // `1.5d3`, as Fortran writes what has twice the digits
+        Some(("d" | "D", power)) if is_whole(power) => format!("{digits}e{power}"),
+        _ => return None,
+    };
+    Some((1, number))
+}
+
+/// `4.7k`: how many tokens it has behind its number, and how it is written.
+fn thousands(p: &Parser<'_>) -> Option<(usize, String)> {
+    let digits = p.text_between(p.pos() - 1, p.pos() - 1);
+    let is_plain = digits.chars().all(|c| c.is_ascii_digit() || c == '.');
+    let number = match (p.word(0), p.is_of("Resistance")) {
+        ("k", true) => format!("{digits} kohm"),
+        ("M", true) => format!("{digits} Mohm"),
+        ("k", false) => format!("{digits}e3"),
+        _ => return None,
+    };
+    is_plain.then_some((1, number))
+}
+
+fn is_whole(number: &str) -> bool {
+    !number.is_empty() && number.chars().all(|c| c.is_ascii_digit())
 }
