@@ -108,6 +108,14 @@ fn word(p: &Parser<'_>) -> Option<String> {
             };
             format!("a part has its class behind it: `{declared}`")
         }
+        _ => return other_word(p, is_named),
+    })
+}
+
+/// The same of words that begin a sentence rather than a declaration.
+fn other_word(p: &Parser<'_>, is_named: bool) -> Option<String> {
+    let next = p.word(1);
+    Some(match p.word(0) {
         "override" | "virtual" | "new" if is_named => {
             format!("what a class says again counts: leave `{}` out", p.word(0))
         }
