@@ -12,7 +12,7 @@ use plan::Source;
 #[derive(PartialEq)]
 struct Hold {
     constraints: Vec<Source>,
-    /// One coordinate of each anchored place.
+    /// The first coordinate of each anchored place.
     anchors: Vec<SlotId>,
 }
 
@@ -33,10 +33,9 @@ pub(crate) fn view(open: &mut Open, about: &Path) -> Option<HeldView> {
         let mut hold = Hold { constraints: Vec::new(), anchors: Vec::new() };
         by.constraints.into_iter().for_each(|source| push_new(&mut hold.constraints, source));
         for anchor in by.anchors {
-            let is_of_other = |&a: &SlotId| state.place_path(a) != state.place_path(anchor);
-            if hold.anchors.iter().all(is_of_other) {
-                hold.anchors.push(anchor);
-            }
+            let place = state.structure.slots[anchor].place;
+            let first = place.and_then(|place| state.structure.slots_under(place).first().copied());
+            push_new(&mut hold.anchors, first.unwrap_or(anchor));
         }
         match holds.iter_mut().find(|known| known.0 == hold) {
             Some(known) => known.1.push(slot),

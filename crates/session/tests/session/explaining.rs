@@ -139,7 +139,10 @@ fn what_is_constant_is_called_so() {
     let message = desk.set("w", 5.0).expect_err("nothing may yield").message;
     assert_eq!(message, "refused: weight would not hold while g, b.mass are constant");
     let summary = desk.session.explain(desk.id, Some(&at("w"))).summary;
-    assert!(summary.ends_with("because g = 9.81 m/s^2 and b.mass = 2 kg are constant."), "{summary}");
+    assert!(
+        summary.ends_with("because g = 9.81 m/s^2 and b.mass = 2 kg are constant."),
+        "{summary}"
+    );
 }
 
 #[test]
