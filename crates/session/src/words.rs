@@ -2,7 +2,6 @@
 
 use crate::angles;
 use crate::document::Open;
-pub(crate) use crate::rounding::ROUNDING;
 use crate::rules::told;
 pub(crate) use crate::shown::show_slot;
 use crate::state::State;
