@@ -247,8 +247,10 @@ impl Document {
     }
     /// Returns true if every thing of `class` is a thing of `ancestor`.
     pub fn is_a(&self, class: ClassId, ancestor: ClassId) -> bool {
-        let is = |&c: &ClassId| c == ancestor || self.classes[c].general == Some(ancestor);
-        self.lineage(class).iter().any(is)
+        let is = |c: ClassId| c == ancestor || self.classes[c].general == Some(ancestor);
+        // most classes have one superclass, and so has each of those above them
+        let has_others = || self.upwards(class).any(|c| self.classes[c].supers.len() > 1);
+        self.upwards(class).any(is) || has_others() && self.lineage(class).into_iter().any(is)
     }
     /// Returns what a whole number is that says how many parts the things of a class have.
     pub fn count(&self, class: ClassId, name: &Name) -> Option<i64> {

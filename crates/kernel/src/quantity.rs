@@ -124,7 +124,7 @@ pub fn show_quantity(x: f64, quantity: Quantity<'_>, document: &Document) -> Sho
 
 /// Returns a number of base units in a unit; without one, as a bare number of it is written.
 pub fn in_unit(x: f64, dimension: Dimension, spelling: &str, document: &Document) -> f64 {
-    let unit = units::unit(spelling).filter(|_| !spelling.is_empty());
+    let unit = if spelling.is_empty() { None } else { units::unit(spelling) };
     let shown = unit.and_then(|u| u.show(to_si(document, x, dimension)));
     shown.unwrap_or_else(|| to_bare(document, x, dimension))
 }

@@ -21,6 +21,9 @@ impl Scale {
     /// Returns how many stored units a unit of SI has.
     pub fn factor(self, dimension: Dimension) -> f64 {
         let exponent = self.0.iter().zip(dimension.0).map(|(&s, d)| i32::from(s) * i32::from(d));
-        base::number::pow(2.0, f64::from(exponent.sum::<i32>()))
+        match exponent.sum::<i32>() {
+            0 => 1.0,
+            exponent => base::number::pow(2.0, f64::from(exponent)),
+        }
     }
 }
