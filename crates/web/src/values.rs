@@ -537,8 +537,10 @@ fn Field(lab: Lab, row: Memo<Option<ValueRow>>, selects: bool) -> impl IntoView 
                 }
                 on:keydown=key
                 on:blur=move |_| {
+                    // a field that is taken away loses the keyboard when nothing is known of it any more
+                    let Some(is_fine) = error.try_with_untracked(Option::is_none) else { return };
                     active.set(false);
-                    if error.with_untracked(Option::is_none) {
+                    if is_fine {
                         commit();
                     }
                 }

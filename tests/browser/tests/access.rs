@@ -231,3 +231,16 @@ async fn who_uses_keys_is_told_what_they_do_where_they_go() {
     point(&visit, (400.0, 600.0), MOUSE_BUTTON_LEFT).await;
     visit.until(&said("wheel: zoom")).await;
 }
+
+#[tokio::test]
+async fn a_field_of_the_table_that_has_the_keyboard_may_go_with_the_table() {
+    let visit = Visit::open(None).await;
+    show(&visit, "quadrilateral.thing").await;
+    chord(&visit, &[key::ALT], '3').await;
+    visit.until("document.activeElement.matches('.dock .field')").await;
+    chord(&visit, &[key::ALT], '4').await;
+    visit.until("document.activeElement.matches('.cm-content')").await;
+    // the page is alive
+    chord(&visit, &[key::ALT], '3').await;
+    visit.until("document.activeElement.matches('.dock .field')").await;
+}
