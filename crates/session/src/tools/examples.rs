@@ -7,7 +7,7 @@ use base::Name;
 use kernel::{ClassId, ClassKind, Count, Document, Path, Primitive, Step, Vertical};
 
 /// Where the points of an example are: a wave.
-const WAVE: [(f64, f64); 4] = [(0.0, 0.0), (30.0, 50.0), (70.0, -50.0), (100.0, 0.0)];
+const WAVE: [(f64, f64); 4] = [(0.0, 0.0), (30.0, 30.0), (70.0, -30.0), (100.0, 0.0)];
 
 /// Returns the members that give examples to the lists of places and numbers that a class leaves empty; nothing for a
 /// class that has no such list of places.
