@@ -257,7 +257,11 @@ fn what_is_huge_is_refused_before_it_is_made() {
         ),
         (
             "copies that double",
-            doubled(30, |i| format!("class C{} {{ a: C{i}  b: C{i} = copy of a }}", i + 1), "c: C30\n"),
+            doubled(
+                30,
+                |i| format!("class C{} {{ a: C{i}  b: C{i} = copy of a }}", i + 1),
+                "c: C30\n",
+            ),
             Error("too-many-things"),
         ),
         (
