@@ -367,7 +367,7 @@ fn as_dragged(
 }
 
 /// Returns the slots that an aim is about: those of a thing, or those that an expression reads.
-fn slots_of(state: &State, aim: &Aim) -> Vec<SlotId> {
+pub(crate) fn slots_of(state: &State, aim: &Aim) -> Vec<SlotId> {
     match aim {
         Aim::Thing(thing) => state.structure.slots_under(*thing),
         Aim::Term(term) => {

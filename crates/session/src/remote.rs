@@ -7,7 +7,7 @@
 use crate::apply;
 use crate::document::{Open, Step};
 use crate::plain::{plain_enum, plain_struct};
-use crate::session::{Session, thing_at};
+use crate::session::Session;
 use crate::state::{Found, State};
 use crate::view::{Change, DocumentId, Question, Refusal};
 use base::Mixer;
@@ -159,9 +159,8 @@ impl Session {
         }
         let state = open.state.clone();
         let own = edit.paths();
-        let things = own.iter().chain(others).filter_map(|path| thing_at(&state, path));
-        let slots: BTreeSet<SlotId> =
-            things.flat_map(|thing| state.structure.slots_under(thing)).collect();
+        let aims = own.iter().chain(others).filter_map(|path| apply::aim(&state, path).ok());
+        let slots: BTreeSet<SlotId> = aims.flat_map(|aim| apply::slots_of(&state, &aim)).collect();
         !slots.is_empty() && open.planner.connected(state.model(), &slots).len() > MANY
     }
 

@@ -110,6 +110,7 @@ fn where_few_values_hang_together_nothing_is_asked_of_a_worker() {
         desk.session.may_take_long(desk.id, &LongEdit::Command(command), &[])
     };
     assert!(size(&mut bridge, "bridge.load.size"));
+    assert!(size(&mut bridge, "bridge.load.tip.x"), "what is computed of many values");
     assert!(!size(&mut Desk::of(&gallery("quadrilateral")), "q.outer.side1.p1.x"));
     assert!(!size(&mut Desk::of(&gallery("temperature")), "celsius"));
     bridge.hold("bridge.top1", &[]);
