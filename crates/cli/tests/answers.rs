@@ -213,7 +213,8 @@ fn what_has_no_place_is_drawn_apart() {
         .collect();
     assert_eq!(labels.len(), 3, "{svg}");
     for (i, (x, y)) in labels.iter().enumerate() {
-        let apart = |(a, b): &(f64, f64)| base::number::hypot(a - x, b - y) > 30.0;
+        // in pixels 64, more than a value with its unit is wide
+        let apart = |(a, b): &(f64, f64)| base::number::hypot(a - x, b - y) > 25.0;
         assert!(labels[..i].iter().all(apart), "{svg}");
     }
     assert!(!svg.contains("NaN"));

@@ -2,7 +2,8 @@
 //! first minute.
 
 use browser::Visit;
-use browser::hands::{chord, drag, grip, key, keys, show, state, text_of, use_library};
+use browser::hands::{chord, drag, grip, key, keys, point, show, state, text_of, use_library};
+use fantoccini::actions::MOUSE_BUTTON_LEFT;
 
 #[tokio::test]
 async fn a_conflict_is_explained_and_repaired_by_a_button() {
@@ -37,8 +38,11 @@ async fn what_many_values_hang_together_with_is_computed_beside_the_page() {
     let visit = Visit::open_empty().await;
     show(&visit, "bridge.thing").await;
     let opened = text_of(&state(&visit).await);
-    visit.script("window.__thinglab.select('bridge.load')").await;
-    let field = ".inspector input.field[aria-label$='load.size']";
+    let tip = grip(&state(&visit).await, "bridge.load.tip");
+    point(&visit, tip, MOUSE_BUTTON_LEFT).await;
+    visit.until("document.querySelector('[data-path=\"bridge.load.size\"]')").await;
+    visit.script("document.querySelector('[data-path=\"bridge.load.size\"]').click()").await;
+    let field = ".inspector input.field[aria-label='bridge.load.size']";
     let typed = |value: &str| {
         format!(
             "const field = document.querySelector(\"{field}\"); field.focus(); field.value = '{value}';
