@@ -40,38 +40,43 @@ async fn what_many_values_hang_together_with_is_computed_beside_the_page() {
     let opened = text_of(&state(&visit).await);
     let tip = grip(&state(&visit).await, "bridge.load.tip");
     point(&visit, tip, MOUSE_BUTTON_LEFT).await;
-    visit.until("document.querySelector('[data-path=\"bridge.load.size\"]')").await;
-    visit.script("document.querySelector('[data-path=\"bridge.load.size\"]').click()").await;
-    let field = ".inspector input.field[aria-label='bridge.load.size']";
-    let typed = |value: &str| {
-        format!(
-            "const field = document.querySelector(\"{field}\"); field.focus(); field.value = '{value}';
-             field.dispatchEvent(new Event('input'));
-             field.dispatchEvent(new KeyboardEvent('keydown', {{ key: 'Enter', bubbles: true }}));
-             return window.__thinglab.state().text"
-        )
-    };
-    visit.until(&format!("document.querySelector(\"{field}\")")).await;
     // the page has not waited: its text is as it was
-    assert_eq!(visit.script(&typed("6 N")).await, opened.as_str());
+    assert_eq!(type_size(&visit, "6 N").await, opened.as_str());
     visit.until("window.__thinglab.state().text.includes('load.size = 6 N')").await;
     let bent = "window.__thinglab.state().values.some(v => v.path === 'bridge.load.size' && v.number === 6)";
     visit.until(bent).await;
     // undone while it goes on, it is not done
     let six = text_of(&state(&visit).await);
-    visit.script(&typed("7 N")).await;
+    type_size(&visit, "7 N").await;
     visit.script("document.querySelector('[data-action=undo]').click()").await;
     assert_eq!(text_of(&state(&visit).await), six);
-    // a hand that begins to drag goes on from what was typed
-    visit.script(&typed("8 N")).await;
+    // it is a step of its own, and a hand goes on from there
+    type_size(&visit, "8 N").await;
+    visit.until("window.__thinglab.state().text.includes('load.size = 8 N')").await;
     let from = grip(&state(&visit).await, "bridge.load.tip");
     drag(&visit, from, (from.0, from.1 + 12.0)).await;
     visit.until("window.__thinglab.state().status.undo?.startsWith('move bridge.load')").await;
     visit.script("document.querySelector('[data-action=undo]').click()").await;
     visit.until("window.__thinglab.state().text.includes('load.size = 8 N')").await;
     // what cannot be is refused beside the field
-    visit.script(&typed("-4 W")).await;
+    type_size(&visit, "-4 W").await;
     visit.until("document.querySelector('.inspector .error')").await;
+}
+
+/// Types the size of the bridge's load beside it; the text of the document right after that.
+async fn type_size(visit: &Visit, size: &str) -> serde_json::Value {
+    let row = "document.querySelector('[data-path=\"bridge.load.size\"]')";
+    let field = "document.querySelector('.inspector input.field[aria-label=\"bridge.load.size\"]')";
+    visit.until(row).await;
+    visit.script(&format!("{row}.click()")).await;
+    visit.until(field).await;
+    let script = format!(
+        "const field = {field}; field.focus(); field.value = '{size}';
+         field.dispatchEvent(new Event('input'));
+         field.dispatchEvent(new KeyboardEvent('keydown', {{ key: 'Enter', bubbles: true }}));
+         return window.__thinglab.state().text"
+    );
+    visit.script(&script).await
 }
 
 /// A lattice of so many points a side, of which one diagonal is wanted longer than it can be, and a point apart.
