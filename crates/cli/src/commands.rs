@@ -541,19 +541,30 @@ pub(crate) fn draw(
     let undrawn = opened.session.undrawn(opened.id);
     let is_whole = undrawn.is_empty();
     let unpictured = opened.session.unpictured(opened.id);
-    let json = json!({ "path": path, "svg": svg, "undrawn": undrawn, "unpictured": unpictured });
-    let missing = unpictured.map_or(String::new(), |said| format!("{said}\n"));
+    let mut wrong = opened.session.text(opened.id).diagnostics;
+    wrong.retain(|d| d.severity == "error");
+    let is_good = is_whole && wrong.is_empty();
+    let json = json!({
+        "path": path,
+        "svg": svg,
+        "undrawn": undrawn,
+        "unpictured": unpictured,
+        "diagnostics": in_files(path, wrong.clone()),
+    });
+    // what is wrong is not drawn, or as it was before
+    let mut missing: String = wrong.iter().map(|d| show_diagnostic(&opened, d)).collect();
+    missing.extend(unpictured.map(|said| format!("{said}\n")));
     let why: String =
         undrawn.iter().map(|why| format!("something is not drawn: {why}\n")).collect();
     let Some(output) = output else {
         // what is printed is to be an SVG or nothing
         let words = if is_whole { written } else { why };
         let aside = if form == Form::Words { missing } else { String::new() };
-        return Ok(Report { aside, ..report(form, is_whole, words, &json) });
+        return Ok(Report { aside, ..report(form, is_good, words, &json) });
     };
     std::fs::write(output, &written)
         .map_err(|source| OpenError::Unreadable { path: output.to_path_buf(), source })?;
-    Ok(report(form, is_whole, format!("{}\n{why}{missing}", output.display()), &json))
+    Ok(report(form, is_good, format!("{}\n{why}{missing}", output.display()), &json))
 }
 
 /// Lays documents out as the language wants, keeping comments; `write` false only says which would change.

@@ -66,6 +66,16 @@ fn a_picture_without_end_is_no_empty_drawing() {
     assert!(asked("draw-nothing", nothing, "draw", &[]).stdout.starts_with(b"<svg"));
 }
 
+#[test]
+fn what_is_wrong_with_a_text_is_told_aside_of_its_drawing() {
+    let text = "use geometry\np: Point = Point(1, 2)\nq: Pont\n";
+    let drawn = asked("draw-wrong", text, "draw", &[]);
+    assert_eq!(drawn.status.code(), Some(1));
+    assert!(drawn.stdout.starts_with(b"<svg"));
+    let told = String::from_utf8_lossy(&drawn.stderr);
+    assert!(told.contains("draw-wrong.thing:3:4\n") && told.contains("no class Pont"), "{told}");
+}
+
 /// Returns what a command printed.
 fn printed(name: &str, text: &str, command: &str, about: &[&str]) -> String {
     String::from_utf8(asked(name, text, command, about).stdout).expect("words are printed")
