@@ -107,7 +107,12 @@ pub(crate) fn place_layout(
     planner: &Planner,
     values: &mut Values,
 ) {
+    place_open(document, structure, planner, values);
     lanes::place_in_lanes(document, structure, planner, values);
+}
+
+/// Puts every such place on its spot.
+fn place_open(document: &Document, structure: &Structure, planner: &Planner, values: &mut Values) {
     let places: Vec<[SlotId; 2]> = structure
         .slots
         .iter()

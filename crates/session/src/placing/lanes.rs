@@ -11,18 +11,21 @@ use std::collections::BTreeMap;
 /// How far lanes lie apart, in units of the sheet: a symbol with its words has room between two.
 const LANE: f64 = 48.0;
 
+/// Two coordinates of a place.
+type Place = [SlotId; 2];
+
 /// Gives every part that shares both its places with others a lane of its own, in order of declaration.
 ///
-/// The first keeps the straight way; the others stand to its one side and its other in turn. A lane is a number of
-/// layout that the part itself has. One that is given, or of which a constraint speaks, stays as it is. Which side is
-/// which is told by the first of them alone, and by no place, so that no drag changes it.
+/// The first keeps the straight way; the others stand to its one side and its other in turn, first where less of what
+/// hangs together with both places is. A lane is a number of layout that the part itself has. One that is given, or of
+/// which a constraint speaks, stays as it is.
 pub(super) fn place_in_lanes(
     document: &Document,
     structure: &Structure,
     planner: &Planner,
     values: &mut Values,
 ) {
-    let mut between: BTreeMap<[[SlotId; 2]; 2], Vec<(SlotId, bool)>> = BTreeMap::new();
+    let mut between: BTreeMap<[Place; 2], Vec<(SlotId, bool)>> = BTreeMap::new();
     for (thing, places) in standing(document, structure) {
         let [from, to] = places[..] else { continue };
         let own = structure.parts(thing).filter_map(|part| structure.slot_of(part));
@@ -31,17 +34,36 @@ pub(super) fn place_in_lanes(
             between.entry([from.min(to), from.max(to)]).or_default().push((lane, from < to));
         }
     }
-    for parts in between.into_values().filter(|parts| parts.len() > 1) {
+    let ways: Vec<[Place; 2]> = between.keys().copied().collect();
+    for ([least, most], parts) in between.into_iter().filter(|(_, parts)| parts.len() > 1) {
         let is_first_forward = parts[0].1;
+        let way = if is_first_forward { [least, most] } else { [most, least] };
+        let is_turned = is_crowded(way, &ways, values);
         for (n, (slot, is_forward)) in parts.into_iter().enumerate() {
             let s = &structure.slots[slot];
             if s.given.is_none() && !s.anchored && planner.is_lone(slot) {
                 let lane = LANE * n.div_ceil(2) as f64;
-                let is_other_side = n % 2 == 0;
+                let is_other_side = (n % 2 == 0) != is_turned;
                 let is_negative = is_other_side != (is_forward != is_first_forward);
                 // never a negative zero
                 values.numbers[slot] = if is_negative { -lane + 0.0 } else { lane };
             }
         }
     }
+}
+
+/// Returns true where what hangs together with the ends of a way lies on the side to which its lanes count, on the whole.
+fn is_crowded([from, to]: [Place; 2], ways: &[[Place; 2]], values: &Values) -> bool {
+    let at = |place: Place| place.map(|slot| values.numbers[slot]);
+    let ([x, y], [to_x, to_y]) = (at(from), at(to));
+    let beside = |place: Place| {
+        let [a, b] = at(place);
+        (to_x - x) * (b - y) - (to_y - y) * (a - x)
+    };
+    let others = ways.iter().filter_map(|&[a, b]| match [a, b].map(|p| p == from || p == to) {
+        [true, false] => Some(b),
+        [false, true] => Some(a),
+        [true, true] | [false, false] => None,
+    });
+    others.map(beside).sum::<f64>() > 0.0
 }

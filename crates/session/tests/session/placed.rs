@@ -113,6 +113,22 @@ fn a_part_that_is_joined_by_hand_across_the_nodes_of_another_stands_beside_it() 
     assert_eq!(desk.number("r2.lane"), 0.0, "{}", desk.text());
 }
 
+#[test]
+fn a_part_beside_another_stands_where_less_hangs_together_with_both() {
+    let mut desk = Desk::of(
+        "use circuits\ny down\nbattery: Battery\nr1, r2, load: Resistor\n\
+         merge battery.a.node = r1.a.node\nmerge r1.b.node = r2.a.node = load.a.node\n\
+         merge battery.b.node = r2.b.node = load.b.node\n",
+    );
+    let [a, b] = ends(&mut desk, "load");
+    let [one, other] = ends(&mut desk, "r1");
+    let third = if one == a || one == b { other } else { one };
+    let lane = desk.number("load.lane");
+    assert_eq!(lane.abs(), 48.0);
+    let beside = (b.0 - a.0) * (third.1 - a.1) - (b.1 - a.1) * (third.0 - a.0);
+    assert!(beside * lane < 0.0, "{a:?} {b:?} {third:?} {lane}");
+}
+
 /// A net of resistors, so many nodes wide and high, nowhere placed.
 fn net_of_resistors(wide: usize, high: usize) -> (String, Vec<String>) {
     let mut text = String::from("use circuits\ny down\n");
