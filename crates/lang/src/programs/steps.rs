@@ -122,7 +122,6 @@ impl Lowerer<'_> {
                         continue;
                     };
                     let name = word.name();
-                    self.warn_of_own_steps(scope.file, &value, &scope.locals);
                     let (says, kind) = self.step_says(scope, &value);
                     self.programs.totals.extend(totals_of(&name, &value));
                     let is_angle = self.is_angle_of_step(scope, &kind, &value);
@@ -135,21 +134,15 @@ impl Lowerer<'_> {
                     block.steps.push(step(unnamed(), says, false));
                 }
                 Member::Repeat(of) => {
-                    let value = Value::Repeat(of.clone());
-                    self.warn_of_own_steps(scope.file, &value, &scope.locals);
-                    let says = self.step_says(scope, &value).0;
+                    let says = self.step_says(scope, &Value::Repeat(of.clone())).0;
                     block.steps.push(step(unnamed(), says, false));
                 }
                 Member::While(of) => {
-                    let value = Value::While(of.clone());
-                    self.warn_of_own_steps(scope.file, &value, &scope.locals);
-                    let says = self.step_says(scope, &value).0;
+                    let says = self.step_says(scope, &Value::While(of.clone())).0;
                     block.steps.push(step(unnamed(), says, false));
                 }
                 Member::For(of) => {
-                    let value = Value::For(of.clone());
-                    self.warn_of_own_steps(scope.file, &value, &scope.locals);
-                    let says = self.step_says(scope, &value).0;
+                    let says = self.step_says(scope, &Value::For(of.clone())).0;
                     block.steps.push(step(unnamed(), says, false));
                 }
                 Member::Erase(erase) => {
@@ -198,6 +191,7 @@ impl Lowerer<'_> {
 
     /// Lowers what a step does.
     fn step_says(&mut self, scope: &Scope, value: &Value) -> (Says, Kind) {
+        self.warn_of_own_steps(scope.file, value, &scope.locals);
         match value {
             Value::Expr(e) => match self.expr(scope, e) {
                 // a bare number is one of the sheet's lengths only where that is wanted
