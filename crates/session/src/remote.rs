@@ -10,6 +10,7 @@ use crate::plain::{plain_enum, plain_struct};
 use crate::session::Session;
 use crate::state::{Found, State};
 use crate::view::{Change, DocumentId, Question, Refusal};
+use crate::words;
 use base::Mixer;
 use kernel::{Command, Path, SlotId, Values};
 use std::collections::BTreeSet;
@@ -23,10 +24,8 @@ const MANY: usize = 40;
 /// An edit that may take long.
 #[derive(Clone, PartialEq, Debug)]
 pub enum LongEdit {
-    /// A command.
+    /// A command of a hand: where it contradicts what holds, that is asked first.
     Command(Command),
-    /// A command of a hand: what has to be asked first is asked.
-    Offered(Command),
     /// A value as a person types it.
     Typed {
         /// Of what.
@@ -66,44 +65,43 @@ pub enum Came {
 #[derive(Clone, PartialEq, Debug)]
 struct After {
     state: u64,
-    values: Plainly,
+    values: PlainValues,
     double_roots: Vec<u32>,
     /// Values alone are others.
     has_form: bool,
     edited: Vec<u32>,
-    wishes: Vec<(u32, f64)>,
-    came: Option<Plainly>,
+    came: Option<PlainValues>,
 }
 
 /// Values as plain data.
 #[derive(Clone, PartialEq, Debug)]
-struct Plainly {
+struct PlainValues {
     numbers: Vec<f64>,
     texts: Vec<(u32, String)>,
 }
 
-plain_enum!(LongEdit { 0: Command(command), 1: Typed { path, typed }, 2: Offered(command) });
+plain_enum!(LongEdit { 0: Command(command), 1: Typed { path, typed } });
 plain_enum!(Came { 0: Changed(change), 1: Asked(question) });
 plain_struct!(Question { message, choices });
 plain_struct!(Executed { before, outcome });
 plain_struct!(Done { came, after });
-plain_struct!(After { state, values, double_roots, has_form, edited, wishes, came });
-plain_struct!(Plainly { numbers, texts });
+plain_struct!(After { state, values, double_roots, has_form, edited, came });
+plain_struct!(PlainValues { numbers, texts });
 
-impl From<&Values> for Plainly {
+impl From<&Values> for PlainValues {
     fn from(values: &Values) -> Self {
         let texts = values.texts.iter().map(|(slot, text)| (slot.0, text.to_string()));
         Self { numbers: values.numbers.iter().map(|(_, x)| *x).collect(), texts: texts.collect() }
     }
 }
 
-impl From<&Plainly> for Values {
-    fn from(plainly: &Plainly) -> Self {
-        let mut values = Self::new(plainly.numbers.len());
-        for (slot, x) in (0..).map(SlotId).zip(&plainly.numbers) {
+impl From<&PlainValues> for Values {
+    fn from(plain: &PlainValues) -> Self {
+        let mut values = Self::new(plain.numbers.len());
+        for (slot, x) in (0..).map(SlotId).zip(&plain.numbers) {
             values.numbers[slot] = *x;
         }
-        let texts = plainly.texts.iter();
+        let texts = plain.texts.iter();
         values.texts =
             texts.map(|(slot, text)| (SlotId(*slot), Arc::from(text.as_str()))).collect();
         values
@@ -117,8 +115,7 @@ impl LongEdit {
     /// Why it was refused; then nothing has changed.
     pub fn apply(&self, session: &mut Session, id: DocumentId) -> Result<Came, Refusal> {
         let change = match self {
-            Self::Command(command) => session.apply(id, command),
-            Self::Offered(command) => match session.over_constrained(id, command) {
+            Self::Command(command) => match session.over_constrained(id, command) {
                 Some(question) => return Ok(Came::Asked(question)),
                 None => session.apply(id, command),
             },
@@ -138,7 +135,7 @@ impl LongEdit {
                 | Command::Anchor { path, .. }
                 | Command::Enable { path, .. },
             ) => vec![path.clone()],
-            Self::Command(_) | Self::Offered(_) => Vec::new(),
+            Self::Command(_) => Vec::new(),
             Self::Typed { path, .. } => crate::parse_path(path).into_iter().collect(),
         }
     }
@@ -178,7 +175,7 @@ impl Session {
                 _ => None,
             }
         });
-        Executed { before: print(&before), outcome }
+        Executed { before: fingerprint(&before), outcome }
     }
 
     /// Takes over what an edit came to in a copy, as one step, or why it was refused there; nothing, and nothing has
@@ -189,7 +186,7 @@ impl Session {
         executed: &Executed,
     ) -> Option<Result<Came, Refusal>> {
         let open = self.document(id);
-        if open.drag.is_some() || print(&open.state) != executed.before {
+        if open.drag.is_some() || fingerprint(&open.state) != executed.before {
             return None;
         }
         let Done { came, after } = match &executed.outcome {
@@ -224,7 +221,7 @@ impl Session {
                 return None;
             }
         };
-        if print(&state) != after.state {
+        if fingerprint(&state) != after.state {
             open.give_up(planner);
             return None;
         }
@@ -232,14 +229,13 @@ impl Session {
         let edited = after.edited.iter().copied().map(SlotId).collect();
         open.step_with(change.label.clone(), edited, (state, planner, status));
         if let Some(step) = open.done.last_mut() {
-            step.wishes = after.wishes.iter().map(|&(slot, x)| (SlotId(slot), x)).collect();
             step.came = after.came.as_ref().map(Values::from);
         }
         Some(())
     }
 
-    /// Ends a drag on something that it joins, where the joining may take long; returns the command that joins them,
-    /// and if something moved, how many steps there were before: [`Session::joined`] is to be told what came of it.
+    /// Ends a drag on something that it joins. Returns the command that joins them, which is applied next and may take
+    /// long; and if something moved, how many steps there were before: [`Session::joined`] is told what came of it.
     ///
     /// # Errors
     /// Why it could not be kept or joined; then all is as it was before the press.
@@ -248,7 +244,7 @@ impl Session {
         id: DocumentId,
         target: &Path,
     ) -> Result<(Command, Option<usize>), Refusal> {
-        let held = self.held_path(id).ok_or_else(Refusal::default)?;
+        let held = self.held_path(id).ok_or_else(|| words::refuse("nothing is held".into()))?;
         let command = self.join(id, &[target.clone(), held]).inspect_err(|_| self.cancel(id))?;
         let home = self.home(id);
         let steps = self.document(home).done.len();
@@ -278,19 +274,18 @@ impl After {
     fn of(open: &Open, step: &Step, before: &State) -> Self {
         let state = &open.state;
         Self {
-            state: print(state),
-            values: Plainly::from(&state.values),
+            state: fingerprint(state),
+            values: PlainValues::from(&state.values),
             double_roots: state.double_roots.iter().map(|slot| slot.0).collect(),
             has_form: state.has_form_of(before),
             edited: step.edited.iter().map(|slot| slot.0).collect(),
-            wishes: step.wishes.iter().map(|&(slot, x)| (slot.0, x)).collect(),
-            came: step.came.as_ref().map(Plainly::from),
+            came: step.came.as_ref().map(PlainValues::from),
         }
     }
 }
 
-/// A mixture of a state's text, of its values, to the bit, and of the units that they count in.
-fn print(state: &State) -> u64 {
+/// Returns a mixture of a state's text, of its values, to the bit, and of the units that they count in.
+fn fingerprint(state: &State) -> u64 {
     let mut mixer = Mixer::default();
     mixer.write(state.text.as_bytes());
     state.lowered.document.scale.0.iter().for_each(|&power| mixer.write_i16(power));

@@ -291,21 +291,6 @@ impl Session {
         let paths = [target.clone(), self.held_path(id)?];
         joining::joined(&self.document(id).state, &paths).ok()?.into_iter().next()
     }
-    /// Ends a drag on something that it joins: both are one undo step.
-    ///
-    /// # Errors
-    /// Why it could not be kept or joined; then all is as it was before the press.
-    pub fn release_onto(&mut self, id: DocumentId, target: &Path) -> Result<Change, Refusal> {
-        if self.held_path(id).is_none() {
-            return Ok(Change::default());
-        }
-        let (command, moved_since) = self.release_to_join(id, target)?;
-        let joined = self.apply(id, &command);
-        if let Some(since) = moved_since {
-            self.joined(id, since, joined.is_ok());
-        }
-        joined
-    }
     /// Takes a tool into the hand that places a thing of a class, place by place.
     ///
     /// # Errors

@@ -44,9 +44,12 @@ fn step(lab: Lab, label: String, times: usize, command: &Command, undone: bool) 
     view! {
         <li>
             <button class:undone=undone aria-current=is_now.then_some("step")
-                on:click=move |_| (0..times).for_each(|_| {
-                    lab.apply(&command);
-                })>{label}</button>
+                on:click=move |_| {
+                    lab.stop_edits();
+                    (0..times).for_each(|_| {
+                        lab.apply(&command);
+                    });
+                }>{label}</button>
         </li>
     }
 }

@@ -246,7 +246,7 @@ impl Lab {
             Deed::Add | Deed::Rule(_) if !matches!(command, Command::Text(_)) => match value {
                 Some(_) => self.apply(&command),
                 // nobody waits beside a field
-                None => self.apply_offered(&command, &self.selected_paths()),
+                None => self.apply_among(&command, &self.selected_paths()),
             },
             Deed::Add | Deed::Rule(_) => self.apply_called(&command, &offer.label),
             // as where the number itself is typed over, with its unit

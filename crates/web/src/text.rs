@@ -283,12 +283,12 @@ fn options(lab: Lab) -> Object {
         lab.hover(inside.and_then(|at| lab.structure.with_untracked(|rows| path_at(rows, at))));
     });
     set("onHover", hover.into_js_value());
-    for (name, command) in [("onUndo", Command::Undo), ("onRedo", Command::Redo)] {
-        let back = Closure::<dyn FnMut()>::new(move || {
-            lab.apply(&command);
-        });
-        set(name, back.into_js_value());
-    }
+    let back = Closure::<dyn FnMut()>::new(move || lab.undo());
+    set("onUndo", back.into_js_value());
+    let again = Closure::<dyn FnMut()>::new(move || {
+        lab.apply(&Command::Redo);
+    });
+    set("onRedo", again.into_js_value());
     let complete = Closure::<dyn FnMut(u32) -> Array>::new(move |offset| {
         let text = lab.written();
         lab.ask_of_shown(|session, id| session.completions(id, &text, offset))

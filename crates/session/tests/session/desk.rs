@@ -87,6 +87,15 @@ impl Desk {
         }
         state
     }
+    /// Drops what is held on something: one step.
+    pub(crate) fn drop_on(&mut self, target: &str) -> Result<Change, Refusal> {
+        let (command, since) = self.session.release_to_join(self.id, &at(target))?;
+        let joined = self.apply(&command);
+        if let Some(since) = since {
+            self.session.joined(self.id, since, joined.is_ok());
+        }
+        joined
+    }
     /// Drags from press to release.
     pub(crate) fn drag(&mut self, path: &str, along: &[(f64, f64)]) -> Change {
         self.hold(path, along);

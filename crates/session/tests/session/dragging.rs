@@ -369,7 +369,7 @@ fn what_is_dragged_across_is_held_and_dropped_by_the_corner_that_lies_there() {
     let instead = Some((at("box.far"), at("box.corner")));
     assert_eq!(desk.session.held_instead(desk.id), instead);
     assert_eq!(desk.session.joint(desk.id, &at("p")), Some(at("p")));
-    desk.session.release_onto(desk.id, &at("p")).expect("they can be one");
+    desk.drop_on("p").expect("they can be one");
     assert!(desk.text().contains("merge p = box.corner"), "{}", desk.text());
     assert_eq!(sizes(&desk, "box"), [-20.0, -10.0, 30.0, 20.0]);
 }

@@ -347,7 +347,7 @@ fn what_is_dropped_on_a_corner_becomes_one_with_it_in_one_step() {
     let before = desk.moment();
     desk.hold("b.p1", &[(50.0, 50.0), (100.0, 0.0)]);
     assert_eq!(desk.session.joint(desk.id, &at("a.p2")), Some(at("a.p2")));
-    desk.session.release_onto(desk.id, &at("a.p2")).expect("they are alike");
+    desk.drop_on("a.p2").expect("they are alike");
     assert_eq!(desk.session.status(desk.id).freedom, 6);
     assert_eq!(desk.place("b.p1"), (100.0, 0.0));
     assert_eq!(desk.place("a.p2"), (100.0, 0.0));

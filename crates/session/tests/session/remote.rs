@@ -77,7 +77,7 @@ fn a_truss_and_a_circuit_come_to_the_same_where_a_worker_computes_them() {
 fn what_contradicts_is_asked_about_by_a_worker_too() {
     let say =
         |members: &str| Command::Edit { target: session::Path::default(), members: members.into() };
-    let offered = |members: &str| LongEdit::Offered(say(members));
+    let offered = |members: &str| LongEdit::Command(say(members));
     let level = "constraint bridge.top1.at.y = bridge.top4.at.y";
     let never = "constraint bridge.left.at.y = bridge.right.at.y + 1";
     same("bridge", &[offered(level), offered(never)]);

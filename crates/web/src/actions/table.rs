@@ -63,14 +63,10 @@ pub const ACTIONS: &[Action] = &[
         keys: &["Ctrl+Z"],
         enabled: |lab| {
             let step = lab.status.with(|status| status.undo.is_some());
-            let step = step || lab.dragging.with(Option::is_some);
+            let step = step || lab.dragging.with(Option::is_some) || lab.is_editing();
             document(lab).and(if step { Ok(()) } else { Err(words::NOTHING_TO_UNDO) })
         },
-        run: |lab| match lab.dragging.with_untracked(Option::is_some) {
-            // what the hand does is what is taken back
-            true => lab.cancel(),
-            false => apply(lab, &Command::Undo),
-        },
+        run: |lab| lab.undo(),
     },
     Action {
         id: "redo",

@@ -21,27 +21,37 @@ impl Lab {
     /// Applies a command to the shown document, or asks first what it is meant of; what comes of it stands in the
     /// signals. Returns whether it is done: of one that may take long, not yet.
     pub fn apply(self, command: &Command) -> bool {
+        self.apply_among(command, &[])
+    }
+
+    /// The same of a command that is about some things without naming their paths.
+    pub(crate) fn apply_among(self, command: &Command, about: &[Path]) -> bool {
         self.flush_text();
-        if *command == Command::Undo && self.stop_edits() {
+        let edit = LongEdit::Command(command.clone());
+        let asked = self.ask_of_shown(|session, id| session.preview(id, command).ok().flatten());
+        let asked = asked.flatten();
+        if asked.is_none() && self.is_long(&edit, about) {
+            self.have_executed(edit, move |outcome| {
+                self.settle_edit(outcome);
+            });
             return false;
         }
-        let asked = self.id().and_then(|id| self.ask(|session| session.preview(id, command).ok()));
         let over = || self.ask_of_shown(|session, id| session.over_constrained(id, command));
-        match asked.flatten().or_else(|| over().flatten()) {
+        match asked.or_else(|| over().flatten()) {
             Some(question) => {
                 self.notice.set(Some(Notice::Asked(question)));
                 false
             }
-            None => {
-                let edit = LongEdit::Command(command.clone());
-                if !self.is_long(&edit, &[]) {
-                    return self.apply_as_meant(command);
-                }
-                self.edit(edit, &[], move |outcome| {
-                    self.settle_edit(outcome);
-                });
-                false
-            }
+            None => self.apply_as_meant(command),
+        }
+    }
+
+    /// Takes back what goes on, a drag or an edit that the worker is at; else the last step.
+    pub fn undo(self) {
+        if self.dragging.with_untracked(Option::is_some) {
+            self.cancel();
+        } else if !self.stop_edits() {
+            self.apply(&Command::Undo);
         }
     }
 
@@ -87,7 +97,7 @@ impl Lab {
         let before = self.drawn_box();
         let edit = LongEdit::Typed { path: path.into(), typed: typed.into() };
         let path = String::from(path);
-        self.edit(edit, &[], move |outcome| then(self.typed(&path, before, outcome)));
+        self.edit(edit, move |outcome| then(self.typed(&path, before, outcome)));
     }
 
     /// The same, always at once.

@@ -1,8 +1,8 @@
 //! Long jobs: questions that a worker answers while the page goes on, one after the other.
 //!
 //! In: a question of a panel. Out: its answers as they come, whether it goes on, and how far it is. A question that is
-//! asked again takes the place of the one before. Where the browser refuses a worker the page answers itself, part by
-//! part, and says so once; what nobody waits for is not answered there.
+//! asked again takes the place of the one before; edits wait for each other. Where the browser refuses a worker the page
+//! answers itself, part by part, and says so once; what nobody waits for is not answered there.
 
 use super::{Lab, Notice};
 use crate::js::{self, Worker};
@@ -146,6 +146,11 @@ impl Lab {
             });
         });
         self.next_job();
+    }
+
+    /// Whether the worker is at an edit.
+    pub fn is_editing(self) -> bool {
+        self.jobs.going.with(|going| going.as_ref().is_some_and(|g| g.kind == Kind::Edit))
     }
 
     /// Whether a worker would do an edit next: it is not refused, and nothing that somebody waits for goes on.

@@ -9,38 +9,31 @@ use leptos::prelude::*;
 use session::jobs::{LongAnswer, LongQuestion};
 use session::remote::{Came, LongEdit};
 use session::view::Refusal;
-use session::{Command, DocumentId, Path};
+use session::{DocumentId, Path};
 use std::cell::RefCell;
 
 /// What came of an edit; nothing where it was stopped, or its document is shown no more.
 pub(crate) type Outcome = Option<Result<Came, Refusal>>;
 
-/// What is done once it is known what came of an edit.
-type Then = Box<dyn FnOnce(Outcome)>;
-
 impl Lab {
-    /// Does an edit of the shown document, by the worker where it may take long: where many values hang together with
-    /// what it is about, or with some other things.
-    pub(crate) fn edit(
-        self,
-        edit: LongEdit,
-        others: &[Path],
-        then: impl FnOnce(Outcome) + 'static,
-    ) {
-        match self.is_long(&edit, others) {
-            true => self.have_executed(edit, Box::new(then)),
+    /// Does an edit of the shown document, by the worker where it may take long.
+    pub(crate) fn edit(self, edit: LongEdit, then: impl FnOnce(Outcome) + 'static) {
+        match self.is_long(&edit, &[]) {
+            true => self.have_executed(edit, then),
             false => then(self.tell(|session, id| edit.apply(session, id))),
         }
     }
 
-    /// Whether an edit is one for the worker.
+    /// Whether an edit is one for the worker: many values hang together with what it is about, or with some other
+    /// things.
     pub(crate) fn is_long(self, edit: &LongEdit, others: &[Path]) -> bool {
         let may_take_long =
             |session: &mut session::Session, id| session.may_take_long(id, edit, others);
         self.is_worker_free() && self.tell(may_take_long) == Some(true)
     }
 
-    fn have_executed(self, edit: LongEdit, then: Then) {
+    /// Has the worker execute an edit of the shown document.
+    pub(crate) fn have_executed(self, edit: LongEdit, then: impl FnOnce(Outcome) + 'static) {
         let Some(id) = self.id() else { return };
         let question = LongQuestion::Edit(edit.clone());
         let waiting = RefCell::new(Some((edit, then)));
@@ -105,10 +98,7 @@ impl Lab {
             }
         };
         let edit = LongEdit::Command(command);
-        if self.is_long(&edit, &[]) {
-            self.refresh();
-        }
-        self.edit(edit, &[], move |outcome| {
+        let then = move |outcome: Outcome| {
             if let Some(since) = since {
                 let is_done = outcome.as_ref().is_some_and(Result::is_ok);
                 self.order(|session| session.joined(id, since, is_done));
@@ -117,23 +107,13 @@ impl Lab {
                 self.refresh();
             }
             self.settle_edit(outcome);
-        });
-    }
-
-    /// Does what is offered of some things; where something has to be asked first that is asked.
-    pub(crate) fn apply_offered(self, command: &Command, about: &[Path]) -> bool {
-        let edit = LongEdit::Offered(command.clone());
-        if !self.is_long(&edit, about) {
-            return self.apply(command);
+        };
+        if self.is_long(&edit, &[]) {
+            self.refresh();
+            self.have_executed(edit, then);
+        } else {
+            then(self.tell(|session, id| edit.apply(session, id)));
         }
-        let asked = self.id().and_then(|id| self.ask(|session| session.preview(id, command).ok()));
-        match asked.flatten() {
-            Some(question) => self.notice.set(Some(Notice::Asked(question))),
-            None => self.edit(edit, about, move |outcome| {
-                self.settle_edit(outcome);
-            }),
-        }
-        false
     }
 
     /// Shows what came of an edit; returns whether it is done.
