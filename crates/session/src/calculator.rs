@@ -70,6 +70,6 @@ fn in_words(state: &State, values: &Values, answer: &Answer<'_>) -> Option<Strin
                 items.iter().map(|item| in_words(state, values, item)).collect();
             Some(format!("[{}]", items?.join(", ")))
         }
-        other => crate::views::values::in_words(document, other),
+        other => crate::views::answers::in_words(document, other),
     }
 }

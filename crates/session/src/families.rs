@@ -507,7 +507,7 @@ fn names_in(rule: &Term) -> Vec<&Name> {
 fn values_in<'a>(evaluator: &Evaluator<'a>, rule: &'a Term, run: &Rc<Context<'a>>) -> String {
     let value = |name: &&Name| {
         let value = evaluator.of_part(&Answer::Context(run.clone()), name).ok()?;
-        let value = crate::views::values::in_words(evaluator.document, &value)?;
+        let value = crate::views::answers::in_words(evaluator.document, &value)?;
         Some(format!("{name} is {value}"))
     };
     let said: Vec<String> = names_in(rule).iter().filter_map(value).collect();

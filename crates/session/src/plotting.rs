@@ -386,7 +386,7 @@ impl Sampler {
         let owner = crate::session::thing_at(&self.state, &Path(owner.to_vec()));
         let class = owner.map(|owner| self.state.structure.things[owner].class);
         let document = &self.state.lowered.document;
-        class.map_or("", |class| crate::views::values::answer_class(document, class, name))
+        class.map_or("", |class| crate::views::answers::answer_class(document, class, name))
     }
 }
 

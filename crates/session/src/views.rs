@@ -1,5 +1,6 @@
 //! Views made of a state: one file each.
 pub(crate) mod analysis;
+pub(crate) mod answers;
 pub(crate) mod drawn;
 pub(crate) mod explain;
 pub(crate) mod held;

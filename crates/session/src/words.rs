@@ -232,9 +232,9 @@ pub(crate) fn sides_in_words(state: &State, source: Source, values: &Values) -> 
         let value = match &answer {
             eval::Answer::Text(text) => format!("\"{text}\""),
             eval::Answer::Number(x, dimension) if dimension.is_none() && rule.contains('%') => {
-                views::values::in_percent(&state.lowered.document, *x)
+                views::answers::in_percent(&state.lowered.document, *x)
             }
-            answer => views::values::in_words_as(&state.lowered.document, answer, class)?,
+            answer => views::answers::in_words_as(&state.lowered.document, answer, class)?,
         };
         // a number needs no saying what it is
         let number = written.trim_start_matches(['-', ' ']);

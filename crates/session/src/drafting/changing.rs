@@ -12,7 +12,7 @@ use crate::document::Open;
 use crate::host::Host;
 use crate::state::State;
 use crate::view::{Change, Pointer, Refusal};
-use crate::views::values;
+use crate::views::answers;
 use crate::words;
 use base::Name;
 use eval::Answer;
@@ -120,7 +120,7 @@ fn in_words(state: &State, home: &Home, says: &str) -> Option<String> {
         found = match answer {
             Ok(Answer::Bool(truth)) => Some(truth.to_string()),
             Ok(answer @ (Answer::Number(..) | Answer::Option(..))) => {
-                values::in_words(evaluator.document, &answer)
+                answers::in_words(evaluator.document, &answer)
             }
             Ok(_) | Err(_) => None,
         };

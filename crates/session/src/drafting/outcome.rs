@@ -9,7 +9,7 @@ use super::scene::{Curve, elements_of};
 use super::{Home, compound, text};
 use crate::state::State;
 use crate::view::Refusal;
-use crate::views::values;
+use crate::views::answers;
 use crate::words;
 use eval::{Answer, Evaluator};
 use kernel::{ClassId, DOCUMENT, Path, ThingId};
@@ -150,7 +150,7 @@ pub(crate) fn worth(state: &State, home: &Home, text: &str) -> Result<Worth, Ref
         outcome = match answer {
             Err(fault) => Err(words::refuse(fault.message)),
             Ok(Answer::Bool(truth)) => Ok(Worth::Truth(truth)),
-            Ok(other) => Ok(match values::in_words(evaluator.document, &other) {
+            Ok(other) => Ok(match answers::in_words(evaluator.document, &other) {
                 Some(number) => Worth::Number(number),
                 None => Worth::Other(other.kind().to_string()),
             }),

@@ -10,7 +10,7 @@ use crate::doubts;
 use crate::offers::words_of;
 use crate::state::State;
 use crate::view::Refusal;
-use crate::views::values;
+use crate::views::answers;
 use crate::words;
 use eval::{Answer, Evaluator};
 use kernel::program::Program;
@@ -448,12 +448,12 @@ fn value_words<'a>(state: &'a State, evaluator: &Evaluator<'a>, answer: &Answer<
     let document = &state.lowered.document;
     let area = || {
         let area = evaluator.of_part(answer, "area").ok();
-        area.and_then(|area| values::in_words(document, &area)).unwrap_or_default()
+        area.and_then(|area| answers::in_words(document, &area)).unwrap_or_default()
     };
     let outlined = document.class_named("Outlined").zip(evaluator.class_of(answer));
     let is_outlined = outlined.is_some_and(|(outlined, class)| document.is_a(class, outlined));
     match answer {
-        Answer::Number(..) => values::in_words(document, answer).unwrap_or_default(),
+        Answer::Number(..) => answers::in_words(document, answer).unwrap_or_default(),
         Answer::List(items) => match items.iter().all(|item| matches!(item, Answer::Context(_))) {
             true => counted(items.len(), "turn"),
             false => counted(items.len(), "figure"),

@@ -162,7 +162,7 @@ fn subject(open: &Open, path: &Path) -> Result<Subject, Refusal> {
             let (answer, slots) = evaluator.listening(|| evaluator.at(path));
             let opening = match answer {
                 Ok(answer) => {
-                    let value = super::values::in_words(&state.lowered.document, &answer)
+                    let value = super::answers::in_words(&state.lowered.document, &answer)
                         .unwrap_or_else(|| evaluator.text_of(&answer));
                     format!("{path} is {value}")
                 }

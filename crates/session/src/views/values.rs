@@ -3,10 +3,14 @@
 use crate::doubts;
 use crate::state::State;
 use crate::view::ValueRow;
+use crate::views::answers::{
+    Cell, angle_of, answer_class, class_of_answer, class_of_field, element_class, entry, is_value,
+    show_answer, without_value,
+};
 use crate::views::drawn::walk;
 use crate::words;
 use base::Name;
-use eval::{Answer, Evaluator, Fault, FaultKind, Standing};
+use eval::{Answer, Evaluator, Fault, Standing};
 use indexmap::IndexMap;
 use kernel::builtin::{FUNCTIONS, Kind, PICTURE_MESSAGES, find};
 use kernel::program::{Allowed, Bound};
@@ -159,6 +163,7 @@ fn renewed<'a>(
     let around = answer.clone().and_then(|answer| evaluator.from(answer, around));
     let of_step = match (&around, step) {
         (Ok(Answer::Context(turn)), Step::Part(step)) => angle_of(document, turn.class, step),
+        (Ok(Answer::Made(made)), Step::Part(step)) => class_of_field(document, made.class, step),
         _ => "",
     };
     let value = around.and_then(|around| evaluator.from(around, std::slice::from_ref(step)));
@@ -167,18 +172,12 @@ fn renewed<'a>(
             let class = state.structure.things[owner].class;
             let class = match of_step {
                 "" => element_class(document, class_of_answer(document, class, name)),
-                angle => angle,
+                known => known,
             };
             show_answer(document, &value, class).map(|shown| shown.0)
         }
         Err(fault) => without_value(&fault),
     }
-}
-
-/// A value in words, and its number if it is one.
-struct Cell {
-    words: Shown,
-    number: Option<f64>,
 }
 
 fn show(state: &State, values: &Values, slot: SlotId) -> Cell {
@@ -208,103 +207,6 @@ fn show_virtual(
         Ok(answer) => show_answer(document, &answer, class).map(|shown| shown.0),
         Err(fault) => without_value(&fault),
     }
-}
-
-/// Says why something has no value; nothing where that is no matter of its numbers.
-fn without_value(fault: &Fault) -> Option<Cell> {
-    let text = format!("no value: {}", fault.message);
-    matches!(fault.kind, FaultKind::NoAnswer | FaultKind::Endless)
-        .then(|| Cell { words: words::plain(text), number: None })
-}
-
-/// Returns the name of the class that is written for what a message answers; empty where none is.
-pub(crate) fn answer_class<'d>(document: &'d Document, class: ClassId, name: &Name) -> &'d str {
-    class_of_answer(document, class, name).map_or("", |c| &document.classes[c].name)
-}
-
-fn class_of_answer(document: &Document, class: ClassId, name: &str) -> Option<ClassId> {
-    let mut line = document.primary_line(class).into_iter();
-    let message = line.find_map(|c| document.classes[c].messages.iter().find(|m| *m.name == *name));
-    message.and_then(|m| m.class)
-}
-
-/// Returns a plain number in percent.
-pub(crate) fn in_percent(document: &Document, x: f64) -> String {
-    let quantity = Quantity { written: "%", ..Quantity::default() };
-    let shown = kernel::show_quantity(x, quantity, document);
-    words::with_unit(shown.text, &shown.unit)
-}
-
-/// Returns the class of angles for a step that is one, else none.
-fn angle_of<'d>(document: &'d Document, turn: ClassId, step: &str) -> &'d str {
-    let class = class_of_answer(document, turn, step).map(|c| &*document.classes[c].name);
-    class.filter(|class| *class == "Angle").unwrap_or_default()
-}
-
-/// Returns the name of the class of the numbers in what is listed as of a class; empty where none is.
-fn element_class(document: &Document, listed: Option<ClassId>) -> &str {
-    let mut found = listed;
-    while let Some(class) = found {
-        match &document.classes[class].kind {
-            ClassKind::List(of) | ClassKind::Set(of) => found = Some(*of),
-            ClassKind::Primitive(_) => return &document.classes[class].name,
-            ClassKind::Composite | ClassKind::Reference(_) => break,
-        }
-    }
-    ""
-}
-
-/// Returns the name and the value that a row of a table consists of.
-fn entry<'r, 'd>(row: &'r Answer<'d>) -> Option<(&'r str, Answer<'d>)> {
-    let Answer::List(pair) = row else { return None };
-    match &pair[..] {
-        [Answer::Text(name), value] => Some((name, value.clone())),
-        _ => None,
-    }
-}
-
-/// Returns an answer of a class in words, and its class; nothing where it is no value.
-fn show_answer<'d>(
-    document: &'d Document,
-    answer: &Answer<'d>,
-    class: &'d str,
-) -> Option<(Cell, &'d str)> {
-    let plain = |text: String| Cell { words: words::plain(text), number: None };
-    match answer {
-        Answer::Number(x, dimension) => {
-            let quantity = Quantity { dimension: *dimension, class, written: "" };
-            let words = kernel::show_quantity(*x, quantity, document);
-            let class = if class.is_empty() { dimension.named().unwrap_or("Real") } else { class };
-            Some((Cell { words, number: Some(*x) }, class))
-        }
-        Answer::Text(t) => Some((plain(t.to_string()), "Text")),
-        Answer::Bool(b) => Some((plain(b.to_string()), "Bool")),
-        Answer::Option(of, at) => {
-            let name = document.option_at(*of, f64::from(*at))?;
-            Some((plain(name.to_string()), &document.classes[*of].name))
-        }
-        Answer::Thing(_)
-        | Answer::Made(_)
-        | Answer::Context(_)
-        | Answer::List(_)
-        | Answer::Picture(_)
-        | Answer::Function(_) => None,
-    }
-}
-
-/// Returns an answer with its unit, as a person reads it; nothing where it is no value.
-pub(crate) fn in_words(document: &Document, answer: &Answer<'_>) -> Option<String> {
-    in_words_as(document, answer, "")
-}
-
-/// Returns the same of an answer that is of a class.
-pub(crate) fn in_words_as<'d>(
-    document: &'d Document,
-    answer: &Answer<'d>,
-    class: &'d str,
-) -> Option<String> {
-    let (Cell { words: Shown { text, unit, .. }, .. }, _) = show_answer(document, answer, class)?;
-    Some(words::with_unit(text, &unit))
 }
 
 /// Returns true for what belongs to a text that is used: a constant of a library, `constants.c`.
@@ -489,7 +391,7 @@ impl<'a> Maker<'a> {
                 Ok(answer) if doubts::is_none(name, &answer) => {}
                 Ok(answer) => match answered(document, &path, &answer, said, is_layout) {
                     None if draws => self.add_drawn(&answer, &mut path, most),
-                    None if is_table(document, &answer, thing) => {
+                    None if is_table(&answer, thing) => {
                         self.add_each(
                             &answer,
                             &mut path,
@@ -511,7 +413,7 @@ impl<'a> Maker<'a> {
         }
     }
 
-    /// Adds the rows of the values that a list or a place consists of, and how many there are beyond.
+    /// Adds the rows of the values that a list or a figure consists of, and how many there are beyond.
     fn add_each(
         &mut self,
         answer: &Answer<'_>,
@@ -522,13 +424,25 @@ impl<'a> Maker<'a> {
         let (document, rows) = (&self.state.lowered.document, &mut self.work.rows);
         let most = rows.len() + MOST_DRAWN;
         let mut beyond = 0;
+        // the figures around what is visited, each with where its path ends
+        let mut figures: Vec<(usize, ClassId)> = Vec::new();
         walk(document, (answer, Standing::Result), path, &mut |answer, _, path| {
+            while figures.pop_if(|(end, _)| *end >= path.len()).is_some() {}
+            if let Answer::Made(made) = answer {
+                figures.push((path.len(), made.class));
+            }
             if rows.len() >= most {
                 let is_value = is_value(answer);
                 beyond += usize::from(is_value);
                 return !is_value;
             }
-            let of = if matches!(answer, Answer::Number(..)) { class } else { "" };
+            let of = match (answer, figures.last()) {
+                (Answer::Number(..), None) => class,
+                (Answer::Number(..), Some(&(end, made))) => {
+                    class_of_field(document, made, path[end..].trim_start_matches('.'))
+                }
+                _ => "",
+            };
             let row = answered(document, path, answer, [of, doc], is_layout);
             let is_value = row.is_some();
             rows.extend(row);
@@ -624,25 +538,21 @@ fn row_of(path: &str, cell: Cell, [class, doc]: [&str; 2], is_layout: bool) -> V
     }
 }
 
-/// Returns true for what is shown value by value: lists of values, and of the document itself also places and lists of
-/// these.
-fn is_table(document: &Document, answer: &Answer<'_>, thing: ThingId) -> bool {
+/// Returns true for what is shown value by value: lists of values, and of the document itself also figures and lists
+/// of these.
+fn is_table(answer: &Answer<'_>, thing: ThingId) -> bool {
     match answer {
         Answer::List(items) => {
             let mut items = items.iter();
-            items.all(|item| is_value(item) || is_table(document, item, thing))
+            items.all(|item| is_value(item) || is_table(item, thing))
         }
         Answer::Made(made) => {
-            let is_place = document.is_place(made.class);
-            thing == kernel::DOCUMENT && is_place && made.fields.iter().all(is_value)
+            let mut fields = made.fields.iter();
+            thing == kernel::DOCUMENT
+                && fields.all(|field| is_value(field) || is_table(field, thing))
         }
         _ => false,
     }
-}
-
-/// Returns true for what one row shows.
-fn is_value(answer: &Answer<'_>) -> bool {
-    matches!(answer, Answer::Number(..) | Answer::Text(_) | Answer::Bool(_) | Answer::Option(..))
 }
 
 /// Returns what there is to choose for a value.

@@ -472,6 +472,31 @@ fn a_computed_list_is_shown_element_by_element() {
 }
 
 #[test]
+fn a_computed_figure_is_shown_number_by_number() {
+    // the circle through (0, 0), (4, 0) and (1, 3) is the one around (2, 1) of radius √5
+    let desk = Desk::of(
+        "use geometry\na: Point = Point(0, 0)\nb: Point = Point(4, 0)\nc: Point = Point(1, 3)\n\
+         round => Circle.through(a, b, c)\nclass Turn { by: Angle  way: Length }\n\
+         turn => Turn(by: 30 deg, way: 2 m)\n",
+    );
+    let wanted = [
+        "round.center.x 2 m",
+        "round.center.y 1 m",
+        "round.radius 2.23607 m",
+        "turn.by 30 deg",
+        "turn.way 2 m",
+    ];
+    assert_eq!(rows_of(&desk)[6..], wanted);
+    let mut rows = desk.session.values(desk.id);
+    desk.session.renew_values(desk.id, rows.iter_mut());
+    assert_eq!(
+        rows,
+        desk.session.values(desk.id),
+        "a row that is renewed says what a new one does"
+    );
+}
+
+#[test]
 fn a_long_computed_list_says_how_much_more_there_is() {
     let desk = Desk::of("xs => (1..1200).map(i => 2 * i)\ny => 3\n");
     let rows = rows_of(&desk);

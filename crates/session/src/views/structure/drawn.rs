@@ -5,7 +5,7 @@ use super::{Maker, Work};
 use crate::session::thing_at;
 use crate::state::State;
 use crate::view::{RowKind, StructureRow};
-use crate::views::{drawn, values};
+use crate::views::{answers, drawn};
 use eval::{Answer, Context, Standing};
 use kernel::{ClassId, Message, OriginId, Path, Step, ThingId, Values};
 use std::collections::BTreeMap;
@@ -201,10 +201,10 @@ impl<'m> Maker<'m> {
         let document = &self.state.lowered.document;
         match answer {
             Answer::Made(made) if document.is_place(made.class) => {
-                let parts = made.fields.iter().map(|part| values::in_words(document, part));
+                let parts = made.fields.iter().map(|part| answers::in_words(document, part));
                 Some(format!("({})", parts.collect::<Option<Vec<_>>>()?.join(", ")))
             }
-            other => values::in_words(document, other),
+            other => answers::in_words(document, other),
         }
     }
 
