@@ -32,6 +32,18 @@ impl Row {
     }
 }
 
+impl Row {
+    /// Returns the row in another unit; nothing where the number would be hard to read in it.
+    fn in_unit(&self, unit: &str) -> Option<Self> {
+        let x: f64 = self.text.parse().ok()?;
+        let shift = session::decimal_shift(&self.unit, unit)?;
+        let x: f64 = format!("{x}e{shift}").parse().ok()?;
+        let is_readable = x == 0.0 || (1e-3..1e6).contains(&x.abs());
+        let text = base::number::significant(x, 6).into();
+        is_readable.then(|| Self { path: self.path.clone(), text, unit: unit.into(), ..*self })
+    }
+}
+
 /// What stands together.
 enum Block<'r> {
     Rows(Vec<&'r Row>),
@@ -133,7 +145,9 @@ impl<'r> Table<'r> {
         let names: Vec<String> = self.lines.iter().map(|(name, _)| (*name).to_string()).collect();
         let mut columns = vec![aligned(self.list, &names)];
         for (at, head) in self.columns.iter().enumerate() {
-            let cells = || self.lines.iter().map(move |(_, cells)| cells[at]);
+            let cells: Vec<Option<&Row>> = self.lines.iter().map(|(_, cells)| cells[at]).collect();
+            let alike = in_one_unit(&cells);
+            let cells = || alike.iter().zip(&cells).map(|(alike, cell)| alike.as_ref().or(*cell));
             let digits = cells().flatten().map(before_point).max().unwrap_or(0);
             let is_marked = cells().flatten().any(|row| row.mark != ' ');
             let cell = |row: Option<&Row>| match row {
@@ -164,6 +178,30 @@ impl Columns {
         }
         words
     }
+}
+
+/// Writes the cells of a column in the unit that most of them have, the first of several, where the others are decimal
+/// multiples of it and all are easily read so; nothing for a cell that stays as it is.
+fn in_one_unit(cells: &[Option<&Row>]) -> Vec<Option<Row>> {
+    let as_it_is = || cells.iter().map(|_| None).collect();
+    let rows = || cells.iter().flatten().filter(|row| row.is_number);
+    let mut units: Vec<(&str, usize)> = Vec::new();
+    // nothing is as easily read in any unit
+    for row in rows().filter(|row| &*row.text != "0") {
+        match units.iter_mut().find(|(unit, _)| *unit == &*row.unit) {
+            Some((_, count)) => *count += 1,
+            None => units.push((&row.unit, 1)),
+        }
+    }
+    let most = units.iter().map(|(_, count)| *count).max().unwrap_or(0);
+    let Some((unit, _)) = units.into_iter().find(|(_, count)| *count == most) else {
+        return as_it_is();
+    };
+    let converted = |cell: &Option<&Row>| match cell {
+        Some(row) if row.is_number && &*row.unit != unit => row.in_unit(unit).map(Some),
+        _ => Some(None),
+    };
+    cells.iter().map(converted).collect::<Option<_>>().unwrap_or_else(as_it_is)
 }
 
 /// Returns a column of words, its head first, each as wide as the widest.
@@ -203,6 +241,29 @@ mod tests {
         };
         let each = |i: usize| [row(format!("l[{i}].n"), "1"), row(format!("l[{i}].t"), text)];
         (0..3).flat_map(each).collect()
+    }
+
+    #[test]
+    fn a_column_counts_in_the_unit_that_most_of_it_has() {
+        let row = |i: usize, text: &str, unit: &str| Row {
+            path: format!("l[{i}].n").into(),
+            mark: ' ',
+            text: text.into(),
+            unit: unit.into(),
+            is_number: true,
+        };
+        let column = |cells: [(&str, &str); 3]| {
+            let rows: Vec<Row> = (0..).zip(cells).map(|(i, (n, u))| row(i, n, u)).collect();
+            let cells: Vec<Option<&Row>> = rows.iter().map(Some).collect();
+            let alike = in_one_unit(&cells);
+            let shown = alike.iter().zip(&rows).map(|(alike, row)| alike.as_ref().unwrap_or(row));
+            shown.map(|row| value(row, 0)).collect::<Vec<_>>().join(", ")
+        };
+        assert_eq!(column([("400", "mm"), ("0.8", "m"), ("1.2", "m")]), "0.4 m, 0.8 m, 1.2 m");
+        assert_eq!(column([("0", "A"), ("2", "mA"), ("0.5", "mA")]), "0 mA, 2 mA, 0.5 mA");
+        // hard to read, and no multiples
+        assert_eq!(column([("1", "nA"), ("1", "A"), ("2", "A")]), "1 nA, 1 A, 2 A");
+        assert_eq!(column([("1", "in"), ("1", "m"), ("2", "m")]), "1 in, 1 m, 2 m");
     }
 
     #[test]

@@ -86,6 +86,6 @@ pub use state::{MORE, Untold};
 pub use tools::copies::{Clip, Relations};
 pub use view::DocumentId;
 pub use views::analysis::MOST_MOTIONS;
-pub use views::listing::Listing;
+pub use views::listing::{Listing, decimal_shift};
 pub use views::picture::{readable, roomy, svg_at};
 pub use views::status::GAVE_WAY;

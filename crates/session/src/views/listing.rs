@@ -36,6 +36,14 @@ impl Session {
     }
 }
 
+/// Returns by which power of ten numbers in one unit are to be multiplied to count in another; nothing for units of which
+/// neither is a decimal multiple of the other.
+pub fn decimal_shift(from: &str, to: &str) -> Option<i32> {
+    let [from, to] = [expr::units::unit(from)?, expr::units::unit(to)?];
+    let is_multiple = from.dimension == to.dimension && from.mantissa == to.mantissa;
+    is_multiple.then(|| i32::from(from.exponent) - i32::from(to.exponent))
+}
+
 /// Rows that are being made.
 pub struct Listing {
     state: Rc<State>,
