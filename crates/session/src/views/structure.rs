@@ -173,24 +173,31 @@ impl Maker<'_> {
         self.work.rows[at].descendants = (self.work.rows.len() - at - 1) as u32;
     }
 
-    /// Returns false for the part that nobody wrote, which keeps the masters of placed things, and for the things of a
-    /// used text of which nothing speaks.
+    /// Returns false for the part that nobody wrote, which keeps the masters of placed things, for the things of a used
+    /// text of which nothing speaks, and for a number of layout that nothing gives.
     fn is_shown(&self, part: ThingId) -> bool {
         let State { structure, lowered, .. } = self.state;
         let name = lowered.masters.as_ref();
         let keeps_masters = structure.things[part].owner == Some(kernel::DOCUMENT)
             && name.is_some_and(|n| structure.field_name(&lowered.document, part) == Some(n));
-        !keeps_masters && !structure.is_unseen(&lowered.document, part)
+        let slot = structure.slot_of(part).map(|slot| &structure.slots[slot]);
+        let is_left_open = slot.is_some_and(|slot| slot.is_layout && slot.given.is_none())
+            && self.declared(part).is_some_and(|declared| declared.is_layout);
+        !keeps_masters && !is_left_open && !structure.is_unseen(&lowered.document, part)
+    }
+
+    /// Returns what declares a part of a thing.
+    fn declared(&self, part: ThingId) -> Option<&kernel::Part> {
+        let structure = &self.state.structure;
+        let t = &structure.things[part];
+        let layout = structure.layout(structure.things[t.owner?].class)?;
+        self.state.lowered.document.declared(*layout.fields.get(t.field as usize)?)
     }
 
     fn part_origin(&self, thing: ThingId) -> OriginId {
         let (document, structure) = (&self.state.lowered.document, &self.state.structure);
-        let t = &structure.things[thing];
-        let declared = t.owner.and_then(|owner| {
-            let layout = structure.layout(structure.things[owner].class)?;
-            document.declared(*layout.fields.get(t.field as usize)?)
-        });
-        declared.map_or(document.classes[t.class].origin, |p| p.origin)
+        let class = structure.things[thing].class;
+        self.declared(thing).map_or(document.classes[class].origin, |part| part.origin)
     }
 
     /// Adds what a thing's classes say of it: virtual parts, constraints, merges, sides.

@@ -109,6 +109,10 @@ fn a_part_that_is_joined_by_hand_across_the_nodes_of_another_stands_beside_it() 
         desk.text()
     );
     assert!(!desk.text().contains("lane"), "{}", desk.text());
+    // nobody asked for it: it is no row of the structure
+    let rows = desk.session.structure(desk.id);
+    assert!(rows.iter().any(|row| row.path == "r2.resistance"));
+    assert!(rows.iter().all(|row| row.name != "lane"));
     desk.apply(&Command::Unmerge(at("r2.b.node"))).expect("it is merged");
     assert_eq!(desk.number("r2.lane"), 0.0, "{}", desk.text());
 }
