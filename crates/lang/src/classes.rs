@@ -13,7 +13,7 @@ use syntax::ast::{self, AstNode, Member, TypeShape};
 const MOST_BESIDE: usize = 200;
 
 /// How many superclasses may stand one above the other: what a class inherits is looked up along them.
-const MOST_ABOVE: usize = 5000;
+const MOST_ABOVE: usize = 1000;
 
 impl Lowerer<'_> {
     /// Makes the language's own classes.
