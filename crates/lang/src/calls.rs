@@ -192,6 +192,10 @@ impl Lowerer<'_> {
                 self.unknown_part(scope, receiver, word);
                 None
             }
+            Kind::Tuple(_) if builtin::find(builtin::LIST_MESSAGES, &name).is_none() => {
+                self.unknown_part(scope, receiver, word);
+                None
+            }
             Kind::Tuple(_) | Kind::Unknown => Some((unchecked(args), Kind::Unknown)),
         }
     }

@@ -423,10 +423,12 @@ impl Lowerer<'_> {
             Kind::Text | Kind::Color => {
                 builtin::TEXT_MESSAGES.iter().map(|b| b.name.into()).collect()
             }
-            Kind::List(_) => builtin::LIST_MESSAGES.iter().map(|b| b.name.into()).collect(),
+            Kind::List(_) | Kind::Tuple(_) => {
+                builtin::LIST_MESSAGES.iter().map(|b| b.name.into()).collect()
+            }
             Kind::Picture => builtin::PICTURE_MESSAGES.iter().map(|b| b.name.into()).collect(),
             Kind::Bool | Kind::Option(_) => vec!["text".into()],
-            Kind::Tuple(_) | Kind::Function | Kind::Unknown => Vec::new(),
+            Kind::Function | Kind::Unknown => Vec::new(),
         };
         let of_each = match receiver {
             Kind::List(element) => self.is_part_of_each(element, word),
@@ -454,6 +456,9 @@ impl Lowerer<'_> {
             }
             _ if matches!(word.text(), "on" | "isOn" | "liesOn" | "lies" | "incident") => {
                 d.hint("a curve says what lies on it: `l.passes(through: p)`")
+            }
+            _ if matches!(receiver, Kind::Tuple(_)) && matches!(word.text(), "x" | "y") => {
+                d.hint(format!("say of what class it is: `Point(…).{}`", word.text()))
             }
             _ if matches!(word.text(), "copy" | "clone") => d.hint("write `copy of thing`"),
             _ if is_list && matches!(word.text(), "average" | "avg") => d.meant("mean"),
