@@ -519,7 +519,10 @@ impl<'a> Evaluator<'a> {
     pub(crate) fn is_a(&self, answer: &Answer<'a>, class: ClassId) -> bool {
         let is = |c: ClassId| self.document.is_a(c, class);
         match answer {
-            Answer::Thing(t) => is(self.structure.things[*t].class),
+            Answer::Thing(t) => {
+                let is = |t: ThingId| is(self.structure.things[t].class);
+                is(*t) || self.structure.unlike(*t).iter().any(|&t| is(t))
+            }
             Answer::Made(made) => is(made.class),
             Answer::Context(context) => is(context.class),
             Answer::Number(..) => match self.document.classes[class].kind {

@@ -457,6 +457,15 @@ impl Form {
     pub fn unlike(&self, thing: ThingId) -> &[ThingId] {
         self.unlike.of(thing)
     }
+    /// Returns true for a thing that is merged with one declared before it, and has more: its class is not among those of
+    /// what is merged with it and declared before.
+    pub fn adds(&self, document: &Document, thing: ThingId) -> bool {
+        let class = |t: ThingId| self.things[t].class;
+        let mut before = self.unlike(thing).iter().take_while(|&&t| t != thing);
+        self.merged[thing] != thing
+            && self.unlike(thing).contains(&thing)
+            && !before.any(|&t| document.is_a(class(t), class(thing)))
+    }
     /// Returns the slot that is meant where a thing goes some way: a coordinate of a place, or a number.
     pub fn slot_of_side(&self, thing: ThingId, way: SideWay) -> Option<SlotId> {
         match way.coordinate() {

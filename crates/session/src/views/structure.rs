@@ -144,7 +144,9 @@ impl Maker<'_> {
         self.work.rows.push(row);
         let class = structure.things[thing].class;
         match document.classes[class].kind {
-            ClassKind::Composite | ClassKind::List(_) if first == thing => {
+            ClassKind::Composite | ClassKind::List(_)
+                if first == thing || structure.adds(document, thing) =>
+            {
                 let parts: Vec<ThingId> =
                     match crate::general::named(self.state, thing, "structure") {
                         Some(named) => named,

@@ -229,7 +229,7 @@ impl<'a> Maker<'a> {
     fn add(&mut self, thing: ThingId, path: String) {
         let state = self.state;
         let (document, structure) = (&state.lowered.document, &state.structure);
-        if structure.merged[thing] != thing {
+        if structure.merged[thing] != thing && !structure.adds(document, thing) {
             return;
         }
         if let Some(slot) = structure.slot_of(thing) {
@@ -380,7 +380,15 @@ impl<'a> Maker<'a> {
         let end = path.len();
         let draws = document.program(class).is_some();
         let most = self.work.rows.len() + MOST_DRAWN;
+        let (first, definer) = (self.state.structure.merged[thing], |class, name: &Name| {
+            document.find_message(class, name, None).map(|(definer, _)| definer)
+        });
+        let first = (first != thing).then(|| self.state.structure.things[first].class);
         for Answers { name, doc, is_pictured, class: written } in parts.clone().iter() {
+            // what it answers alike is told of what is declared before it
+            if first.is_some_and(|first| definer(first, name) == definer(class, name)) {
+                continue;
+            }
             let (answer, read) = self.evaluator.listening(|| self.evaluator.ask(thing, name));
             let slots = &self.state.structure.slots;
             let is_layout = read.iter().all(|&slot| slots[slot].is_layout)

@@ -444,6 +444,20 @@ fn rows_of(desk: &Desk) -> Vec<String> {
 }
 
 #[test]
+fn what_a_merged_thing_has_beyond_the_first_is_shown() {
+    let desk = Desk::of(
+        "class Worker { hours: Real = 40  pay => hours }\n\
+         class Chief is Worker { bonus: Real = 500  pay => super.pay + bonus  half => hours / 2 }\n\
+         w: Worker\nc: Chief { bonus = 7 }\nmerge w = c\n",
+    );
+    assert_eq!(rows_of(&desk), ["w.hours 40", "w.pay 40", "c.bonus 7", "c.pay 47", "c.half 20"]);
+    let rows = desk.session.structure(desk.id);
+    let children =
+        rows.iter().filter(|row| row.path.starts_with("c.") && row.merged_with.is_none());
+    assert!(children.map(|row| row.path.as_str()).any(|path| path == "c.bonus"));
+}
+
+#[test]
 fn a_computed_list_is_shown_element_by_element() {
     let text = "use geometry\nxs: List of 2 Real = [1, 2]\nys => xs.map(x => 2 * x)\n\
                 turns: List of Angle => xs.map(x => x * 90 deg)\np => Point(3, 5)\n\
