@@ -88,7 +88,18 @@ impl Opened {
         let (path, value) = setting
             .split_once('=')
             .ok_or_else(|| refused("write PATH=VALUE, such as `r1.resistance=2 kohm`"))?;
-        let change = self.session.set_typed(self.id, path.trim(), value.trim());
+        let (path, value) = (path.trim(), value.trim());
+        // more than a whole turn: degrees are meant, and radians would be read
+        if value.parse::<f64>().is_ok_and(|x| x.abs() > std::f64::consts::TAU) {
+            let rows = self.session.values(self.id);
+            let is_it = |row: &session::view::ValueRow| row.path == path || row.shortest == path;
+            if rows.iter().find(|row| is_it(row)).is_some_and(|row| row.class == "Angle") {
+                let message =
+                    format!("{path} is an angle: say `{value} deg`, or `{value} rad` for radians");
+                return Err(refused(&message));
+            }
+        }
+        let change = self.session.set_typed(self.id, path, value);
         change.map(drop).map_err(|refusal| refused(&refusal.message))
     }
 }

@@ -8,6 +8,7 @@ use crate::kinds::Kind;
 use crate::lower::{Lowerer, OWN};
 use crate::scope::Scope;
 use base::{Diagnostic, Place};
+use kernel::{ClassId, ClassKind};
 use syntax::ast::{AstNode, BinaryOp, CallExpr, Expr, Part, Type, TypeShape, UnaryOp, Value};
 
 /// A whole turn, in radians.
@@ -59,6 +60,27 @@ impl Lowerer<'_> {
         let hint =
             format!("degrees have their unit: {}; so may radians, `{number} rad`", shown(&degrees));
         self.report(d.hint(hint).fix(format!("write {degrees}"), [(place, degrees)]));
+    }
+
+    /// Warns of what is given to something of a class, where that is an angle, or a list of angles, and more than a whole
+    /// turn is given without a unit.
+    pub(crate) fn warn_of_bare_degrees(
+        &mut self,
+        scope: &Scope,
+        class: ClassId,
+        value: &Expr,
+        shown: &dyn Fn(&str) -> String,
+    ) {
+        if self.document.classes[class].name.as_str() == ANGLE {
+            return self.warn_of_bare_angle(scope, value, shown);
+        }
+        if let (ClassKind::List(of), Expr::List(list)) = (&self.document.classes[class].kind, value)
+        {
+            let of = *of;
+            for element in list.elements() {
+                self.warn_of_bare_degrees(scope, of, &element, &|degrees| format!("`{degrees}`"));
+            }
+        }
     }
 
     /// Warns of `a = 90` and `0 <= a <= 90`: an angle that is compared with more than a whole turn without a unit.

@@ -1,7 +1,7 @@
 //! Calls: messages, functions of the language, constructors; their arguments checked.
 
 use crate::hints::instead_of_abstract;
-use crate::kinds::{Kind, measured, wanted_in_words, with_article};
+use crate::kinds::{Kind, made, measured, wanted_in_words, with_article};
 use crate::lower::Lowerer;
 use crate::names::owners;
 use crate::scope::Scope;
@@ -27,9 +27,10 @@ pub(crate) struct Arg {
 const STEPS_OF_TIME: &str = "take steps: `states: List of 101 State  for a, b in states.neighbours { constraint \
                              b.x = a.x + h * a.v }`, or `repeat n times with x = … { next x = … }` in a program";
 
-/// Something that is wanted of a call: its label, its name inside, what it may be.
+/// Something that is wanted of a call: its label, its name inside, its class, what it may be.
 struct Wanted {
     labels: [Name; 2],
+    class: Option<ClassId>,
     kind: Kind,
 }
 
@@ -263,6 +264,7 @@ impl Lowerer<'_> {
         let message = self.defined_message(definer, name)?;
         let wanted = message.parameters.iter().map(|p| Wanted {
             labels: [p.label.clone(), p.name.clone()],
+            class: p.class,
             kind: p.class.map_or(Kind::Unknown, |c| Kind::of_class(&self.document, c)),
         });
         let wanted: Vec<Wanted> = wanted.collect();
@@ -319,7 +321,7 @@ impl Lowerer<'_> {
                 self.report(d);
                 return None;
             };
-            let Wanted { labels, kind } = wanted.get(place)?;
+            let Wanted { labels, class, kind } = wanted.get(place)?;
             if std::mem::replace(&mut taken[place], true) {
                 let message = format!("{} is given twice", labels[0]);
                 self.error("wrong-arity", scope.file, arg.expr.span(), message);
@@ -337,8 +339,17 @@ impl Lowerer<'_> {
                 });
                 return None;
             }
+            if let Some(class) = *class {
+                if self.is_fraction(scope, &labels[0], class, &arg.expr) {
+                    return None;
+                }
+                let written = |degrees: &str| format!("`{}: {degrees}`", labels[0]);
+                self.warn_of_bare_degrees(scope, class, &arg.expr, &written);
+            }
             self.refer_by_position(scope.file, &arg.expr, kind);
             let value = measured(&self.document, arg.value, &arg.kind, kind);
+            // what a rule asks is opened by what its arguments are
+            let value = made(&self.document, value, kind);
             bound.push(Argument { label: arg.label.map(|w| w.name()), value });
         }
         Some(bound)
@@ -607,8 +618,9 @@ impl Lowerer<'_> {
         let document = &self.document;
         let fields = document.layout(class).into_iter().map(|f| {
             let name = document.field_name(f).clone();
-            let kind = Kind::of_class(document, document.field_class(f));
-            Wanted { labels: [name.clone(), name], kind }
+            let class = document.field_class(f);
+            let kind = Kind::of_class(document, class);
+            Wanted { labels: [name.clone(), name], class: Some(class), kind }
         });
         let fields: Vec<Wanted> = fields.collect();
         if args.len() > fields.len() {

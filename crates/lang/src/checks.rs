@@ -404,7 +404,11 @@ fn targets(
             l.error("not-a-path", scope.file, e.span(), message);
             return None;
         };
-        all.push((path, l.expr_of(scope, &target.value()?, &kind)?));
+        let value = target.value()?;
+        if let Some(class) = l.class_at(scope.class(), &path) {
+            l.warn_of_bare_degrees(scope, class, &value, &|degrees| format!("`{degrees}`"));
+        }
+        all.push((path, l.expr_of(scope, &value, &kind)?));
     }
     Some(all)
 }

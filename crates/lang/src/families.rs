@@ -155,6 +155,8 @@ fn lower_row(
     program: ClassId,
     row: &ast::TupleExpr,
 ) -> Option<Row> {
+    let fields = l.document.layout(program).into_iter();
+    let classes: Vec<ClassId> = fields.map(|field| l.document.field_class(field)).collect();
     let kinds = crate::kinds::fields(&l.document, program);
     let mut values: Vec<ast::Expr> = row.elements().collect();
     let takes_text = matches!(kinds.first(), Some(Kind::Text | Kind::Color));
@@ -172,6 +174,9 @@ fn lower_row(
         return None;
     }
     let scope = Scope::of(file, l.object);
+    for (value, &class) in values.iter().zip(&classes) {
+        l.warn_of_bare_degrees(&scope, class, value, &|degrees| format!("`{degrees}`"));
+    }
     let texts = values.iter().map(|v| v.syntax().text().to_string().trim().to_string()).collect();
     let values = values.iter().zip(kinds).map(|(value, kind)| l.expr_of(&scope, value, &kind));
     let values = values.collect::<Option<_>>()?;

@@ -4,7 +4,7 @@ use crate::names::class_of_part;
 use expr::dimension::Dimension;
 use kernel::builtin::Kind as Builtin;
 use kernel::quantity::from_bare;
-use kernel::{BinaryOperator, ClassId, ClassKind, Document, Primitive, Term};
+use kernel::{Argument, BinaryOperator, ClassId, ClassKind, Document, Primitive, Term};
 
 /// What an expression is worth. `Unknown` never complains.
 #[derive(Clone, PartialEq, Debug)]
@@ -282,6 +282,22 @@ pub(crate) fn measured(document: &Document, term: Term, kind: &Kind, wanted: &Ki
             Term::List(items.into_iter().map(measure).collect())
         }
         (term, _, _) => term,
+    }
+}
+
+/// Makes a tuple the thing of a class that is wanted, and those in it; a list of tuples a list of these.
+pub(crate) fn made(document: &Document, term: Term, wanted: &Kind) -> Term {
+    match (term, wanted) {
+        (Term::Tuple(items), Kind::Thing(class)) if !document.classes[*class].is_abstract => {
+            let each = items.into_iter().zip(fields(document, *class));
+            let each = each.map(|(item, field)| made(document, item, &field));
+            let arguments = each.map(|value| Argument { label: None, value }).collect();
+            Term::Make { class: *class, arguments }
+        }
+        (Term::List(items), Kind::List(wanted)) => {
+            Term::List(items.into_iter().map(|item| made(document, item, wanted)).collect())
+        }
+        (term, _) => term,
     }
 }
 
