@@ -56,6 +56,7 @@ mod mentions;
 mod misread;
 mod mixed;
 mod names;
+mod narrower;
 mod numbers;
 mod operations;
 mod origins;

@@ -1,6 +1,5 @@
 //! Rules: everything that speaks of parts, lowered once all parts are declared.
 
-use crate::angles::ANGLE;
 use crate::hints::{is_a_unit, unit_before_equals};
 use crate::kinds::{Kind, measured};
 use crate::lower::Lowerer;
@@ -192,8 +191,11 @@ impl Lowerer<'_> {
         if let Some(name) = class.map(|class| self.document.classes[class].name.clone()) {
             self.warn_of_value(scope, &name, value);
         }
-        if class.is_some_and(|class| self.document.classes[class].name.as_str() == ANGLE) {
-            self.warn_of_bare_angle(scope, value, |degrees| format!("`{degrees}`"));
+        if let Some(class) = class {
+            self.warn_of_bare_degrees(scope, class, value, &|degrees| format!("`{degrees}`"));
+            if !self.is_reference(scope.class(), &path) {
+                self.warn_of_narrower(scope, (&path, class), (&kind, value));
+            }
         }
         let origin = self.origin(scope.file, value.span());
         if let Some(unit) = crate::numbers::unit_of(value) {
@@ -268,18 +270,11 @@ impl Lowerer<'_> {
         term: &Term,
         value: &Expr,
     ) -> bool {
+        if class.is_some_and(|class| self.is_fraction(scope, &path.to_string(), class, value)) {
+            return true;
+        }
         let kind = class.map(|c| &self.document.classes[c].kind);
-        let is_whole = matches!(kind, Some(ClassKind::Primitive(Primitive::Integer)));
-        let plain = crate::numbers::constant(&|_| None, value).filter(|_| is_whole);
         let message = match (kind, term) {
-            _ if let Some(x) = plain.filter(|x| x.fract() != 0.0) => {
-                let message = format!("{path} is a whole number, and is given {x}");
-                let place = Place { file: scope.file, span: value.span() };
-                let hint =
-                    "a number with a fraction is a `Real`; `round(x)` is the nearest whole one";
-                self.report(Diagnostic::error("value-of-wrong-class", place, message).hint(hint));
-                return true;
-            }
             (Some(ClassKind::List(element)), given)
                 if *element == self.object
                     && !matches!(given, Term::List(items) if items.is_empty()) =>
@@ -302,6 +297,25 @@ impl Lowerer<'_> {
             _ => return false,
         };
         self.error("value-of-wrong-class", scope.file, value.span(), message);
+        true
+    }
+
+    /// Reports a fraction that is given to something of a class where that is of whole numbers.
+    pub(crate) fn is_fraction(
+        &mut self,
+        scope: &Scope,
+        what: &str,
+        class: ClassId,
+        value: &Expr,
+    ) -> bool {
+        let kind = &self.document.classes[class].kind;
+        let is_whole = *kind == ClassKind::Primitive(Primitive::Integer);
+        let plain = is_whole.then(|| crate::numbers::constant(&|_| None, value)).flatten();
+        let Some(x) = plain.filter(|x| x.fract() != 0.0) else { return false };
+        let message = format!("{what} is a whole number, and is given {x}");
+        let place = Place { file: scope.file, span: value.span() };
+        let hint = "a number with a fraction is a `Real`; `round(x)` is the nearest whole one";
+        self.report(Diagnostic::error("value-of-wrong-class", place, message).hint(hint));
         true
     }
 
