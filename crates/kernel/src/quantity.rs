@@ -29,6 +29,8 @@ const PREFIXES: [(&str, i8, f64); 10] = [
 
 /// A larger value does not read well in a unit in which the text writes others.
 const MOST_READABLE: f64 = 1e6;
+/// Below this whole numbers are written in full: every one of them is one of the computer's.
+const LARGEST_COUNTED: f64 = 1e15;
 /// Other numbers do not read well in the unit in which they were written.
 const READABLE: std::ops::Range<f64> = 1e-3..MOST_READABLE;
 /// A smaller number does not read well in a unit in which another one was written.
@@ -99,7 +101,7 @@ impl Shown {
 /// A number as people read it.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct Shown {
-    /// The number in its unit, to six significant digits.
+    /// The number in its unit, to six significant digits; a whole number without a unit to all of its digits.
     pub text: String,
     /// The unit, or nothing.
     pub unit: String,
@@ -114,7 +116,9 @@ pub struct Shown {
 pub fn show_quantity(x: f64, quantity: Quantity<'_>, document: &Document) -> Shown {
     let spelling = spelling_for(x, quantity, document);
     let shown = in_unit(x, quantity.dimension, &spelling, document);
-    let text = significant(shown, DIGITS);
+    // a whole number without a unit is counted: it keeps its digits
+    let is_counted = spelling.is_empty() && shown.fract() == 0.0 && shown.abs() < LARGEST_COUNTED;
+    let text = if is_counted { shortest(shown) } else { significant(shown, DIGITS) };
     // six digits tell many a number: 60 degrees, whose radians are 59.99999999999999
     let read = units::read_quantity(&text, &spelling);
     let is_told = read.is_some_and(|(si, of)| from_si(document, si, of) == x);
