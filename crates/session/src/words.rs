@@ -493,10 +493,40 @@ pub(crate) fn quantity_of<'s>(state: &'s State, slot: SlotId, written: &'s str) 
     Quantity { dimension, class: &document.classes[class].name, written }
 }
 
-/// Returns the text of the value that is given to a slot, of a long list its last elements; empty where none is.
+/// Returns the text of the value that is given to a slot, of `Beam(2 m, 10 %)` what counts for it; of a long list its
+/// last elements; empty where none is.
 pub(crate) fn written_for(state: &State, slot: SlotId) -> String {
-    let given = state.structure.given(slot);
-    given.map_or_else(String::new, |given| state.lowered.written(given.origin).to_string())
+    let Some(given) = state.structure.given(slot) else { return String::new() };
+    // what a library gives by default is no choice of the document's
+    if given.of_class && state.lowered.own_span(given.origin).is_none() {
+        return String::new();
+    }
+    let written = state.lowered.written(given.origin);
+    let own = match &*given.term {
+        Term::Number { value, dimension, .. } if written.contains(',') => {
+            let is_it =
+                |item: &&str| is_number(&state.lowered.document, item, (*value, *dimension));
+            let items = written.split([',', '(', ')', '[', ']']);
+            items.map(|item| item.rsplit(':').next().unwrap_or(item).trim()).find(is_it)
+        }
+        _ => None,
+    };
+    own.unwrap_or(written).to_string()
+}
+
+/// Returns true for the text of a number with its unit, or of a bare one.
+fn is_number(document: &Document, text: &str, (value, dimension): (f64, Dimension)) -> bool {
+    let is_of_number = |c: char| c.is_ascii_digit() || matches!(c, '.' | '_' | '-' | 'e');
+    let (digits, unit) = text.split_at(text.find(|c| !is_of_number(c)).unwrap_or(text.len()));
+    let unit = unit.trim();
+    if unit.is_empty() {
+        let bare = digits.parse().ok();
+        return bare.is_some_and(|x| kernel::quantity::from_bare(document, x, dimension) == value);
+    }
+    let read = expr::units::read_quantity(digits, unit);
+    read.is_some_and(|(si, of)| {
+        of == dimension && kernel::quantity::from_si(document, si, of) == value
+    })
 }
 
 /// Returns a number that is near the one of a slot and has no more than so many decimals as it is written: a number

@@ -458,6 +458,27 @@ fn what_a_merged_thing_has_beyond_the_first_is_shown() {
 }
 
 #[test]
+fn a_number_is_shown_in_the_unit_that_is_written_for_it() {
+    let desk = Desk::of(
+        "use circuits\nclass Loan { from, to: Real  rate: Real }\nloan: Loan = Loan(0.5, 1, 10%)\n\
+         class Slab { long, wide: Length }\nslab: Slab = Slab(5 ft, 3 in)\ncount: Real = 1234567\n\
+         r: Resistor\nconstraint r.resistance = count / 1000000 * 3 kohm\n",
+    );
+    let wanted = [
+        "loan.from 0.5",
+        "loan.to 1",
+        "loan.rate 10 %",
+        "slab.long 5 ft",
+        "slab.wide 3 in",
+        "count 1234567",
+        "r.resistance 3.7037 kohm",
+    ];
+    let rows = rows_of(&desk);
+    let rows: Vec<_> = rows.iter().filter(|row| wanted.contains(&row.as_str())).collect();
+    assert_eq!(rows, wanted);
+}
+
+#[test]
 fn a_computed_list_is_shown_element_by_element() {
     let text = "use geometry\nxs: List of 2 Real = [1, 2]\nys => xs.map(x => 2 * x)\n\
                 turns: List of Angle => xs.map(x => x * 90 deg)\np => Point(3, 5)\n\
