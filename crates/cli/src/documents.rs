@@ -89,6 +89,9 @@ impl Opened {
             .split_once('=')
             .ok_or_else(|| refused("write PATH=VALUE, such as `r1.resistance=2 kohm`"))?;
         let (path, value) = (path.trim(), value.trim());
+        // a text may be quoted, as it is in a document
+        let quoted = value.strip_prefix('"').and_then(|value| value.strip_suffix('"'));
+        let value = quoted.unwrap_or(value);
         // more than a whole turn: degrees are meant, and radians would be read
         if value.parse::<f64>().is_ok_and(|x| x.abs() > std::f64::consts::TAU) {
             let rows = self.session.values(self.id);

@@ -67,6 +67,21 @@ fn a_picture_without_end_is_no_empty_drawing() {
 }
 
 #[test]
+fn what_is_set_is_quoted_or_not_and_degrees_have_their_unit() {
+    let text = "name: Text = \"Al\"\nturn: Angle = 30 deg\n";
+    let set = |setting: &str| asked("set-typed", text, "run", &["--set", setting]);
+    for name in ["name=Bob", "name=\"Bob\""] {
+        let told = set(name);
+        assert!(String::from_utf8_lossy(&told.stdout).contains("name = Bob\n"), "{told:?}");
+    }
+    let told = set("turn=45");
+    assert!(!told.status.success());
+    let why = String::from_utf8_lossy(&told.stderr);
+    assert!(why.contains("turn is an angle: say `45 deg`"), "{why}");
+    assert!(String::from_utf8_lossy(&set("turn=45 deg").stdout).contains("45 deg"));
+}
+
+#[test]
 fn what_is_wrong_with_a_text_is_told_aside_of_its_drawing() {
     let text = "use geometry\np: Point = Point(1, 2)\nq: Pont\n";
     let drawn = asked("draw-wrong", text, "draw", &[]);
