@@ -583,7 +583,9 @@ fn shortest_path(state: &State, thing: ThingId) -> String {
     }
     let paths = state.structure.merged_with(thing).into_iter();
     let paths = paths.map(|t| state.structure.path(&state.lowered.document, t));
-    let shortest = paths.min_by_key(|path| path.0.len());
+    // an element is as near as its list
+    let length = |path: &Path| path.0.iter().filter(|step| !matches!(step, Step::Index(_))).count();
+    let shortest = paths.min_by_key(length);
     shortest.map_or_else(String::new, |path| path.to_string())
 }
 
