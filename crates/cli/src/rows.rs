@@ -33,11 +33,18 @@ impl Row {
 }
 
 impl Row {
-    /// Returns the row in another unit; nothing where the number would be hard to read in it.
-    fn in_unit(&self, unit: &str) -> Option<Self> {
+    /// Returns the number of a row in another unit, where one is a decimal multiple of the other.
+    fn number_in(&self, unit: &str) -> Option<f64> {
         let x: f64 = self.text.parse().ok()?;
-        let shift = session::decimal_shift(&self.unit, unit)?;
-        let x: f64 = format!("{x}e{shift}").parse().ok()?;
+        format!("{x}e{}", session::decimal_shift(&self.unit, unit)?).parse().ok()
+    }
+
+    /// Returns the row in another unit, one that is computed and rounding beside the largest of its column as nothing;
+    /// nothing where the number would be hard to read in it.
+    fn in_unit(&self, unit: &str, largest: f64) -> Option<Self> {
+        let x = self.number_in(unit)?;
+        let is_rounding = self.mark == ' ' && x.abs() < session::ROUNDING * largest;
+        let x = if is_rounding { 0.0 } else { x };
         let is_readable = x == 0.0 || (1e-3..1e6).contains(&x.abs());
         let text = base::number::significant(x, 6).into();
         is_readable.then(|| Self { path: self.path.clone(), text, unit: unit.into(), ..*self })
@@ -197,8 +204,9 @@ fn in_one_unit(cells: &[Option<&Row>]) -> Vec<Option<Row>> {
     let Some((unit, _)) = units.into_iter().find(|(_, count)| *count == most) else {
         return as_it_is();
     };
+    let largest = rows().filter_map(|row| row.number_in(unit)).map(f64::abs).fold(0.0, f64::max);
     let converted = |cell: &Option<&Row>| match cell {
-        Some(row) if row.is_number && &*row.unit != unit => row.in_unit(unit).map(Some),
+        Some(row) if row.is_number && &*row.unit != unit => row.in_unit(unit, largest).map(Some),
         _ => Some(None),
     };
     cells.iter().map(converted).collect::<Option<_>>().unwrap_or_else(as_it_is)
@@ -261,6 +269,7 @@ mod tests {
         };
         assert_eq!(column([("400", "mm"), ("0.8", "m"), ("1.2", "m")]), "0.4 m, 0.8 m, 1.2 m");
         assert_eq!(column([("0", "A"), ("2", "mA"), ("0.5", "mA")]), "0 mA, 2 mA, 0.5 mA");
+        assert_eq!(column([("2", "fm"), ("2", "mm"), ("5", "mm")]), "0 mm, 2 mm, 5 mm");
         // hard to read, and no multiples
         assert_eq!(column([("1", "nA"), ("1", "A"), ("2", "A")]), "1 nA, 1 A, 2 A");
         assert_eq!(column([("1", "in"), ("1", "m"), ("2", "m")]), "1 in, 1 m, 2 m");

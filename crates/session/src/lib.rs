@@ -80,6 +80,7 @@ pub use kernel::{Command, Literal, Path, Step};
 pub use lang::is_unit_of_sheet;
 pub use lang::tables::is_name as is_table_name;
 pub use opening::Opening;
+pub use rounding::ROUNDING;
 pub use rules::rule_in_words;
 pub use session::{Session, format, misspelled, parse_path};
 pub use state::{MORE, Untold};

@@ -4,7 +4,7 @@ use crate::state::State;
 use kernel::{SlotId, ThingId, Values};
 
 /// A computed coordinate is rounding where it is a smaller part than this of the largest of its place.
-pub(crate) const ROUNDING: f64 = 1e-12;
+pub const ROUNDING: f64 = 1e-12;
 
 /// Of more constraints nobody looks for those that speak of one number.
 const MOST_CONSTRAINTS: usize = 2000;

@@ -642,9 +642,9 @@ fn a_step_speaks_of_the_edge_of_a_union_by_what_it_comes_from() {
     desk.session.pick_wider(desk.id);
     desk.session.point(desk.id, &pointer).expect("an edge lies there");
     desk.session.enter(desk.id, "0, 0").expect("a place");
-    let between = "Line.edge(of: region, from: line3, nth: 0.5).length";
+    let between = "Line.edge(of: region, from: line3, nth: 7).length";
     let why = desk.session.compute(desk.id, between).why.expect("there is no such edge");
-    assert!(why.contains("none has the number 0.5"), "{why}");
+    assert!(why.contains("none has the number 7"), "{why}");
     let edge = "Line.edge(of: region, from: line3)";
     assert!(desk.text().contains(edge), "{}", desk.text());
     assert_eq!(desk.wrong(), [], "{}", desk.text());
