@@ -63,6 +63,7 @@ mod session;
 mod sheet;
 mod shown;
 mod state;
+mod templates;
 mod texts;
 mod tools;
 mod turning;

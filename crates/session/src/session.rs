@@ -185,6 +185,9 @@ impl Session {
         typed: &str,
     ) -> Result<Change, Refusal> {
         let path = parse_path(path).ok_or_else(|| words::refuse(format!("{path} is no path")))?;
+        if let Some(change) = self.set_template(id, &path, typed) {
+            return change;
+        }
         if let Some(change) = self.set_with_unit(id, &path, typed) {
             return change;
         }

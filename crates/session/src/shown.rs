@@ -5,6 +5,7 @@
 
 use crate::rounding::is_rounding;
 use crate::state::State;
+use crate::templates;
 use crate::words::{plain, quantity_of, written_for};
 use kernel::{Primitive, Quantity, Shown, SlotId, Value, Values};
 
@@ -34,7 +35,10 @@ pub(crate) fn show_slot(state: &State, slot: SlotId, values: &Values) -> Shown {
             plain(name.map_or_else(|| base::number::shortest(x), ToString::to_string))
         }
         (_, Value::Number(x)) => plain(base::number::shortest(x)),
-        (_, Value::Text(t)) => plain(t.to_string()),
+        (_, Value::Text(t)) => {
+            let exact = templates::source(state, slot).unwrap_or_else(|| t.to_string());
+            Shown { exact, ..plain(t.to_string()) }
+        }
     }
 }
 

@@ -1,6 +1,7 @@
 //! Views: every row once.
 
 use crate::desk::{Desk, at, gallery};
+use session::Command;
 use session::view::{MovedView, RowKind};
 use std::collections::BTreeSet;
 
@@ -316,7 +317,7 @@ fn a_picture_that_is_followed_is_the_one_that_is_made_anew() {
                 continue;
             }
             // after the release, and after that is taken back, it is that of the text that stands then
-            for command in [None, Some(session::Command::Undo)] {
+            for command in [None, Some(Command::Undo)] {
                 let done = match &command {
                     None => desk.session.release(desk.id).is_ok_and(|c| !c.edits.is_empty()),
                     Some(command) => desk.session.apply(desk.id, command).is_ok(),
@@ -476,6 +477,41 @@ fn a_number_is_shown_in_the_unit_that_is_written_for_it() {
     let rows = rows_of(&desk);
     let rows: Vec<_> = rows.iter().filter(|row| wanted.contains(&row.as_str())).collect();
     assert_eq!(rows, wanted);
+}
+
+#[test]
+fn a_text_with_values_in_it_is_typed_by_hand() {
+    let mut desk = Desk::of(
+        "use geometry\nline: Line { p1 = (0, 0)  p2 = (3, 4) }\ncaption: Caption { at = (0, 10) }\n\
+         other: Caption { at = (0, 20)  words = \"here\" }\n",
+    );
+    let row = |desk: &Desk, path: &str| {
+        let rows = desk.session.values(desk.id);
+        let row = rows.into_iter().find(|row| row.path == path).expect("it is a value");
+        (row.text, row.exact)
+    };
+    for path in ["caption.words", "other.words"] {
+        let before = desk.text();
+        desk.type_in(path, "side {line.length} long").expect("a text");
+        let shown = ("side 5 long".to_string(), "side {line.length} long".to_string());
+        assert_eq!(row(&desk, path), shown, "{}", desk.text());
+        desk.set("line.p2.x", 0.0).expect("it is free");
+        assert_eq!(row(&desk, path).0, "side 4 long");
+        desk.apply(&Command::Undo).expect("a step");
+        // what is typed over it is words again, or other values
+        desk.type_in(path, "\"{line.direction}\"").expect("a text");
+        assert_eq!(row(&desk, path).0, "\"53.1301 deg\"", "{}", desk.text());
+        desk.type_in(path, "none").expect("a text");
+        assert_eq!(row(&desk, path), ("none".to_string(), "none".to_string()));
+        // braces without a value in them are braces
+        desk.type_in(path, "{nothing}").expect("a text");
+        assert_eq!(row(&desk, path).0, "{nothing}", "{}", desk.text());
+        for _ in 0..4 {
+            desk.apply(&Command::Undo).expect("a step");
+        }
+        assert_eq!(desk.text(), before);
+    }
+    assert_eq!(desk.wrong(), []);
 }
 
 #[test]
