@@ -112,6 +112,7 @@ pub fn matching<A: Clone>(
     };
     let class = |one: &Makeable| {
         let rank = has(&one.class).then(|| begins(&one.class));
+        let rank = rank.or_else(|| has(&format!("place: {}", one.class)).then_some((2, 1)));
         let later = usize::from(one.unused.is_some());
         (rank.map(|(rank, place)| (rank, place + later)), Choice::Insert(one.clone()))
     };
@@ -216,6 +217,7 @@ mod tests {
             None => String::new(),
         };
         assert_eq!(first("zoom in"), "zoom-in");
+        assert_eq!(first("place resistor"), "Resistor");
         assert_eq!(first("undo"), "undo");
         // at the beginning of a word before within one
         assert_eq!(first("in"), "insert");

@@ -51,6 +51,12 @@ impl View {
     pub fn panned(self, dx: f64, dy: f64) -> Self {
         Self { x: self.x + dx, y: self.y + dy, ..self }
     }
+    /// Returns the view of a sheet whose `y` runs some way; what lies at a height stays where it is.
+    #[must_use]
+    pub fn turned_over(self, vertical: Vertical, height: f64) -> Self {
+        let turned = Self { vertical, ..self };
+        Self { y: self.y + (self.scale_y() - turned.scale_y()) * height, ..turned }
+    }
     /// Returns the view zoomed by a factor; what lies at `(x, y)` on the screen stays there.
     #[must_use]
     pub fn zoomed(self, factor: f64, (x, y): (f64, f64)) -> Self {

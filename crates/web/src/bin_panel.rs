@@ -68,8 +68,9 @@ pub fn Bin(
             class: entry.class,
             unused: (!is_used).then_some(entry.library),
         };
-        let own = found.get_untracked().into_iter().map(|entry| makeable(entry, true));
-        let other = offered.get_untracked().into_iter().map(|entry| makeable(entry, false));
+        let in_order = |shelves: Vec<Shelf>| shelves.into_iter().flat_map(|shelf| shelf.entries);
+        let own = in_order(shelves.get_untracked()).map(|entry| makeable(entry, true));
+        let other = in_order(more.get_untracked()).map(|entry| makeable(entry, false));
         let all: Vec<Makeable> = own.chain(other).collect();
         match (library, document, called(&all, &typed)) {
             (Some(library), ..) => {

@@ -157,7 +157,13 @@ fn Entry(
         <li id=format!("action-{n}") role="option" data-action=name
             aria-selected=move || (at.get() == n).to_string()
             aria-disabled=move || why.get().is_some().to_string()
-            on:pointerenter=move |_| at.set(n)
+            // one that rests where the list comes up chooses nothing
+            on:pointermove=move |e| {
+                let has_moved = e.movement_x() != 0 || e.movement_y() != 0;
+                if has_moved && at.get_untracked() != n {
+                    at.set(n);
+                }
+            }
             on:click=move |_| choose(n)>
             <span class="label">{label}</span>
             <span class="reason">{path}{why}</span>

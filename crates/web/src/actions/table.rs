@@ -212,7 +212,7 @@ pub const ACTIONS: &[Action] = &[
         },
     },
     Action {
-        id: "of-every",
+        id: "promote",
         group: Group::Join,
         contexts: &[Context::Thing],
         label: words::OF_EVERY,

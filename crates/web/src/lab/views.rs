@@ -5,8 +5,8 @@
 //! once. Whoever has to know them all before asks for them by [`Lab::list`]. During a drag only what is in sight is
 //! made.
 
+use super::Lab;
 use super::jobs::{Kind, Told};
-use super::{Lab, Zoom};
 use crate::js;
 use leptos::prelude::*;
 use session::Listing;
@@ -84,8 +84,10 @@ impl Lab {
         let moved = followed.unwrap_or(MovedView::Everything);
         // which way the sheet counts y may have been said just now
         let vertical = self.picture.with_untracked(|picture| picture.drawing.vertical);
-        if vertical != self.view.with_untracked(|view| view.vertical) {
-            self.zoom.set(Some(Zoom::Fit));
+        let view = self.view.get_untracked();
+        if vertical != view.vertical {
+            let middle = self.drawn_box().map_or(0.0, |drawn| (drawn.least.y + drawn.most.y) / 2.0);
+            self.view.set(view.turned_over(vertical, middle));
         }
         if self.moved.with_untracked(|before| *before != moved) {
             self.moved.set(moved.clone());
