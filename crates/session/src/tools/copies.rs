@@ -279,6 +279,12 @@ pub(crate) fn pasting(
         };
         return Err(words::refuse(message));
     }
+    // what is locked is put aside with the rest, and locked there
+    let is_lock = |member: &&String| member.starts_with("anchor ");
+    if members.iter().any(|member| is_lock(&member)) {
+        let movable: Vec<String> = members.iter().filter(|m| !is_lock(m)).cloned().collect();
+        trial = with_members(&base, &movable);
+    }
     let copies: Vec<String> = clip.things.iter().map(|(name, _)| called(name)).collect();
     let far = f64::from(aside) * across(&trial.state.lowered.document) / ASIDE;
     let is_placed = clip.relations == Relations::Own

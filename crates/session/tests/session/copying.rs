@@ -85,6 +85,23 @@ fn a_copy_that_speaks_of_what_is_not_copied_is_refused_and_says_so() {
 }
 
 #[test]
+fn a_copy_of_what_is_partly_locked_keeps_its_form() {
+    let mut desk = Desk::of(
+        "use geometry\na: Line { p1 = (0, 0)  p2 = (90, 0) }\nb: Line { p2 = (90, 60) }\nmerge a.p2 = b.p1\n\
+         c: Line\nmerge c.p1 = b.p2\nmerge c.p2 = a.p1\nanchor a\nanchor b.p2.x\n",
+    );
+    let (command, names) =
+        copy(&desk, &["a", "b", "c"], Relations::Own).expect("they stand together");
+    desk.apply(&command).expect("they can be made");
+    holds(&desk);
+    let [a, b, _] = &names[..] else { panic!("three copies") };
+    let place = |path: String| ["x", "y"].map(|part| desk.number(&format!("{path}.{part}")));
+    let places = [format!("{a}.p1"), format!("{a}.p2"), format!("{b}.p2")].map(place);
+    assert_eq!(places, [[20.0, 20.0], [110.0, 20.0], [110.0, 80.0]], "{}", desk.text());
+    assert!(desk.text().contains(&format!("anchor {a}")), "{}", desk.text());
+}
+
+#[test]
 fn copies_are_put_down_in_another_document_under_free_names() {
     let one = Desk::of(HOOK);
     let clip = one.session.copied(one.id, &[at("a"), at("b")], Relations::Own).expect("a clip");
