@@ -37,6 +37,28 @@ impl Session {
         found
     }
 
+    /// Returns what of a thing is meant to be locked: of one that is only drawn where its places of layout are, as a
+    /// resistor between its nodes, what it is given besides; else all of it.
+    pub fn to_lock(&self, id: DocumentId, path: &Path) -> Vec<Path> {
+        let state = &self.document(id).state;
+        let structure = &state.structure;
+        let Some(thing) = thing_at(state, path) else { return vec![path.clone()] };
+        let slots = structure.slots_under(thing);
+        let is_drawn_by_layout = slots.iter().any(|&slot| structure.slots[slot].is_layout);
+        let own = structure.path(&state.lowered.document, thing);
+        let is_given = |slot: &&SlotId| {
+            let s = &structure.slots[**slot];
+            let lies_within = state.slot_path(**slot).0.starts_with(&own.0);
+            !s.is_layout && s.given.is_some() && lies_within
+        };
+        let given: Vec<Path> =
+            slots.iter().filter(is_given).map(|&slot| state.slot_path(slot)).collect();
+        match is_drawn_by_layout && !given.is_empty() {
+            true => given,
+            false => vec![path.clone()],
+        }
+    }
+
     /// Locks parts at the values that they have, or lets them go. One step.
     ///
     /// # Errors

@@ -25,6 +25,20 @@ fn place(desk: &mut Desk, class: &str, places: &[(f64, f64)]) {
 }
 
 #[test]
+fn of_a_part_of_a_circuit_is_locked_what_it_is_given() {
+    let desk =
+        Desk::of("use circuits\nr: Resistor\nn: Node\nuse geometry\nl: Line\nmerge r.a.node = n\n");
+    let meant = |path: &str| {
+        let paths = desk.session.to_lock(desk.id, &at(path)).into_iter();
+        paths.map(|path| path.to_string()).collect::<Vec<_>>()
+    };
+    assert_eq!(meant("r"), ["r.resistance"]);
+    // of what is where it lies, and of what is given nothing, all
+    assert_eq!((meant("l"), meant("n")), (vec!["l".to_string()], vec!["n".to_string()]));
+    assert_eq!(meant("l.p1"), ["l.p1"]);
+}
+
+#[test]
 fn a_constant_shows_the_number_that_it_shares_with_its_node() {
     let mut desk = Desk::of(CONVERTER);
     let within = desk.session.values_within(desk.id, &at("factor"));

@@ -37,14 +37,21 @@ pub(super) fn several(lab: Lab) -> Result<Vec<String>, &'static str> {
     if selection.is_empty() { Err(words::NOTHING_SELECTED) } else { Ok(selection) }
 }
 
-/// The paths of what is selected, where all are parts that can be locked.
+/// The paths of what is meant to be locked of what is selected, where all are parts that can be.
 pub(crate) fn lockable(lab: Lab) -> Result<Vec<String>, &'static str> {
     let selection = several(lab)?;
     let is_part = |path: &String| {
         lab.structure
             .with(|rows| rows.iter().any(|row| row.path == *path && row.kind == RowKind::Part))
     };
-    if selection.iter().all(is_part) { Ok(selection) } else { Err(words::IS_A_CONSTRAINT) }
+    if !selection.iter().all(is_part) {
+        return Err(words::IS_A_CONSTRAINT);
+    }
+    let meant = lab.ask_of_shown(|session, id| {
+        let paths = selection.iter().filter_map(|path| session::parse_path(path));
+        paths.flat_map(|path| session.to_lock(id, &path)).map(|path| path.to_string()).collect()
+    });
+    Ok(meant.unwrap_or(selection))
 }
 
 /// The thing that a program draws which is selected, or of which something is.
