@@ -18,6 +18,8 @@ use session::view::{BinEntry, PictureView};
 
 /// What of the bin is one stop of Tab.
 const LIST: &str = ".bin .scroll";
+/// What filters it.
+const FIELD: &str = ".bin input";
 
 /// The classes in use, with a field that finds them, and the libraries that could be used besides.
 #[component]
@@ -113,7 +115,11 @@ pub fn Bin(
                 </Show>
                 <Show when=move || !libraries.with(Vec::is_empty)>
                     <h3>{words::MORE_LIBRARIES}</h3>
-                    <Uses names=libraries take=move |name: String| { lab.use_library(&name); } />
+                    <Uses names=libraries take=move |name: String| {
+                        lab.use_library(&name);
+                        // the button is gone, and the keyboard with it
+                        keyboard::focus(FIELD);
+                    } />
                 </Show>
                 <Show when=move || !beside.with(Vec::is_empty)>
                     <details class="beside" on:toggle=|_| keyboard::one_stop(LIST)>
