@@ -38,6 +38,19 @@ pub enum FaultKind {
 }
 
 impl FaultKind {
+    /// Returns true for a message that has no value since something is not there, which is said where that is missing: what
+    /// a reference names, what a program did not draw.
+    pub fn is_of_missing(self) -> bool {
+        match self {
+            Self::Unnamed | Self::Reference | Self::Run(_) => true,
+            Self::UnknownName
+            | Self::WrongKind
+            | Self::Unequal
+            | Self::WrongDimension
+            | Self::NoAnswer
+            | Self::Endless => false,
+        }
+    }
     /// Returns the kebab-case code of its diagnostic.
     pub fn code(self) -> &'static str {
         match self {

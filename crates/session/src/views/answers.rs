@@ -4,7 +4,7 @@
 
 use crate::words;
 use base::Name;
-use eval::{Answer, Fault, FaultKind};
+use eval::{Answer, Fault};
 use kernel::{ClassId, ClassKind, Document, Quantity, Shown};
 
 /// A value in words, and its number if it is one.
@@ -13,11 +13,10 @@ pub(super) struct Cell {
     pub(super) number: Option<f64>,
 }
 
-/// Says why something has no value; nothing where that is no matter of its numbers.
+/// Says why something has no value; nothing where that is said of what is missing.
 pub(super) fn without_value(fault: &Fault) -> Option<Cell> {
     let text = format!("no value: {}", fault.message);
-    matches!(fault.kind, FaultKind::NoAnswer | FaultKind::Endless)
-        .then(|| Cell { words: words::plain(text), number: None })
+    (!fault.kind.is_of_missing()).then(|| Cell { words: words::plain(text), number: None })
 }
 
 /// Returns the name of the class that is written for what a message answers; empty where none is.

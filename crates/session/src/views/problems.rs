@@ -10,7 +10,7 @@ use crate::texts::Texts;
 use crate::view::DiagnosticView;
 use crate::{rules, words};
 use base::{Diagnostic, FileId, Name, Place};
-use eval::{Fault, FaultKind};
+use eval::Fault;
 use expr::Dimension;
 use kernel::{ClassId, Message, OriginId, Primitive, SlotId, Step, Term, ThingId, Values};
 use plan::{Certainty, Contradiction, Source};
@@ -144,8 +144,7 @@ fn without_value(state: &State, values: &Values) -> Vec<Diagnostic> {
             let alike = failing.iter().filter(|other| other.fault.origin == fault.origin);
             answered.contains(&origin) || sends(message, &alike)
         });
-        let is_none = matches!(fault.kind, FaultKind::NoAnswer | FaultKind::Endless);
-        if is_none && !is_inner {
+        if !fault.kind.is_of_missing() && !is_inner {
             let place = state.lowered.place(message.origin);
             let path = structure.path(document, *thing).then(Step::Part(message.name.clone()));
             let said = format!("{path} has no value: {}", fault.message);
