@@ -11,10 +11,11 @@ use base::Name;
 use base::number::{decimals, joined, shortest};
 use expr::dimension::Dimension;
 use kernel::builtin::{
-    Builtin, Domain, FUNCTIONS, Function, Kind, LIST_MESSAGES, ListMessage, NUMBER_MESSAGES,
+    self, Builtin, Domain, FUNCTIONS, Function, Kind, LIST_MESSAGES, ListMessage, NUMBER_MESSAGES,
     NumberMessage, PICTURE_MESSAGES, TEXT_MESSAGES, THING_MESSAGES, ThingMessage, find,
 };
 use kernel::{ClassKind, Quantity, ThingId, Vertical};
+use std::sync::Arc;
 
 /// More decimals than a number has say nothing.
 const MOST_DIGITS: i64 = 17;
@@ -298,6 +299,9 @@ impl<'a> Evaluator<'a> {
                 let times = |x, y| self.binary_number(Binary::Multiply, x, y);
                 finite(joined(numbers, times).unwrap_or(1.0), Dimension::NONE)
             }
+            ListMessage::Sorted if let Some(texts) = sorted_texts(&items) => {
+                Ok(Answer::List(texts.into_iter().map(Answer::Text).collect()))
+            }
             ListMessage::Sorted => {
                 let (mut numbers, dimension) = self.numbers_of(&items)?;
                 numbers.sort_by(|x, y| self.order_of(*x, *y));
@@ -417,29 +421,51 @@ fn within_domain<F>(builtin: &Builtin<F>, x: f64) -> Result<()> {
 }
 
 /// Returns the arguments in the order of the parameters.
-fn in_place<'a, F>(builtin: &Builtin<F>, arguments: &[Given<'a>]) -> Result<Vec<Answer<'a>>> {
-    if !builtin.takes(arguments.len()) {
+fn in_place<'a, F>(of: &Builtin<F>, arguments: &[Given<'a>]) -> Result<Vec<Answer<'a>>> {
+    if !of.takes(arguments.len()) {
         let n = arguments.len();
-        let wanted: Vec<&str> = builtin.parameters.iter().map(|p| p.label).collect();
+        let wanted: Vec<&str> = of.parameters.iter().map(|p| p.label).collect();
         let wanted = if wanted.is_empty() { "nothing".into() } else { wanted.join(", ") };
-        let message = format!("`{}` wants {wanted}, and here are {n} arguments", builtin.name);
+        let message = format!("`{}` wants {wanted}, and here are {n} arguments", of.name);
         return Err(Fault::wrong(message));
     }
     let mut placed: Vec<Option<Answer<'a>>> = vec![None; arguments.len()];
     for (position, (label, answer)) in arguments.iter().enumerate() {
         let place = match label {
-            Some(label) => builtin.parameters.iter().position(|p| *p.label == ***label),
+            Some(label) => of.parameters.iter().position(|p| *p.label == ***label),
             None => Some(position),
         };
-        match place.and_then(|i| placed.get_mut(i)) {
-            Some(slot) if slot.is_none() => *slot = Some(answer.clone()),
-            Some(_) | None => {
-                let what = label.map_or("this argument", |l| l);
-                return Err(Fault::wrong(format!("`{}` does not take {what}", builtin.name)));
-            }
-        }
+        let place = place.filter(|place| placed.get(*place).is_none_or(Option::is_none));
+        let Some(place) = place else {
+            let what = label.map_or("this argument", |l| l);
+            return Err(Fault::wrong(format!("`{}` does not take {what}", of.name)));
+        };
+        placed.resize(placed.len().max(place + 1), None);
+        placed[place] = Some(answer.clone());
     }
-    Ok(placed.into_iter().flatten().collect())
+    let given = |(at, answer): (usize, Option<Answer<'a>>)| match (answer, of.parameters.get(at)) {
+        (Some(answer), _) => Ok(answer),
+        // a text of which nothing is said is empty
+        (None, Some(p)) if p.given == builtin::Given::Perhaps && p.kind == Kind::Text => {
+            Ok(Answer::text(""))
+        }
+        (None, p) => {
+            let what = p.map_or("an argument", |p| p.label);
+            Err(Fault::wrong(format!("`{}` wants {what}", of.name)))
+        }
+    };
+    placed.into_iter().enumerate().map(given).collect()
+}
+
+/// Returns texts in the order of their characters in Unicode; nothing of anything else.
+fn sorted_texts(items: &[Answer<'_>]) -> Option<Vec<Arc<str>>> {
+    let text = |item: &Answer<'_>| match item {
+        Answer::Text(text) => Some(text.clone()),
+        _ => None,
+    };
+    let mut texts: Vec<Arc<str>> = items.iter().map(text).collect::<Option<_>>()?;
+    texts.sort();
+    (!texts.is_empty()).then_some(texts)
 }
 
 fn pairs<'a>(a: &[Answer<'a>], b: &[Answer<'a>]) -> std::rc::Rc<[Answer<'a>]> {

@@ -11,6 +11,8 @@ use kernel::{
     UnaryOperator, Value,
 };
 
+/// What asks for a unit.
+const UNIT: &str = "unit";
 /// Percentages are looked for so deep in an expression.
 const DEEPEST_UNIT: u32 = 16;
 
@@ -154,9 +156,13 @@ impl<'a> Evaluator<'a> {
         with(rule, frame)
     }
 
-    /// Lets a number that is shown in a text be shown in the unit in which it is given, where it is a part that is.
+    /// Lets a number that is shown in a text be shown in the unit in which it is given, where it is a part that is and no
+    /// other unit is asked for.
     #[inline(never)]
     pub(crate) fn say_unit(&self, of: &'a Term, frame: &Frame<'a>, arguments: &mut Vec<Given<'a>>) {
+        if arguments.len() > 1 || arguments.iter().any(|(l, _)| l.is_some_and(|l| *l == *UNIT)) {
+            return;
+        }
         let Some(unit) = self.unit_written(of, frame, DEEPEST_UNIT) else { return };
         if arguments.is_empty() {
             arguments.push((None, Answer::text("")));

@@ -32,6 +32,14 @@ pub enum Kind {
     Plains,
     /// A list or set of texts.
     Texts,
+    /// A list or set of numbers of one quantity.
+    Measures,
+    /// A list or set of what has an order: of numbers of one quantity, or of texts.
+    Ordered,
+    /// A list or set of what the receiver holds.
+    Alike,
+    /// A list or set whose elements stand beside those of the receiver.
+    Beside,
     /// Numbers of one dimension: each an argument, or all in one list.
     Numbers,
     /// What the list holds.
@@ -40,6 +48,8 @@ pub enum Kind {
     Answer,
     /// A function: `x => x.width`.
     Function,
+    /// A function that answers a truth value: `x => x > 0`.
+    Test,
     /// A picture.
     Picture,
     /// A picture, a thing that has one, or a list of these.
@@ -269,24 +279,24 @@ table! {
 table! {
     /// A message that lists and sets know.
     ListMessage, LIST_MESSAGES:
-    Sum "sum" List [] Element "The sum of its numbers; 0 of any dimension where it is empty.";
+    Sum "sum" Measures [] Element "The sum of its numbers or places; 0 of any dimension where it is empty.";
     Count "count" List [] Plain "How many elements it has.";
     Turns "turns" List [] Plain "How many turns a loop took.";
     Map "map" List [one("function", Kind::Function)] List "What a function answers for every element.";
-    Filter "filter" List [one("function", Kind::Function)] Same "The elements for which a function is true.";
+    Filter "filter" List [one("function", Kind::Test)] Same "The elements for which a function is true.";
     First "first" List [] Element "Its first element.";
     Last "last" List [] Element "Its last element.";
-    All "all" List [one("function", Kind::Function)] Bool "Whether a function is true for every element.";
-    Any "any" List [one("function", Kind::Function)] Bool "Whether a function is true for some element.";
-    Mean "mean" List [] Element "The sum of its numbers by how many they are.";
-    Median "median" List [] Element "The middle one of its numbers by size; of an even count the mean of the middle two.";
+    All "all" List [one("function", Kind::Test)] Bool "Whether a function is true for every element.";
+    Any "any" List [one("function", Kind::Test)] Bool "Whether a function is true for some element.";
+    Mean "mean" Measures [] Element "The sum of its numbers or places by how many they are.";
+    Median "median" Measures [] Element "The middle one of its numbers by size; of an even count the mean of the middle two.";
     Product "product" Plains [] Plain "The product of its numbers; 1 where it is empty.";
-    Sorted "sorted" List [] Same "Its numbers, the smallest first.";
-    Min "min" List [] Element "The smallest of its numbers.";
-    Max "max" List [] Element "The largest of its numbers.";
-    Zip "zip" List [one("other", Kind::List)] List "Pairs of its elements and those of another list, as long as both last.";
+    Sorted "sorted" Ordered [] Same "Its numbers, the smallest first, or its texts as their characters follow each other in Unicode.";
+    Min "min" Measures [] Element "The smallest of its numbers.";
+    Max "max" Measures [] Element "The largest of its numbers.";
+    Zip "zip" List [one("other", Kind::Beside)] List "Pairs of its elements and those of another list, as long as both last.";
     Neighbours "neighbours" List [] List "Every pair of an element and the next.";
-    Union "union" List [one("other", Kind::List)] List "Its elements and then those of another list that it has not, each once.";
+    Union "union" List [one("other", Kind::Alike)] List "Its elements and then those of another list that it has not, each once.";
     Reversed "reversed" List [] Same "Its elements from the last to the first.";
     Join "join" Texts [perhaps("with", Kind::Text)] Text "Its texts in one, another text between them.";
 }

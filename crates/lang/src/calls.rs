@@ -1,6 +1,7 @@
 //! Calls: messages, functions of the language, constructors; their arguments checked.
 
-use crate::hints::instead_of_abstract;
+use crate::functions::{pair, wanted_number};
+use crate::hints::{ONE_KIND, instead_of_abstract};
 use crate::kinds::{Kind, made, measured, wanted_in_words, with_article};
 use crate::lower::Lowerer;
 use crate::names::owners;
@@ -19,8 +20,8 @@ pub(crate) struct Arg {
     pub(crate) value: Term,
     pub(crate) kind: Kind,
     /// What a function answers.
-    answers: Kind,
-    expr: Expr,
+    pub(crate) answers: Kind,
+    pub(crate) expr: Expr,
 }
 
 /// How what runs in time is written.
@@ -60,6 +61,11 @@ impl Lowerer<'_> {
             return self.message_to_class(scope, class, &word, args);
         }
         let (to, kind) = self.expr(scope, &receiver)?;
+        if field.args().is_none()
+            && let Some(made) = self.places_by_component(&name, &to, &kind)
+        {
+            return Some(made);
+        }
         let element = if let Kind::List(element) = &kind { element } else { &Kind::Unknown };
         let args = self.arguments(scope, field.args(), element)?;
         let (arguments, answer) = self.message(scope, &kind, &word, args, &to)?;
@@ -375,7 +381,9 @@ impl Lowerer<'_> {
             let code = code_for(receiver, &Kind::PLAIN);
             let place = Place { file: scope.file, span: word.span() };
             let d = Diagnostic::error(code, place, message);
-            self.report(with_plain_hint(d, b.receiver, receiver, "x"));
+            let d = with_plain_hint(d, b.receiver, receiver, "x");
+            let d = self.with_list_hint(d, word, receiver);
+            self.report(d);
             return None;
         }
         self.own_arguments(scope, b, word.span(), Some(receiver.clone()), args)
@@ -385,7 +393,7 @@ impl Lowerer<'_> {
     fn own_arguments<F>(
         &mut self,
         scope: &Scope,
-        b: &builtin::Builtin<F>,
+        b: &'static builtin::Builtin<F>,
         span: Span,
         receiver: Option<Kind>,
         args: Vec<Arg>,
@@ -397,8 +405,12 @@ impl Lowerer<'_> {
             self.error("wrong-arity", scope.file, span, message);
             return None;
         }
-        let mut first = receiver;
-        let mut answers = Kind::Unknown;
+        self.have_places(scope, (b, span), &args)?;
+        let (count, mut first) = (args.len(), receiver);
+        let mut answers = match &first {
+            Some(Kind::List(each)) if b.name == "neighbours" => pair(each, each),
+            _ => Kind::Unknown,
+        };
         let mut bound = Vec::new();
         for (position, arg) in args.into_iter().enumerate() {
             let place = match &arg.label {
@@ -423,9 +435,14 @@ impl Lowerer<'_> {
                 let place = Place { file: scope.file, span: arg.expr.span() };
                 let d = Diagnostic::error(code, place, message);
                 let written = arg.expr.syntax().text().to_string();
-                self.report(with_plain_hint(d, parameter.kind, &arg.kind, &written));
+                let d = match parameter.kind {
+                    Builtin::Alike => d.hint(ONE_KIND),
+                    _ => with_plain_hint(d, parameter.kind, &arg.kind, &written),
+                };
+                self.report(d);
                 return None;
             }
+            self.fits_call(scope, b.name, (parameter.kind, count), &arg)?;
             let value = match parameter.kind {
                 Builtin::Same | Builtin::Numbers => {
                     measured(&self.document, arg.value, &arg.kind, alike)
@@ -436,12 +453,17 @@ impl Lowerer<'_> {
             if b.result == Builtin::Root {
                 self.warn_of_uneven_root(scope, &arg.expr, (&arg.kind, 0.5));
             }
-            answers = arg.answers;
+            answers = match (&arg.kind, parameter.kind) {
+                (Kind::List(other), Builtin::Beside) => pair(alike, other),
+                _ => arg.answers,
+            };
             first = Some(first.map_or(arg.kind.clone(), |known| known.joined(arg.kind)));
         }
         let first = first.unwrap_or(Kind::Unknown);
-        let is_list_message =
-            matches!(b.receiver, Builtin::List | Builtin::Plains | Builtin::Texts);
+        let is_list_message = matches!(
+            b.receiver,
+            Builtin::List | Builtin::Plains | Builtin::Texts | Builtin::Measures | Builtin::Ordered
+        );
         let element =
             if let Kind::List(element) = &first { (**element).clone() } else { first.clone() };
         let kind = match (b.result, answers) {
@@ -470,14 +492,18 @@ impl Lowerer<'_> {
             Builtin::Bool => Kind::Bool,
             Builtin::Text => Kind::Text,
             Builtin::Color => Kind::Color,
-            Builtin::List => Kind::List(Box::new(Kind::Unknown)),
+            Builtin::List
+            | Builtin::Measures
+            | Builtin::Ordered
+            | Builtin::Alike
+            | Builtin::Beside => Kind::List(Box::new(Kind::Unknown)),
             Builtin::Plains => Kind::List(Box::new(Kind::PLAIN)),
             Builtin::Texts => Kind::List(Box::new(Kind::Text)),
             Builtin::Element => match first {
                 Kind::List(element) => (**element).clone(),
                 _ => Kind::Unknown,
             },
-            Builtin::Function => Kind::Function,
+            Builtin::Function | Builtin::Test => Kind::Function,
             Builtin::Picture | Builtin::Pictures => Kind::Picture,
             Builtin::Place | Builtin::Answer | Builtin::Any => Kind::Unknown,
         }
@@ -745,30 +771,5 @@ fn with_plain_hint(d: Diagnostic, wanted: Builtin, found: &Kind, written: &str) 
             d.hint(format!("divide by a unit first: `{written} / 1 {unit}`"))
         }
         _ => d,
-    }
-}
-
-/// Returns a kind that says whether a number is wanted, for the code of a diagnostic.
-fn wanted_number(wanted: Builtin) -> Kind {
-    match wanted {
-        Builtin::Plain
-        | Builtin::Number
-        | Builtin::Same
-        | Builtin::Root
-        | Builtin::Length
-        | Builtin::Numbers => Kind::Number(None),
-        Builtin::Bool
-        | Builtin::Text
-        | Builtin::Color
-        | Builtin::Place
-        | Builtin::List
-        | Builtin::Plains
-        | Builtin::Texts
-        | Builtin::Element
-        | Builtin::Answer
-        | Builtin::Function
-        | Builtin::Picture
-        | Builtin::Pictures
-        | Builtin::Any => Kind::Unknown,
     }
 }

@@ -4,7 +4,7 @@
 use crate::kinds::{Kind, fields, measured};
 use crate::lower::Lowerer;
 use base::Name;
-use kernel::{Argument, BinaryOperator, ClassId, Term, UnaryOperator};
+use kernel::{Argument, BinaryOperator, ClassId, PartRef, Term, UnaryOperator};
 
 /// The names of the operands, which no text can use.
 const LEFT: &str = "(left)";
@@ -105,6 +105,33 @@ impl Lowerer<'_> {
         };
         let (made, kind) = self.made(&shape, (0..kinds.len()).map(negated).collect(), kinds)?;
         Some((self.bind(&shape, a, LEFT, made), kind))
+    }
+
+    /// Makes the sum or the mean of a list of places, component by component; nothing of anything else.
+    pub(crate) fn places_by_component(
+        &self,
+        message: &Name,
+        list: &Term,
+        kind: &Kind,
+    ) -> Option<(Term, Kind)> {
+        let Kind::List(each) = kind else { return None };
+        let Kind::Thing(class) = **each else { return None };
+        let class = self.place_of(class).filter(|_| *message == *"sum" || *message == *"mean")?;
+        let (all, each) = (Name::new(LEFT), Name::new(RIGHT));
+        let of_field = |&field: &PartRef| {
+            let body = Term::send(Term::Local(each.clone()), self.document.field_name(field));
+            let value = Term::Lambda(vec![each.clone()], Box::new(body));
+            let numbers = Term::Send {
+                to: Box::new(Term::Local(all.clone())),
+                name: Name::new("map"),
+                arguments: vec![Argument { label: None, value }],
+                search: None,
+            };
+            Argument { label: None, value: Term::send(numbers, message) }
+        };
+        let arguments = self.document.layout(class).iter().map(of_field).collect();
+        let made = Term::Make { class, arguments };
+        Some((Term::Let(all, Box::new(list.clone()), Box::new(made)), Kind::Thing(class)))
     }
 
     /// Finds what a kind is to components: a place, as far as the class has one, numbers in brackets, or a number.

@@ -1,6 +1,7 @@
 //! Hints: what to write instead, where a value, a target or a word is not what can stand there.
 
 pub(crate) mod brackets;
+pub(crate) mod lists;
 mod units;
 
 pub(crate) use units::{
@@ -24,6 +25,9 @@ use units::{counted, fraction_of_unit};
 /// How a plain number becomes a length of the sheet.
 const PLAIN_AS_LENGTH: &str =
     "what is computed of plain numbers alone is none: `1 * cos(a)` is a length where one is wanted";
+/// What a list may hold.
+pub(crate) const ONE_KIND: &str =
+    "the elements of a list are of one kind: keep what is of another beside it";
 /// How many names a hint lists.
 const MOST_LISTED: usize = 12;
 /// How many messages of other classes a hint shows.

@@ -180,7 +180,9 @@ impl Kind {
                 items.len() >= 2 && items.iter().all(|i| i.fits(&Self::LENGTH, document))
             }
             (Builtin::Place, _) => false,
-            (Builtin::List, _) => matches!(self, Self::List(_) | Self::Tuple(_)),
+            (Builtin::List | Builtin::Beside, _) => {
+                matches!(self, Self::List(_) | Self::Tuple(_))
+            }
             (Builtin::Plains, Self::List(element)) => element.is(Builtin::Plain, first, document),
             (Builtin::Plains, Self::Tuple(items)) => {
                 items.iter().all(|item| item.is(Builtin::Plain, first, document))
@@ -191,9 +193,23 @@ impl Kind {
                 items.iter().all(|item| item.is(Builtin::Text, first, document))
             }
             (Builtin::Texts, _) => false,
+            (Builtin::Measures, Self::List(element)) => {
+                element.is(Builtin::Number, first, document)
+            }
+            (Builtin::Ordered, Self::List(element)) => {
+                let is = |wanted| element.is(wanted, first, document);
+                is(Builtin::Number) || is(Builtin::Text)
+            }
+            (Builtin::Measures | Builtin::Ordered, _) => false,
+            // lines and circles are together in a set, and which one each is is known when it is looked at
+            (Builtin::Alike, Self::List(element)) => {
+                let is_thing = |kind: &Self| matches!(kind.inmost(), Self::Thing(_));
+                element.fits(first, document) || is_thing(element) && is_thing(first)
+            }
+            (Builtin::Alike, _) => self.is(Builtin::List, first, document),
             (Builtin::Numbers, Self::List(element)) => element.is(Builtin::Same, first, document),
             (Builtin::Numbers, _) => self.is(Builtin::Same, first, document),
-            (Builtin::Function, _) => *self == Self::Function,
+            (Builtin::Function | Builtin::Test, _) => *self == Self::Function,
             (Builtin::Picture, _) => *self == Self::Picture,
             (Builtin::Pictures, Self::List(element)) => element.is(wanted, first, document),
             (Builtin::Pictures, _) => matches!(self, Self::Picture | Self::Thing(_)),
@@ -222,10 +238,14 @@ pub(crate) fn wanted_in_words(wanted: Builtin, first: &Kind, document: &Document
         Builtin::Text => "a text".into(),
         Builtin::Color => "a colour, a text".into(),
         Builtin::Place => "a place, (x, y)".into(),
-        Builtin::List => "a list".into(),
+        Builtin::List | Builtin::Beside => "a list".into(),
         Builtin::Plains => "a list of plain numbers".into(),
         Builtin::Texts => "a list of texts".into(),
+        Builtin::Measures => "a list of numbers".into(),
+        Builtin::Ordered => "a list of numbers or texts".into(),
+        Builtin::Alike => Kind::List(Box::new(first.clone())).words(document),
         Builtin::Function => "a function, `x => …`".into(),
+        Builtin::Test => "a function of a truth value, `x => x > 0`".into(),
         Builtin::Picture | Builtin::Pictures => "a picture".into(),
         Builtin::Element | Builtin::Answer | Builtin::Any => "something".into(),
     }

@@ -18,7 +18,7 @@
 //! stays in force; reading a number that was written gives its bits.
 //!
 //! Reading order: `origins`, `lower`, `lowering`, `files`, `tables`, `visible`, `classes`, `scope`, `members`, `programs`, `families`, `loops`,
-//! `rules`, `switches`, `kept`, `names`, `hints`, `paths`, `refine`, `terms`, `components`, `calls`, `kin`, `kinds`,
+//! `rules`, `switches`, `kept`, `names`, `hints`, `paths`, `refine`, `terms`, `components`, `calls`, `functions`, `kin`, `kinds`,
 //! `settle`, `restore`,
 //! `alone`, `checks`, `lessons`, `views`,
 //! `numbers`, `operations`, `mixed`, `quotients`, `write`, `uses`,
@@ -40,6 +40,7 @@ mod edits;
 mod ends;
 mod families;
 mod files;
+mod functions;
 mod handles;
 mod hints;
 mod inserts;

@@ -2,7 +2,8 @@
 //! kernel's term and what it is worth; nothing where it is wrong, which is reported at its place.
 
 use crate::angles::ANGLE;
-use crate::hints::unknown_unit;
+use crate::functions::spelled;
+use crate::hints::{ONE_KIND, unknown_unit};
 use crate::kinds::{Kind, measured};
 use crate::loops::decided;
 use crate::lower::Lowerer;
@@ -224,20 +225,6 @@ impl Lowerer<'_> {
         }
         let term = Term::Number { value, dimension: dimension.unwrap_or(Dimension::NONE), bare };
         Some((term, Kind::Number(dimension)))
-    }
-
-    /// Lowers a function of elements of this kind; what it answers is told beside it.
-    pub(crate) fn lambda(
-        &mut self,
-        scope: &Scope,
-        lambda: &ast::LambdaExpr,
-        element: &Kind,
-    ) -> Lowered {
-        let names: Vec<Name> = lambda.params().map(|w| w.name()).collect();
-        let kind = if names.len() == 1 { element } else { &Kind::Unknown };
-        let inner = names.iter().fold(scope.clone(), |s, n| s.with_local(n.clone(), kind.clone()));
-        let (body, answer) = self.expr(&inner, &lambda.body()?)?;
-        Some((Term::Lambda(names, Box::new(body)), answer))
     }
 
     fn index(&mut self, scope: &Scope, index: &ast::IndexExpr) -> Lowered {
@@ -499,9 +486,7 @@ impl Lowerer<'_> {
         let list = Kind::List(Box::new(other)).words(&self.document);
         let message = format!("found {} in {list}", found.words(&self.document));
         let d = Diagnostic::error(code, Place { file: scope.file, span }, message);
-        self.report(
-            d.hint("the elements of a list are of one kind: keep what is of another beside it"),
-        );
+        self.report(d.hint(ONE_KIND));
     }
 
     fn unary(&mut self, scope: &Scope, unary: &ast::UnaryExpr) -> Lowered {
@@ -573,6 +558,8 @@ impl Lowerer<'_> {
         let Some(operator) = operator_of(op) else {
             return self.combine_sets(scope, op, span, (a, ka), (b, kb));
         };
+        let ka = spelled(&a, ka, &kb);
+        let kb = spelled(&b, kb, &ka);
         let has_parts = |k: &Kind| matches!(k, Kind::Thing(_) | Kind::Tuple(_));
         if has_parts(&ka) || has_parts(&kb) {
             let made = self.by_component(operator, (&a, &ka), (&b, &kb));
