@@ -37,6 +37,8 @@ pub(crate) struct Counts {
     spoken: BTreeMap<ClassId, BTreeSet<Name>>,
     /// What parts that a class declares may be, where they are no numbers.
     kinds: BTreeMap<(ClassId, Name), Deciding>,
+    /// Truth values and options that a class declares and says nothing of: they are false, or the first one.
+    unsaid: BTreeSet<(ClassId, Name)>,
     /// The superclasses as they are written.
     supers: BTreeMap<ClassId, Vec<Superclass>>,
     /// The classes made for other numbers.
@@ -98,6 +100,10 @@ impl Lowerer<'_> {
                     if kind != Deciding::Whole {
                         let each = names.iter().map(|name| ((class, name.clone()), kind));
                         self.counts.kinds.extend(each);
+                        if part.value().is_none() {
+                            let each = names.iter().map(|name| (class, name.clone()));
+                            self.counts.unsaid.extend(each);
+                        }
                     }
                     (names, part.value())
                 }
@@ -132,6 +138,12 @@ impl Lowerer<'_> {
             if is_deciding && part.names().any(|w| spoken.contains(&w.name())) {
                 spoken.extend(value.iter().flat_map(names_in));
             }
+        }
+        let said: BTreeSet<Name> = members.iter().filter_map(assigned).collect();
+        let unsaid = { &spoken }.iter().filter(|name| !said.contains(*name));
+        let unsaid: Vec<Name> = unsaid.filter(|n| self.is_unsaid(class, n)).cloned().collect();
+        for name in unsaid {
+            given.entry(name).or_insert(0);
         }
         self.counts.given.insert(class, given);
         self.counts.speak(class, spoken);
@@ -291,11 +303,7 @@ impl Lowerer<'_> {
             return false;
         }
         let counts = self.counts_of(class);
-        let name = |m: &Member| match m {
-            Member::Assign(assign) => own_name(assign),
-            _ => None,
-        };
-        members.iter().filter_map(name).any(|name| counts.contains_key(&name))
+        members.iter().filter_map(assigned).any(|name| counts.contains_key(&name))
     }
 
     /// Returns the class that a part with a body is of: with the counts that the body gives.
@@ -614,6 +622,14 @@ pub(crate) fn whole(x: f64) -> Option<i64> {
 fn own_name(assign: &ast::Assign) -> Option<Name> {
     match assign.target()? {
         Expr::Name(name) => Some(name.name()?.name()),
+        _ => None,
+    }
+}
+
+/// Returns the part of the thing itself that a member gives a value.
+fn assigned(member: &Member) -> Option<Name> {
+    match member {
+        Member::Assign(assign) => own_name(assign),
         _ => None,
     }
 }

@@ -306,7 +306,8 @@ impl Lowerer<'_> {
             let message = "members stand under a condition that is known as the text stands";
             let d = Diagnostic::error("not-a-constant", place, message);
             let hint = "what depends on values is a rule: `constraint if c { a = b } else { … }`";
-            self.report(d.hint(hint));
+            let default = self.with_default(scope, &condition);
+            self.report(d.hint(default.unwrap_or(hint.into())));
             return None;
         };
         match (holds, choice.else_branch()) {

@@ -1,12 +1,13 @@
 //! Deciding: expressions of constants that say which parts there are. Beside whole numbers these are truth
 //! values and options of choices: `if fit = close { … }`, `open: Bool = n > 3`.
 
+use super::names_in;
 use crate::choices::options_of;
 use crate::lower::Lowerer;
 use crate::numbers;
 use crate::scope::Scope;
 use base::{Name, Span};
-use kernel::{ClassId, Document};
+use kernel::{ClassId, ClassKind, Document, Primitive};
 use std::collections::BTreeMap;
 use syntax::WalkEvent;
 use syntax::ast::{self, AstNode, BinaryOp, Expr, TypeShape, UnaryOp};
@@ -137,6 +138,39 @@ impl Lowerer<'_> {
         let line = self.document.primary_line(class);
         let known = line.iter().find_map(|c| self.counts.kinds.get(&(*c, name.clone())));
         known.copied().unwrap_or(Deciding::Whole)
+    }
+
+    /// Returns true for a truth value or an option of a class of which nothing is said.
+    pub(super) fn is_unsaid(&self, class: ClassId, name: &Name) -> bool {
+        let line = self.document.primary_line(class);
+        line.iter().any(|c| self.counts.unsaid.contains(&(*c, name.clone())))
+            && self.count_of_class(class, name).is_none()
+    }
+
+    /// Says how a part that a condition speaks of is declared, where nothing says what it is.
+    #[cold]
+    #[inline(never)]
+    pub(crate) fn with_default(&mut self, scope: &Scope, condition: &Expr) -> Option<String> {
+        for name in names_in(condition) {
+            if self.constant_named(scope, &name).is_some() {
+                continue;
+            }
+            let class = scope.classes.iter().find_map(|&c| self.class_of_part(c, &name));
+            let Some(class) = class else { continue };
+            let first = match self.document.classes[class].kind {
+                ClassKind::Primitive(Primitive::Integer) => "3",
+                ClassKind::Primitive(Primitive::Bool) => "false",
+                ClassKind::Primitive(Primitive::Choice(of)) => {
+                    self.document.classes[of].options.first()?.as_str()
+                }
+                _ => continue,
+            };
+            let class = &self.document.classes[class].name;
+            return Some(format!(
+                "say what {name} is where nothing else is said: `{name}: {class} = {first}`"
+            ));
+        }
+        None
     }
 
     /// Returns what a name may be where it stands.
