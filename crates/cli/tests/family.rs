@@ -157,6 +157,18 @@ fn the_only_family_need_not_be_named() {
 }
 
 #[test]
+fn a_wrong_row_of_the_document_fails_and_is_counted() {
+    let folder = folder("wrong-rows", TABLE);
+    let rows = "table \"discs.csv\"";
+    let text = DISC.replace(rows, "rows: (2 mm, 1 mm) (3 mm, 1 mm, 7) (\"M4\", 4 mm, \"wide\")");
+    fs::write(folder.join("disc.thing"), text).expect("it can be written");
+    let (good, words) = drawn(&folder, "Discs", &[]);
+    assert!(!good && words.contains("3 rows: 1 could be drawn, 0 outside, 2 failed"), "{words}");
+    assert!(words.contains("2: failed: Disc has 2 parameters, here are 3 values"), "{words}");
+    assert!(words.contains("M4: failed: "), "{words}");
+}
+
+#[test]
 fn a_second_table_is_compared() {
     let folder = folder("compare", TABLE);
     let other = "disc,r [cm],hole [mm]\nsmall,0.2,1\nmiddle,0.5,\nhuge,4,2\n";

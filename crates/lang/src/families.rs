@@ -3,7 +3,7 @@
 use crate::kinds::Kind;
 use crate::lower::Lowerer;
 use crate::scope::Scope;
-use base::{Diagnostic, FileId, Name, Place};
+use base::{Diagnostic, FileId, Name, Place, Severity};
 use kernel::{ClassId, OriginId, Part, Term};
 use std::collections::BTreeSet;
 use syntax::SyntaxKind;
@@ -35,10 +35,12 @@ pub struct Family {
 pub struct Row {
     /// What it is called, where it begins with a text that is no value of the first parameter.
     pub name: Option<String>,
-    /// Its values, in the order of the parameters.
+    /// Its values, in the order of the parameters; none where the row is wrong.
     pub values: Vec<Term>,
     /// How each is written.
     pub texts: Vec<String>,
+    /// What is wrong with the row.
+    pub fault: Option<String>,
     /// Where it was written.
     pub origin: OriginId,
 }
@@ -93,7 +95,7 @@ fn lower_family(
             Member::Part(part) if is_column(&part) => {}
             Member::Table(table) => made.table = table.file().map(|w| w.unquoted()),
             Member::Rows(rows) => {
-                made.rows.extend(rows.rows().filter_map(|row| lower_row(l, file, program, &row)));
+                made.rows.extend(rows.rows().map(|row| lower_row(l, file, program, &row)));
             }
             Member::Constraint(constraint) => {
                 let Some(ast::Rule::Holds(rule)) = constraint.rule() else { continue };
@@ -149,12 +151,8 @@ fn row_class(l: &mut Lowerer<'_>, file: FileId, family: &Family, members: &[Memb
     row
 }
 
-fn lower_row(
-    l: &mut Lowerer<'_>,
-    file: FileId,
-    program: ClassId,
-    row: &ast::TupleExpr,
-) -> Option<Row> {
+/// Lowers a row; a wrong one stays a row, which no drawing comes of.
+fn lower_row(l: &mut Lowerer<'_>, file: FileId, program: ClassId, row: &ast::TupleExpr) -> Row {
     let fields = l.document.layout(program).into_iter();
     let classes: Vec<ClassId> = fields.map(|field| l.document.field_class(field)).collect();
     let kinds = crate::kinds::fields(&l.document, program);
@@ -167,18 +165,25 @@ fn lower_row(
     if name.is_some() {
         values.remove(0);
     }
+    let before = l.diagnostics.len();
     if values.len() > kinds.len() {
         let (name, n) = (&l.document.classes[program].name, kinds.len());
         let message = format!("{name} has {n} parameters, here are {} values", values.len());
         l.error("wrong-arity", file, row.span(), message);
-        return None;
     }
     let scope = Scope::of(file, l.object);
     for (value, &class) in values.iter().zip(&classes) {
         l.warn_of_bare_degrees(&scope, class, value, &|degrees| format!("`{degrees}`"));
     }
     let texts = values.iter().map(|v| v.syntax().text().to_string().trim().to_string()).collect();
-    let values = values.iter().zip(kinds).map(|(value, kind)| l.expr_of(&scope, value, &kind));
-    let values = values.collect::<Option<_>>()?;
-    Some(Row { name, values, texts, origin: l.origin(file, row.span()) })
+    let lowered = values.iter().zip(kinds).map(|(value, kind)| l.expr_of(&scope, value, &kind));
+    let lowered: Option<Vec<Term>> = lowered.collect();
+    let mut told = l.diagnostics.iter().skip(before);
+    let error = told.find(|d| d.severity == Severity::Error).map(|d| d.message.clone());
+    let fault = match &lowered {
+        None => Some(error.unwrap_or("a value of it is wrong".into())),
+        Some(_) => error,
+    };
+    let values = lowered.filter(|_| fault.is_none()).unwrap_or_default();
+    Row { name, values, texts, fault, origin: l.origin(file, row.span()) }
 }

@@ -231,6 +231,10 @@ fn written_rows(state: &State, family: &Family, read: &mut TableView) -> Result<
     for (i, row) in family.rows.iter().enumerate() {
         let mut values = Vec::new();
         let mut written = Vec::new();
+        if row.fault.is_some() {
+            let names = fields.iter().map(|&field| document.field_name(field).to_string());
+            written.extend(names.zip(row.texts.iter().cloned()));
+        }
         for ((term, text), &field) in row.values.iter().zip(&row.texts).zip(&fields) {
             let answer =
                 evaluator.evaluate(term, DOCUMENT).map_err(|f| words::refuse(f.message))?;
@@ -241,7 +245,7 @@ fn written_rows(state: &State, family: &Family, read: &mut TableView) -> Result<
             values.push((name, literal));
         }
         let name = row.name.clone().unwrap_or_else(|| (i + 1).to_string());
-        read.rows.push(FamilyRow { name, values, written, line: 0, fault: None });
+        read.rows.push(FamilyRow { name, values, written, line: 0, fault: row.fault.clone() });
     }
     Ok(())
 }
@@ -320,7 +324,8 @@ fn note_duplicates(read: &mut TableView) {
         if *times == 2 {
             notes.push(format!("{} stands in the table more than once", row.name));
         }
-        if let Some(before) = said.insert(format!("{:?}", row.values), &row.name)
+        if row.fault.is_none()
+            && let Some(before) = said.insert(format!("{:?}", row.values), &row.name)
             && before != row.name
         {
             notes.push(format!("{before} and {} have the same values", row.name));

@@ -39,6 +39,10 @@ fn warn(state: &State, family: &Family, found: &mut Vec<Diagnostic>) {
     }
     let told = of(state, &family.name, &read.rows).unwrap_or_default();
     for (at, message) in told {
+        // a wrong row is an error of the text
+        if family.rows[at].fault.is_some() {
+            continue;
+        }
         let place = state.lowered.place(family.rows[at].origin);
         found.push(Diagnostic::warning(CODE, place, message));
     }
