@@ -9,7 +9,7 @@ use crate::scope::Scope;
 use base::{Diagnostic, Name, Place, Span};
 use kernel::Term;
 use kernel::builtin::{self, Given, Kind as Builtin};
-use syntax::ast::{self, AstNode};
+use syntax::ast::{self, AstNode, Expr};
 
 impl Lowerer<'_> {
     /// Lowers a function of elements of this kind; what it answers is told beside it.
@@ -60,7 +60,8 @@ impl Lowerer<'_> {
         let last = taken.iter().rposition(|taken| *taken).unwrap_or(0);
         // a text of which nothing is said is empty
         let is_left_out = |(taken, p): &(&bool, &builtin::BuiltinParameter)| {
-            !**taken && !(p.given == Given::Perhaps && p.kind == Builtin::Text)
+            let may_be_empty = p.given == Given::Perhaps && p.kind == Builtin::Text;
+            !**taken && !may_be_empty
         };
         let Some((_, missing)) = taken.iter().take(last).zip(b.parameters).find(is_left_out) else {
             return Some(());
@@ -101,6 +102,39 @@ impl Lowerer<'_> {
             }
             _ => Some(()),
         }
+    }
+
+    /// Reports branches of which one is of another kind.
+    pub(crate) fn unlike_branches(
+        &mut self,
+        scope: &Scope,
+        choice: &ast::IfExpr,
+        (then, other): (&Kind, &Kind),
+    ) {
+        let ((Kind::Text, Kind::Number(_)) | (Kind::Number(_), Kind::Text)) = (then, other) else {
+            return self.mismatch(scope, choice.span(), None, (then, other));
+        };
+        let (a, b) = (then.words(&self.document), other.words(&self.document));
+        let place = Place { file: scope.file, span: choice.span() };
+        let message = format!("one branch is {a}, the other {b}, wanted one kind in both");
+        let d = Diagnostic::error("value-of-wrong-class", place, message);
+        let number = if *then == Kind::Text { choice.else_value() } else { choice.then_value() };
+        let number = number.map(|e| e.syntax().text().to_string().trim().to_string());
+        self.report(match number {
+            Some(number) if number.len() < 30 => d.hint(match number.parse::<f64>() {
+                Ok(_) => format!("a number as a text stands in quotes: `\"{number}\"`"),
+                Err(_) => format!("a number stands in a text in braces: `\"{{{number}}}\"`"),
+            }),
+            _ => d,
+        });
+    }
+
+    /// Returns the variable of a loop that an index speaks of, and what it is in this turn.
+    pub(crate) fn turn_of(&self, scope: &Scope, index: &Expr) -> Option<(String, i64)> {
+        let Expr::Binary(difference) = index else { return None };
+        let Expr::Name(name) = difference.left()? else { return None };
+        let word = name.name()?;
+        Some((word.text().to_string(), scope.whole(&word.name())?))
     }
 
     /// Reports a function of several arguments where each element is one.

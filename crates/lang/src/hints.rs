@@ -184,18 +184,24 @@ impl Lowerer<'_> {
     /// Says how a message of a class is asked, and what it answers.
     pub(crate) fn as_asked(&self, definer: ClassId, name: &Name) -> Option<String> {
         let message = self.defined_message(definer, name)?;
-        let labelled = message.parameters.iter().map(|p| match p.label == p.name {
-            true => p.name.to_string(),
-            false => format!("{}: {}", p.label, p.name),
-        });
-        let word = match labelled.collect::<Vec<_>>() {
-            none if none.is_empty() => message.word().to_string(),
-            some => format!("{}({})", message.word(), some.join(", ")),
-        };
+        let word = self.as_called(definer, name)?;
         match message.doc.trim() {
             "" => Some(format!("it is asked as `{word}`")),
             says => Some(format!("`{word}`: {}", says.lines().next()?)),
         }
+    }
+
+    /// Returns how a message of a class is written with its parameters.
+    pub(crate) fn as_called(&self, definer: ClassId, name: &Name) -> Option<String> {
+        let message = self.defined_message(definer, name)?;
+        let labelled = message.parameters.iter().map(|p| match p.label == p.name {
+            true => p.name.to_string(),
+            false => format!("{}: {}", p.label, p.name),
+        });
+        Some(match labelled.collect::<Vec<_>>() {
+            none if none.is_empty() => message.word().to_string(),
+            some => format!("{}({})", message.word(), some.join(", ")),
+        })
     }
 
     /// Says of what is computed and is given a value, that it is said by a constraint.
@@ -670,7 +676,9 @@ pub(crate) fn called_otherwise(word: &str) -> Option<&'static str> {
         "coincident" | "Coincident" => "two points become one by `merge a = b`",
         "integrate" | "integral" => "sum steps: `(0..<n).map(i => …).sum * h`",
         "PI" | "Pi" | "π" => "write `pi`",
-        "this" | "self" | "me" => "a part is named by itself: `width`",
+        "this" | "self" | "me" => {
+            "a part is named by itself: `width`; for the whole thing there is no word, one like it is made of its parts: `Point(x, y)`"
+        }
         "null" | "nil" | "none" | "None" | "undefined" | "NaN" => {
             "what nothing is said of is zero, false or empty"
         }

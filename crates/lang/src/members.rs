@@ -157,6 +157,10 @@ impl Lowerer<'_> {
     /// Reports a value that is a block of steps, as only programs have.
     fn refuse_block(&mut self, scope: &Scope, value: Option<ast::Value>) {
         let Some(value) = value.filter(|v| v.clone().expr().is_none()) else { return };
+        // `repeat n { … }`, which the parser told
+        if matches!(&value, ast::Value::Repeat(block) if block.lacks_times()) {
+            return;
+        }
         let (file, span) = (scope.file, value.span());
         let is_for = matches!(value, ast::Value::For(_));
         let place = Place { file, span: self.first_line(file, span) };
@@ -187,6 +191,7 @@ impl Lowerer<'_> {
             Member::Class(_) => "classes inside of others are",
             Member::Choice(_) => "choices inside of classes are",
             Member::Check(_) => "checks inside of classes are",
+            Member::Repeat(block) if block.lacks_times() => return,
             Member::Repeat(_) | Member::While(_) | Member::Next(_) | Member::Erase(_) => {
                 let line = self.first_line(file, span);
                 let d =

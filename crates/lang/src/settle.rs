@@ -140,7 +140,14 @@ impl Lowerer<'_> {
         });
         if let Some(said) = said {
             let d = Diagnostic::error("override-signature", place, said);
-            self.report(d.hint("give it the same parameters and the same class, or another name"));
+            let asked = match from == self.object {
+                true => self.as_called(from, name),
+                false => None,
+            };
+            self.report(d.hint(match asked {
+                Some(asked) => format!("every thing answers `{asked}`: give this another name"),
+                None => "give it the same parameters and the same class, or another name".into(),
+            }));
         }
     }
 

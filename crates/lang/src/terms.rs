@@ -191,7 +191,7 @@ impl Lowerer<'_> {
                     Place { file: scope.file, span: value.span() },
                     message,
                 );
-                self.report(d.hint("name a part of it: `{p.x}`; a brace itself is doubled: `{{`"));
+                self.report(self.with_text_hint(d, kind, value));
                 None
             }
         }
@@ -290,6 +290,10 @@ impl Lowerer<'_> {
             let written = list.syntax().text();
             let is_last = i.total_cmp(&-1.0).is_eq();
             self.report(match is_last {
+                true if let Some((turn, at)) = self.turn_of(scope, at) => d.hint(format!(
+                    "it is {i} in the turn where {turn} = {at}: let the loop begin at {}",
+                    at + 1
+                )),
                 true => d.hint(format!("the last element is `{written}.last`")),
                 false => d,
             });
@@ -356,7 +360,7 @@ impl Lowerer<'_> {
             (_, a, b) => (a?, b?),
         };
         if !other.fits(&kind, &self.document) {
-            self.mismatch(scope, choice.span(), None, (&kind, &other));
+            self.unlike_branches(scope, choice, (&kind, &other));
             return None;
         }
         let (a, b) = (

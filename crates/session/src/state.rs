@@ -377,7 +377,7 @@ impl Solved {
         let mut said = BTreeSet::new();
         let through = unplanned
             .iter()
-            .map(|f| Diagnostic::error(f.kind.code(), lowered.place(f.origin), f.message.clone()))
+            .map(|f| unplanned_diagnostic(&text, &lowered, f))
             .chain(given_diagnostics(&lowered, &given_faults))
             .filter(|d| !(lost && d.code == LOST))
             .filter(|d| said.insert((d.place, d.code, d.message.clone())));
@@ -517,6 +517,28 @@ fn ended_diagnostics(lowered: &Lowered, structure: &Structure, values: &Values) 
         })
     };
     (0..structure.things.len() as u32).map(ThingId).filter(draws).filter_map(diagnostic).collect()
+}
+
+/// Says what could not be planned; of a value that a message may compute as well, how that is written.
+#[cold]
+fn unplanned_diagnostic(text: &str, lowered: &Lowered, fault: &plan::Fault) -> Diagnostic {
+    let place = lowered.place(fault.origin);
+    let d = Diagnostic::error(fault.kind.code(), place, fault.message.clone());
+    let is_own = fault.kind == plan::FaultKind::NotYet && place.file == FileId(0);
+    let written = text.get(place.span.range()).filter(|t| is_own && !t.contains('\n'));
+    let bound = written.and_then(|t| t.split_once(" = ")).filter(|(part, _)| {
+        let mut words = part.split(": ");
+        let is_word = |w: &str| !w.is_empty() && w.chars().all(|c| c.is_alphanumeric() || c == '_');
+        words.next().is_some_and(is_word)
+            && words.next().is_some_and(is_word)
+            && words.next().is_none()
+    });
+    match bound {
+        Some((part, value)) => d.hint(format!(
+            "what is computed and never solved back is a message: `{part} => {value}`"
+        )),
+        None => d,
+    }
 }
 
 /// Says where given values have none; a class's, once for all its things.

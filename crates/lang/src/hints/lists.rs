@@ -62,6 +62,23 @@ impl Lowerer<'_> {
         }
     }
 
+    /// Says how a list, or what else is no value of one line, is said in a text.
+    #[cold]
+    #[inline(never)]
+    pub(crate) fn with_text_hint(&self, d: Diagnostic, kind: &Kind, value: &Expr) -> Diagnostic {
+        let xs = value.syntax().text().to_string();
+        let xs = if xs.len() <= SHORT { xs.trim() } else { "xs" };
+        let Kind::List(element) = kind else {
+            return d.hint("name a part of it: `{p.x}`; a brace itself is doubled: `{{`");
+        };
+        let joined = match &**element {
+            Kind::Text | Kind::Color => format!("{xs}.join(\", \")"),
+            Kind::Thing(_) => format!("{xs}.map(x => x.description).join(\", \")"),
+            _ => format!("{xs}.map(x => x.text).join(\", \")"),
+        };
+        d.hint(format!("give what it is as a text a name, `said => {joined}`, and say `{{said}}`"))
+    }
+
     /// Returns the first number that things of a class have, what is computed of them after what they are made of.
     fn number_of(&mut self, class: ClassId) -> Option<Name> {
         let mut names = self.field_names(class);

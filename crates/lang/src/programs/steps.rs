@@ -275,11 +275,12 @@ impl Lowerer<'_> {
             },
             _ => None,
         };
-        // `repeat while c` was told already
+        // `repeat while c` and `repeat n { … }` were told already
         let words =
             value.syntax().descendants_with_tokens().filter_map(syntax::NodeOrToken::into_token);
         let mut words = words.filter(|token| !token.kind().is_trivia());
-        let is_misread = words.nth(1).is_some_and(|word| word.text() == "while");
+        let is_misread = words.nth(1).is_some_and(|word| word.text() == "while")
+            || matches!(value, Value::Repeat(block) if block.lacks_times());
         if let (Value::Repeat(_), None, None, false) = (value, &times, &until, is_misread) {
             let span = self.first_line(scope.file, value.span());
             let place = Place { file: scope.file, span };

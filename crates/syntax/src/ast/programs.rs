@@ -158,6 +158,11 @@ fn is_closed(text: &str) -> bool {
     is_inside && depth == 0
 }
 impl Repeat {
+    /// Returns true for `repeat n { … }`, which lacks its `times`.
+    pub fn lacks_times(&self) -> bool {
+        let first = self.syntax.children().next();
+        self.times().is_none() && first.is_some_and(|first| Expr::cast(first).is_some())
+    }
     /// Returns the number of turns before `times`.
     pub fn times(&self) -> Option<Expr> {
         has_keyword(&self.syntax, "times").then(|| child(&self.syntax)).flatten()

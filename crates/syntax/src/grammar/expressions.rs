@@ -405,7 +405,15 @@ fn text_with_values(p: &mut Parser<'_>) -> u32 {
         }
         if !p.eat(TextMiddle) {
             let is_format = p.at(Colon) || p.at(Comma);
-            let hint = is_format.then(|| "digits are asked for: `{x.text(digits: 3)}`".to_string());
+            let unit = (p.at(Ident) && p.at_word(0, "to")).then(|| p.word(1));
+            let hint = match unit {
+                _ if is_format => Some("digits are asked for: `{x.text(digits: 3)}`".to_string()),
+                Some(unit) if p.behind(1) == Ident => Some(format!(
+                    "another unit is asked for by a message, `said => {}.shown(unit: \"{unit}\")`, and `{{said}}`",
+                    p.text_between(p.pos() - 1, p.pos() - 1)
+                )),
+                _ => None,
+            };
             p.expected_hint("expected-brace", "`}` after the value", hint);
             break;
         }

@@ -7,8 +7,8 @@ use super::{Scope, body, mistakes, programs, statements};
 use crate::kind::SyntaxKind::{
     self, Anchor, Arrow, Assign, Attachers, Choice, Class, Colon, ColonEq, Comma, Dot, Eq, Erase,
     Error, FatArrow, Greater, GreaterEq, Handle, Ident, IfKw, Insert, LBrace, LBracket, LParen,
-    Less, LessEq, Merge, Message, Minus, Modify, NotEq, Part, Plus, RParen, Ref, Replace, Side,
-    Slash, Star, Stay, Superclass, Text, Toolbox, UnitLine, Use, View, Without, YLine,
+    Less, LessEq, Merge, Message, Minus, Modify, NotEq, Part, Plus, RBracket, RParen, Ref, Replace,
+    Side, Slash, Star, Stay, Superclass, Text, Toolbox, UnitLine, Use, View, Without, YLine,
 };
 use crate::parser::Parser;
 
@@ -324,6 +324,14 @@ fn assigned(p: &mut Parser<'_>) {
     let hint = hint.or_else(|| {
         let is_given = p.at(Colon) && !p.begins_line(0) && !p.begins_line(1);
         is_given.then(|| {
+            // `a[i]: Real = i`
+            if p.behind(1) == RBracket {
+                return format!(
+                    "a part that is declared in a loop has an element for every turn: `{}: {}`",
+                    p.text_between(first, first),
+                    p.quoted_line(p.pos() + 1)
+                );
+            }
             format!("write `{} = {}`", p.quoted(first, p.pos() - 1), p.quoted_line(p.pos() + 1))
         })
     });
@@ -568,7 +576,7 @@ pub(super) fn unknown(p: &mut Parser<'_>) {
             }
             _ => "a part is written `name: Class`, a value `name = value`".into(),
         })
-    } else if matches!(p.current(), RParen | SyntaxKind::RBracket) {
+    } else if matches!(p.current(), RParen | RBracket) {
         Some("it closes nothing: take it away, or write the bracket that it closes".into())
     } else {
         None

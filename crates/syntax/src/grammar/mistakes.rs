@@ -4,12 +4,13 @@ pub(super) mod calls;
 pub(super) mod elsewhere;
 pub(super) mod numbers;
 mod paper;
+mod steps;
 
 use super::members::is_keyword;
 use crate::kind::SyntaxKind::{
     AndKw, Arrow, Colon, ColonEq, Comma, Dot, Ellipsis, Eof, Eq, EqEq, FatArrow, Greater,
     GreaterEq, Ident, LBrace, LBracket, LParen, Less, LessEq, LetKw, Minus, NotEq, NotKw, Number,
-    OrKw, Plus, RBrace, RBracket, RParen, Semicolon, Slash, Star, Text, TextOpen, Unit,
+    OrKw, RBrace, RBracket, RParen, Semicolon, Text, TextOpen, Unit,
 };
 use crate::parser::Parser;
 use base::Span;
@@ -36,7 +37,7 @@ pub(super) fn of_member(p: &mut Parser<'_>) -> bool {
         || comment(p)
         || declared_elsewhere(p)
         || enumeration(p)
-        || increment(p)
+        || steps::increment(p)
         || body_of_name(p)
         || bare_equation(p)
         || held(p)
@@ -89,30 +90,6 @@ fn prefixed_text(p: &mut Parser<'_>) -> bool {
         p.report_mistake((at - 1, at - 1), said, Some((p.span_at(at - 1), String::new())));
     }
     is_one
-}
-
-/// `n += 1`
-fn increment(p: &mut Parser<'_>) -> bool {
-    let first = p.pos();
-    let last = p.line_end();
-    let is_changed = |n: &usize| {
-        matches!(p.nth(*n), Plus | Minus | Star | Slash)
-            && p.nth(n + 1) == Eq
-            && p.is_adjacent(n + 1)
-    };
-    let found = (1..last - first).find(is_changed).filter(|_| p.at(Ident) && p.begins_line(0));
-    if let Some(n) = found {
-        let (of, sign) = (p.text_between(first, first + n - 1), p.word(n));
-        let said = (
-            "expected-member",
-            format!("found `{sign}=`, wanted {MEMBER}"),
-            format!(
-                "nothing is done step by step: a value is what it is, `{of} = …`, and what is made of it is another"
-            ),
-        );
-        p.report_mistake((first, last), said, None);
-    }
-    found.is_some()
 }
 
 /// `{ load = 900 N, arm = 1.2 m }`: returns true where the comma was reported.

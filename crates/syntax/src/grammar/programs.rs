@@ -7,8 +7,8 @@ use super::statements::text_body;
 use super::types::{class_name, parameters};
 use super::{Scope, body};
 use crate::kind::SyntaxKind::{
-    Binding, Body, Check, Colon, Comma, Eq, Error, Family, For, Ident, LBrace, LParen, Lesson,
-    Next, Number, Program, RParen, Repeat, Rows, Table, Text, TupleExpr, While, With,
+    Binding, Body, Check, Colon, Comma, Eq, Error, Family, For, Ident, LBrace, LBracket, LParen,
+    Lesson, Next, Number, Program, RParen, Repeat, Rows, Table, Text, TupleExpr, While, With,
 };
 use crate::parser::Parser;
 
@@ -180,7 +180,9 @@ fn repeat_rest(p: &mut Parser<'_>, scope: Scope) {
         expression(p);
         if p.at(LBrace) {
             let count = p.text_between(first, p.pos() - 1);
-            let hint = format!("say how often: `repeat {count} times {{ … }}`");
+            let hint = format!(
+                "steps of a program are repeated by `repeat {count} times {{ … }}`, members of a class by `for i in 0..<{count} {{ … }}`"
+            );
             p.expected_hint("expected-word", "`times`", Some(hint));
         } else {
             super::members::into(p, "times", |_| {});
@@ -249,6 +251,14 @@ fn rows(p: &mut Parser<'_>) {
 }
 
 fn each_row(p: &mut Parser<'_>) {
+    if p.at(LBracket) {
+        let rows = p.text_between(p.pos() + 1, p.line_end());
+        let rows = rows.trim_end().trim_end_matches([']', '}']).trim_end();
+        let rows = if rows.len() < 60 && rows.starts_with('(') { rows } else { "(1, 2) (3, 4)" };
+        let hint = format!("rows stand one behind the other, without brackets: `rows: {rows}`");
+        p.expected_hint("expected-member", "a row, `(…)`", Some(hint));
+        return p.skip_line();
+    }
     while p.at(LParen) {
         p.start(TupleExpr);
         bracketed(p, RParen, "`)` at the row's end", |p| {

@@ -109,6 +109,7 @@ pub(super) fn tolerance(p: &mut Parser<'_>) {
         p.start(Within);
         p.bump_keyword();
         comparison(p);
+        mistakes::numbers::compared_after_tolerance(p);
         while mistakes::joined_after_tolerance(p) {
             p.bump();
             expression(p);

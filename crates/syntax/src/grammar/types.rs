@@ -181,6 +181,24 @@ pub(super) fn parameters(p: &mut Parser<'_>) {
     p.finish();
 }
 
+/// `d: Length 5 mm`: returns true where it was reported.
+fn value_without_equals(p: &mut Parser<'_>) -> bool {
+    let is_one = matches!(p.current(), Number | Text) && p.behind(1) == Ident;
+    if is_one {
+        let (at, has_unit) = (p.pos(), p.nth(1) == Unit);
+        let declared = p.text_between(at.saturating_sub(3), at - 1);
+        let value = p.text_between(at, at + usize::from(has_unit));
+        let said = (
+            "expected-value",
+            format!("found `{}`, wanted `=` before it", p.word(0)),
+            format!("a parameter's value has its sign: `{declared} = {value}`"),
+        );
+        p.report_mistake((at, at), said, None);
+        expression(p);
+    }
+    is_one
+}
+
 /// `rise: Length > 0`: returns true where it was reported; it is read as if `in` stood there.
 fn bound_without_in(p: &mut Parser<'_>) -> bool {
     let is_one = matches!(p.current(), Greater | GreaterEq | Less | LessEq)
@@ -227,7 +245,7 @@ fn parameter(p: &mut Parser<'_>) {
         p.expected_hint("expected-class", "`:` and the parameter's class", Some(hint));
     } else if p.expect(Colon, "expected-class", "`:` and the parameter's class") {
         class_name(p);
-        if !bound_without_in(p) {
+        if !bound_without_in(p) && !value_without_equals(p) {
             domain(p);
         }
     }

@@ -57,8 +57,11 @@ fn word(p: &Parser<'_>) -> Option<String> {
             let (first, last) = (p.word(3), p.word(5));
             format!("a loop goes through numbers: `for {next} in {first}..{last} {{ … }}`")
         }
-        "connect" | "join" | "link" | "attach" | "glue" if is_named => {
-            "two become one by `merge a = b`".into()
+        "connect" | "join" | "link" | "attach" | "glue" | "wire" if is_named => {
+            let rest = p.text_between(p.pos() + 1, p.line_end());
+            let pair = [" to ", " with ", " and "].iter().find_map(|word| rest.split_once(word));
+            let (a, b) = pair.filter(|_| rest.len() < 60).unwrap_or(("a", "b"));
+            format!("two become one by `merge {} = {}`", a.trim(), b.trim())
         }
         "forall" | "foreach" | "loop" if is_named => {
             "many at once are a loop: `for i in 0..<3 { constraint xs[i] > 0 }`".into()

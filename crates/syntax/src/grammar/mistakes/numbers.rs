@@ -2,7 +2,7 @@
 
 use super::is_keyword;
 use crate::kind::SyntaxKind::{
-    Caret, Colon, Comma, Dot, Ident, LParen, Minus, Number, RBracket, RParen, Unit,
+    Caret, Colon, Comma, Dot, Ident, LBracket, LParen, Minus, Number, RBracket, RParen, Unit,
 };
 use crate::parser::Parser;
 use crate::units::{follows_operand, unit_length};
@@ -140,10 +140,13 @@ pub(in crate::grammar) fn leading_dot(p: &mut Parser<'_>) -> bool {
 
 /// `x mm`
 pub(in crate::grammar) fn unit_after_name(p: &mut Parser<'_>) -> bool {
+    // `A[0].x = 2` after a bracket is the next member
+    let is_list = p.nth(1) == LBracket && p.is_adjacent(1);
     let is_one = p.at(Ident)
         && !p.line_ended(0)
         && !p.begins_line(0)
         && !p.names_itself(1)
+        && !is_list
         && !matches!(p.word(0), "in" | "as")
         && matches!(p.behind(1), Ident | RParen | RBracket)
         && unit_length(p.word(0)) == p.word(0).len();
@@ -313,4 +316,22 @@ fn thousands(p: &Parser<'_>) -> Option<(usize, String)> {
 
 fn is_whole(number: &str) -> bool {
     !number.is_empty() && number.chars().all(|c| c.is_ascii_digit())
+}
+
+/// `within 0.1 of 10`
+pub(in crate::grammar) fn compared_after_tolerance(p: &mut Parser<'_>) {
+    if !p.at_word(0, "of") || p.begins_line(0) {
+        return;
+    }
+    let word = |n: usize| p.text_between(p.pos() - n, p.pos() - n);
+    let within = (1..=p.pos()).find(|&n| word(n) == "within").unwrap_or(1);
+    let by = p.text_between(p.pos() - within + 1, p.pos() - 1);
+    let (at, to) = (p.pos(), p.quoted_line(p.pos() + 1));
+    let said = (
+        "expected-member",
+        "found `of` after a tolerance, wanted the end of the rule".to_string(),
+        format!("what is compared stands before it: `x = {to} within {by}`"),
+    );
+    p.report_mistake((at, at), said, None);
+    p.skip_line();
 }
