@@ -232,6 +232,7 @@ pub(crate) fn wanted_in_words(wanted: Builtin, first: &Kind, document: &Document
     match wanted {
         Builtin::Plain => "a plain number".into(),
         Builtin::Number | Builtin::Root => "a number".into(),
+        Builtin::Same | Builtin::Numbers if *first == Kind::Unknown => "a number".into(),
         Builtin::Same | Builtin::Numbers => first.words(document),
         Builtin::Length => dimension_in_words(Dimension::LENGTH),
         Builtin::Bool => "a truth value".into(),
