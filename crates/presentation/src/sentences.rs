@@ -28,7 +28,10 @@ pub fn parts(text: &str) -> Vec<(bool, String)> {
 /// A rule as a person reads it: without the word `constraint`, its name and how it is computed, with the signs of
 /// arithmetic.
 pub fn formula(rule: &str) -> String {
-    let rule = rule.split(" {").next().unwrap_or(rule);
+    // braces within a text hold its values
+    let is_outside = |at: &usize| rule[..*at].matches('"').count().is_multiple_of(2);
+    let body = rule.match_indices(" {").map(|(at, _)| at).find(is_outside);
+    let rule = &rule[..body.unwrap_or(rule.len())];
     let rule = rule.strip_prefix("constraint ").unwrap_or(rule).trim();
     let is_name = |name: &str| name.chars().all(|c| c.is_alphanumeric() || c == '_');
     let rule = match rule.split_once(": ") {
@@ -83,5 +86,6 @@ mod tests {
         assert_eq!(formula("constraint a = b { a := b }"), "a = b");
         assert_eq!(formula("constraint a.passes(through: b)"), "a.passes(through: b)");
         assert_eq!(formula("constraint x^2 <= 4"), "x² ≤ 4");
+        assert_eq!(formula("words = \"is {r}\" { reads r }"), "words = \"is {r}\"");
     }
 }
