@@ -46,3 +46,19 @@ fn a_set_that_comes_to_no_end_is_given_up_and_says_where() {
     let near = set([0.5 * f64::from(bars), 3.0]);
     assert_eq!((near.refusal, near.not_decided), (None, None));
 }
+
+/// A grid of 300 by 300 nodes, with its resistors, is a document like any other.
+#[test]
+fn a_grid_of_300_by_300_nodes_is_no_document_of_too_many_things() {
+    let things = |k: usize| {
+        let opened = Opened::new(&bench::documents::resistor_grid(k)).expect("nothing is wrong");
+        opened.model().structure.things.len()
+    };
+    // nodes by k², resistors by k² - k: three grids tell how many there are of any
+    let [ten, twenty, thirty] = [10, 20, 30].map(things).map(|n| n as i64);
+    let square = (thirty - 2 * twenty + ten) / 200;
+    let side = (twenty - ten) / 10 - 30 * square;
+    let rest = ten - 100 * square - 10 * side;
+    let all = 90_000 * square + 300 * side + rest;
+    assert!(all < kernel::MOST_THINGS as i64, "{all}: {square} {side} {rest}");
+}

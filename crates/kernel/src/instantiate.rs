@@ -88,8 +88,8 @@ impl FaultKind {
 /// How many things a document may have; of one with more, none is made.
 ///
 /// A thing costs some fifty bytes; the bound keeps a mistyped count from filling the memory. A grid of 300 by 300 nodes
-/// with its resistors has 3.95 million.
-pub const MOST_THINGS: usize = 4_000_000;
+/// with its resistors has 4.13 million.
+pub const MOST_THINGS: usize = 4_500_000;
 
 /// How many things may be made and copied on the way to a document, the elements of lists counted twice: what doubles
 /// from class to class is all in memory when it is found to be too much.
