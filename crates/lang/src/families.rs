@@ -155,7 +155,7 @@ fn row_class(l: &mut Lowerer<'_>, file: FileId, family: &Family, members: &[Memb
 fn lower_row(l: &mut Lowerer<'_>, file: FileId, program: ClassId, row: &ast::TupleExpr) -> Row {
     let fields = l.document.layout(program).into_iter();
     let classes: Vec<ClassId> = fields.map(|field| l.document.field_class(field)).collect();
-    let kinds = crate::kinds::fields(&l.document, program);
+    let kinds: Vec<Kind> = classes.iter().map(|&c| Kind::of_class(&l.document, c)).collect();
     let mut values: Vec<ast::Expr> = row.elements().collect();
     let takes_text = matches!(kinds.first(), Some(Kind::Text | Kind::Color));
     let name = match values.first() {

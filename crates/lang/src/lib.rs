@@ -21,7 +21,7 @@
 //! `rules`, `switches`, `kept`, `names`, `hints`, `paths`, `refine`, `terms`, `components`, `calls`, `functions`, `kin`, `kinds`,
 //! `settle`, `restore`,
 //! `alone`, `checks`, `lessons`, `views`,
-//! `numbers`, `operations`, `mixed`, `quotients`, `write`, `uses`,
+//! `numbers`, `operations`, `mixed`, `quotients`, `narrower`, `write`, `uses`,
 //! `edits`, `references`, `mentions`.
 mod alone;
 mod angles;

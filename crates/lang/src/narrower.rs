@@ -69,9 +69,12 @@ impl Lowerer<'_> {
         if !matches!(element, Expr::Name(_) | Expr::Field(_) | Expr::Call(_) | Expr::Index(_)) {
             return None;
         }
+        // what it speaks of is recorded where it is lowered
+        let references = self.references.take();
         self.silent += 1;
         let found = self.expr(scope, element);
         self.silent -= 1;
+        self.references = references;
         found.map(|(_, kind)| kind)
     }
 

@@ -7,7 +7,7 @@ use crate::calculator;
 use crate::session::{Session, thing_at};
 use crate::state::State;
 use crate::view::{Change, DocumentId, Refusal};
-use kernel::{Command, Path, Primitive, SlotId, Step};
+use kernel::{Command, Path, Primitive, SlotId, Step, ThingId};
 use syntax::TextEdit;
 
 /// Returns what is written for a text with values in it, without its quotes; nothing for another one.
@@ -24,11 +24,16 @@ fn bound_at(state: &State, slot: SlotId) -> Option<base::Span> {
     if structure.slots[slot].primitive != Primitive::Text || !structure.bound.contains(&slot) {
         return None;
     }
-    let binding = structure.constraints.iter().find_map(|of| {
-        let bindings = &state.lowered.document.classes[of.class].bindings;
-        let binding = bindings.iter().find(|binding| binding.constraint == of.index)?;
-        let part = structure.follow(of.owner, &binding.path).ok()?;
-        (structure.slot_of(part) == Some(slot)).then_some(binding)
+    let document = &state.lowered.document;
+    let thing = structure.slots[slot].thing;
+    let whole = structure.path(document, thing);
+    let owner = |&thing: &ThingId| structure.things[thing].owner;
+    let owners: Vec<ThingId> = std::iter::successors(owner(&thing), owner).collect();
+    // of all that bind it the outermost counts
+    let binding = owners.iter().rev().enumerate().find_map(|(from, &owner)| {
+        let classes = document.lineage(structure.things[owner].class).into_iter();
+        let mut bindings = classes.flat_map(|class| &document.classes[class].bindings);
+        bindings.find(|binding| binding.path.0 == whole.0[from..])
     })?;
     let is_own = state.lowered.is_own_given(binding.value);
     is_own.then(|| state.lowered.own_span(binding.value)).flatten()

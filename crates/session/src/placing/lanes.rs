@@ -34,11 +34,15 @@ pub(super) fn place_in_lanes(
             between.entry([from.min(to), from.max(to)]).or_default().push((lane, from < to));
         }
     }
-    let ways: Vec<[Place; 2]> = between.keys().copied().collect();
+    let mut beside: BTreeMap<Place, Vec<Place>> = BTreeMap::new();
+    for &[a, b] in between.keys() {
+        beside.entry(a).or_default().push(b);
+        beside.entry(b).or_default().push(a);
+    }
     for ([least, most], parts) in between.into_iter().filter(|(_, parts)| parts.len() > 1) {
         let is_first_forward = parts[0].1;
         let way = if is_first_forward { [least, most] } else { [most, least] };
-        let is_turned = is_crowded(way, &ways, values);
+        let is_turned = is_crowded(way, &beside, values);
         for (n, (slot, is_forward)) in parts.into_iter().enumerate() {
             let s = &structure.slots[slot];
             if s.given.is_none() && !s.anchored && planner.is_lone(slot) {
@@ -53,17 +57,13 @@ pub(super) fn place_in_lanes(
 }
 
 /// Returns true where what hangs together with the ends of a way lies on the side to which its lanes count, on the whole.
-fn is_crowded([from, to]: [Place; 2], ways: &[[Place; 2]], values: &Values) -> bool {
+fn is_crowded(way: [Place; 2], beside: &BTreeMap<Place, Vec<Place>>, values: &Values) -> bool {
     let at = |place: Place| place.map(|slot| values.numbers[slot]);
-    let ([x, y], [to_x, to_y]) = (at(from), at(to));
-    let beside = |place: Place| {
+    let [[x, y], [to_x, to_y]] = way.map(at);
+    let side = |&place: &Place| {
         let [a, b] = at(place);
         (to_x - x) * (b - y) - (to_y - y) * (a - x)
     };
-    let others = ways.iter().filter_map(|&[a, b]| match [a, b].map(|p| p == from || p == to) {
-        [true, false] => Some(b),
-        [false, true] => Some(a),
-        [true, true] | [false, false] => None,
-    });
-    others.map(beside).sum::<f64>() > 0.0
+    let others = way.iter().flat_map(|end| &beside[end]).filter(|place| !way.contains(place));
+    others.map(side).sum::<f64>() > 0.0
 }

@@ -480,6 +480,21 @@ fn a_number_is_shown_in_the_unit_that_is_written_for_it() {
 }
 
 #[test]
+fn of_a_text_that_is_bound_twice_the_outer_one_is_edited() {
+    let mut desk = Desk::of(
+        "class Card { words: Text = \"plain\"  size: Real = 2 }\n\
+         class Box { card: Card { words = \"in {size}\" } }\nx: Real = 7\n\
+         box: Box { card.words = \"out {x}\" }\n",
+    );
+    let rows = desk.session.values(desk.id);
+    let row = rows.iter().find(|row| row.path == "box.card.words").expect("it is a value");
+    assert_eq!((row.text.as_str(), row.exact.as_str()), ("out 7", "out {x}"));
+    desk.type_in("box.card.words", "now {x}").expect("a text");
+    assert!(desk.text().contains("card.words = \"now {x}\""), "{}", desk.text());
+    assert!(desk.text().contains("words = \"in {size}\""), "{}", desk.text());
+}
+
+#[test]
 fn a_text_with_values_in_it_is_typed_by_hand() {
     let mut desk = Desk::of(
         "use geometry\nline: Line { p1 = (0, 0)  p2 = (3, 4) }\ncaption: Caption { at = (0, 10) }\n\
